@@ -20,9 +20,6 @@ struct CsvError {
   [[nodiscard]] std::string text(std::string_view file) const;
 };
 
-/// Readers report at most this number of errors of one file.
-inline constexpr std::size_t kCsvErrorsMax = 50;
-
 /// Header of one column.
 struct CsvColumn {
   std::string name;

@@ -14,14 +14,15 @@
 #include "common/io/usage_errors.h"
 #include "common/setup/channel_factory.h"
 #include "hal/io/motion_file.h"
+#include "netsim/app/exit_status.h"
 #include "netsim/app/feel_measure.h"
+#include "netsim/app/law_options.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/test_progress.h"
 #include "netsim/profiles/app/network_options.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
-#include "server/session/session_invariant_checker.h"
 
 namespace tandem::netsim {
 namespace {
@@ -93,14 +94,6 @@ void add_folder(const FeelArguments& a, FeelSetup& setup, io::UsageErrors& mista
     mistakes.add("--recordings: " + a.recordings + " holds no motion_*.csv that can be read without options");
 }
 
-void set_law(const FeelArguments& a, SceneSpec& scene) {
-  if (a.channel == "replica") choose_law(scene, LawKind::kReplica);
-  if (a.channel == "raw") choose_law(scene, LawKind::kRaw);
-  if (a.channel == "set_position") choose_law(scene, LawKind::kSetPosition);
-  for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
-    if (a.mfs == server::mfs_name(mode)) scene.channel.mfs = mode;
-}
-
 /// @return the error; empty if there is none
 std::string set_contacts(const FeelArguments& a, SceneSpec& scene) {
   if (a.contacts.empty()) return {};
@@ -136,14 +129,12 @@ int feel_command(const FeelArguments& a) {
   }
   if (auto scene = load_scene(a.scene)) {
     feel.scene = std::move(*scene);
-    set_law(a, feel.scene);
-    if (const std::string problem = set_contacts(a, feel.scene); !problem.empty())
-      mistakes.add("--contacts: " + problem);
-    if (const std::string problem = set_assist(a, feel.scene); !problem.empty()) mistakes.add(problem);
-    if (const auto problem = law_problem(feel.scene))
-      mistakes.add("--channel: " + a.scene + ": " + problem->key + ": " + problem->words);
+    set_law(feel.scene, a.channel, a.mfs);
+    mistakes.add("--contacts", set_contacts(a, feel.scene));
+    mistakes.add(set_assist(a, feel.scene));
+    mistakes.add("--channel", law_conflict(feel.scene, a.scene));
   } else {
-    for (const InputError& error : scene.error()) mistakes.add(to_text(error));
+    mistakes.add(to_text(scene.error()));
   }
   FeelOptions options{.first = a.network.seed(),
                       .seeds = static_cast<std::uint64_t>(a.seeds),
@@ -181,9 +172,7 @@ int feel_command(const FeelArguments& a) {
   options.stop_fd = interruption.fd();
   options.on_progress = [&](const io::JobProgress& p) {
     if (!line.wanted()) return;
-    line.show(format(
-        "%3.0f %%  %zu of %zu probes done%s", 100 * p.share, p.done, p.count,
-        std::isfinite(p.left_s) && p.done < p.count ? (", about " + length_text(p.left_s) + " left").c_str() : ""));
+    line.show(format("%3.0f %%  %zu of %zu probes done", 100 * p.share, p.done, p.count) + left_text(p));
   };
   measure_feel(feel, options, report);
   line.clear();
@@ -194,13 +183,7 @@ int feel_command(const FeelArguments& a) {
   if (interrupted) SignalWatcher::report("feel", format("%zu of %.0f seeds", report.seeds.size(), a.seeds));
   json_file.write(feel_json(report));
   csv_file.write(feel_csv(report));
-  int code = !interrupted && report.passed() ? io::kExitDone : io::kExitTrouble;
-  for (const auto& problem : {json_file.close(), csv_file.close()})
-    if (!problem.empty()) {
-      io::print_formatted(stderr, "tandem-netsim feel: %s\n", problem.c_str());
-      code = io::kExitTrouble;
-    }
-  return code;
+  return exit_status("tandem-netsim feel", {json_file.close(), csv_file.close()}, !interrupted && report.passed());
 }
 
 }  // namespace

@@ -1,7 +1,4 @@
-#include <array>
-#include <cstdint>
-#include <cstdio>
-
+#include "common/base/format.h"
 #include "netsim/app/test_report.h"
 
 namespace tandem::netsim {
@@ -60,11 +57,7 @@ std::string attribute(std::string_view key, std::string_view value) {
   return " " + std::string(key) + "=\"" + escaped(value) + "\"";
 }
 std::string attribute(std::string_view key, std::size_t value) { return attribute(key, std::to_string(value)); }
-std::string time_attribute(double cpu_s) {
-  std::array<char, 40> text;
-  std::snprintf(text.data(), text.size(), "%.3f", cpu_s);
-  return attribute("time", text.data());
-}
+std::string time_attribute(double cpu_s) { return attribute("time", format("%.3f", cpu_s)); }
 
 struct Counts {
   std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
@@ -77,7 +70,7 @@ struct Counts {
     failures += r.count(State::kFail);
     errors += r.count(State::kTrouble) + r.count(State::kCrash) + cut;
     skipped += not_run - cut;
-    for (const SeedOutcome& s : r.seeds) cpu_s += s.cpu_s;
+    cpu_s += r.cpu_s();
   }
   [[nodiscard]] std::string text() const {
     return attribute("tests", tests) + attribute("failures", failures) + attribute("errors", errors) +

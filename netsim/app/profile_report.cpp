@@ -45,13 +45,19 @@ std::string measured_row(const char* what, const std::array<double, 4>& q, const
          rest + "\n";
 }
 
+/// Returns the causes by which datagrams were lost, and their numbers.
+std::vector<std::pair<const char*, std::uint64_t>> drops(const ProfilePreviewDirection& way) {
+  std::vector<std::pair<const char*, std::uint64_t>> out;
+  for (std::size_t i = 0; i < kOutcomes; ++i)
+    if (const auto outcome = static_cast<Outcome>(i); dropped(outcome) && way.fates[i] > 0)
+      out.emplace_back(name(outcome), way.fates[i]);
+  return out;
+}
+
 std::string causes_of(const ProfilePreviewDirection& way) {
   std::string text;
-  for (std::size_t i = 0; i < kOutcomes; ++i) {
-    const auto outcome = static_cast<Outcome>(i);
-    if (!dropped(outcome) || way.fates[i] == 0) continue;
-    text += format("%s%llu %s", text.empty() ? "" : ", ", static_cast<unsigned long long>(way.fates[i]), name(outcome));
-  }
+  for (const auto& [cause, count] : drops(way))
+    text += format("%s%llu %s", text.empty() ? "" : ", ", static_cast<unsigned long long>(count), cause);
   return text;
 }
 
@@ -82,7 +88,20 @@ std::string measured_text(const ProfileSource& subject, const ProfilePreview& po
   return text;
 }
 
-bool both_alike(const ProfileSource& subject) { return subject.profile.link.up == subject.profile.link.down; }
+void put_quantiles(const std::array<double, 4>& ms, Json& into) {
+  for (std::size_t i = 0; i < ms.size(); ++i) into[std::string(kShareNames[i]) + "_ms"] = ms[i];
+}
+
+Json description_json(const Profile& profile) {
+  Json checks = Json::array();
+  for (const ProfileCheck& check : profile.checks)
+    put_quantiles(check.delay_ms, checks.emplace_back(Json{{"direction", name(check.direction)}}));
+  return {{"name", profile.name},
+          {"version", profile.version},
+          {"summary", profile.summary},
+          {"sources", profile.sources},
+          {"checks", std::move(checks)}};
+}
 
 }  // namespace
 
@@ -103,8 +122,8 @@ std::string profile_report(const ProfileSource& subject, const ProfilePreview& p
   const auto called = verdict(portrait.quality);
   text += format("\n  for force feedback: %s, %s\n", verdict_name(called), meaning(called));
   text += quality_text(portrait.quality, "    ") + quality_table(portrait.quality, "    ");
+  const bool alike = subject.profile.link.up == subject.profile.link.down;
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    const bool alike = both_alike(subject);
     if (alike && direction == Direction::kDown) break;
     const char* const which = alike ? "up (down is alike)" : name(direction);
     text += format("\n  %s: delay of the first %.0f s\n", which, seconds(portrait.shown));
@@ -116,43 +135,29 @@ std::string profile_report(const ProfileSource& subject, const ProfilePreview& p
   return text;
 }
 
-Json profile_json(const Profile& profile) {
-  Json json;
-  json["name"] = profile.name;
-  json["version"] = profile.version;
-  json["summary"] = profile.summary;
-  json["sources"] = profile.sources;
-  json["checks"] = Json::array();
-  for (const ProfileCheck& check : profile.checks) {
-    json["checks"].push_back({{"direction", name(check.direction)},
-                              {"p5_ms", check.delay_ms[0]},
-                              {"p50_ms", check.delay_ms[1]},
-                              {"p95_ms", check.delay_ms[2]},
-                              {"p99_ms", check.delay_ms[3]}});
-  }
-  return json;
+std::string profiles_json(const std::vector<Profile>& profiles) {
+  Json all = Json::array();
+  for (const Profile& profile : profiles) all.push_back(description_json(profile));
+  return all.dump(2) + "\n";
 }
 
-Json profile_json(const ProfileSource& subject, const ProfilePreview& portrait) {
-  Json json = profile_json(subject.profile);
+std::string profile_json(const ProfileSource& subject, const ProfilePreview& portrait, bool interrupted) {
+  Json json = description_json(subject.profile);
   json["notes"] = subject.notes;
   Json& measured = json["measured"];
   measured["minutes"] = seconds(portrait.length) / 60;
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     const ProfilePreviewDirection& way = way_of(portrait, direction);
     Json& of = measured[name(direction)];
-    const std::array<double, 4> q = quantiles_ms(way);
-    for (std::size_t i = 0; i < q.size(); ++i) of[std::string(kShareNames[i]) + "_ms"] = q[i];
+    put_quantiles(quantiles_ms(way), of);
     of["max_ms"] = seconds(way.quantile(1)) * 1e3;
     of["lost_percent"] = 100 * quality_of(portrait, direction).lost_share();
     of["dropped"] = Json::object();
-    for (std::size_t i = 0; i < kOutcomes; ++i) {
-      const auto outcome = static_cast<Outcome>(i);
-      if (dropped(outcome) && way.fates[i] > 0) of["dropped"][name(outcome)] = way.fates[i];
-    }
+    for (const auto& [cause, count] : drops(way)) of["dropped"][cause] = count;
   }
   json["quality"] = quality_json(portrait.quality);
-  return json;
+  json["interrupted"] = interrupted;
+  return json.dump(2) + "\n";
 }
 
 plot::Figure profile_figure(const ProfileSource& subject, const ProfilePreview& portrait) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "netsim/app/profile_source.h"
 #include "netsim/plot/svg_plot.h"
@@ -17,11 +17,11 @@ namespace tandem::netsim {
 [[nodiscard]] std::string profile_report(const ProfileSource& subject, const ProfilePreview& portrait,
                                          const PictureStyle& style);
 
-/// Returns the description as JSON: name, version, summary, sources, checks.
-[[nodiscard]] nlohmann::ordered_json profile_json(const Profile& profile);
+/// Returns the descriptions as a JSON array: name, version, summary, sources, checks.
+[[nodiscard]] std::string profiles_json(const std::vector<Profile>& profiles);
 /// Returns description and measured results as JSON. `measured` has minutes, and per direction p5_ms .. max_ms,
 /// lost_percent, dropped (by cause); `quality` is that of quality_json.
-[[nodiscard]] nlohmann::ordered_json profile_json(const ProfileSource& subject, const ProfilePreview& portrait);
+[[nodiscard]] std::string profile_json(const ProfileSource& subject, const ProfilePreview& portrait, bool interrupted);
 
 [[nodiscard]] plot::Figure profile_figure(const ProfileSource& subject, const ProfilePreview& portrait);
 

@@ -17,53 +17,41 @@ bool is_file(const std::string& name) {
          name.find('.') != std::string::npos;
 }
 
-std::string lines_of(const InputErrors& errors) {
-  std::string text = to_text(errors);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
+std::expected<ProfileSource, std::string> from_profile(std::expected<Profile, InputErrors> profile,
+                                                       const std::string& file, std::string_view text) {
+  if (!profile) return std::unexpected(lines_of(profile.error()));
+  return ProfileSource{.profile = std::move(*profile), .file = file, .text = std::string(text)};
 }
 
 }  // namespace
 
 std::expected<ProfileSource, std::string> load_profile_source(const std::string& name_or_file, Duration interval) {
-  ProfileSource subject;
   if (!is_file(name_or_file)) {
-    auto profile = shipped_profile(name_or_file);
-    if (!profile) return std::unexpected(lines_of(profile.error()));
-    subject.profile = std::move(*profile);
-    for (const ShippedProfile& shipped : shipped_profiles()) {
-      if (shipped.name == name_or_file) subject.text = std::string(shipped.text);
-    }
-    return subject;
+    const auto shipped = std::ranges::find(shipped_profiles(), name_or_file, &ShippedProfile::name);
+    return from_profile(shipped_profile(name_or_file), "",
+                        shipped == shipped_profiles().end() ? std::string_view{} : shipped->text);
   }
-  auto text = read_network_file(name_or_file);
+  const auto text = read_network_file(name_or_file);
   if (!text) return std::unexpected(text.error());
-  if (looks_like_capacity(*text)) {
+  const bool capacity = looks_like_capacity(*text);
+  if (!capacity && !name_or_file.ends_with(".csv"))
+    return from_profile(parse_profile(*text, name_or_file), name_or_file, *text);
+  ProfileSource subject{.profile = {}, .recording = true};
+  subject.profile.name = std::filesystem::path(name_or_file).stem().string();
+  if (capacity) {
     auto recorded = parse_capacity_file(*text, name_or_file);
     if (!recorded) return std::unexpected(recorded.error());
-    subject.recording = true;
-    subject.profile.name = std::filesystem::path(name_or_file).stem().string();
     subject.profile.summary = std::move(recorded->description);
     subject.profile.link = std::move(recorded->link);
     return subject;
   }
-  if (!name_or_file.ends_with(".csv")) {
-    auto profile = parse_profile(*text, name_or_file);
-    if (!profile) return std::unexpected(lines_of(profile.error()));
-    subject.profile = std::move(*profile);
-    subject.file = name_or_file;
-    subject.text = std::move(*text);
-    return subject;
-  }
   auto recorded = parse_network_csv(*text, name_or_file, interval);
   if (!recorded) return std::unexpected(lines_of(recorded.error()));
-  subject.recording = true;
-  subject.profile.name = std::filesystem::path(name_or_file).stem().string();
   subject.profile.summary = format("recording of %.1f s in %zu rows, %zu lost; then from the start again",
                                    seconds(recorded->length), recorded->rows, recorded->lost);
-  for (std::string& note : notes_of(*recorded, name_or_file)) subject.notes.push_back(std::move(note));
-  subject.plays_interval = !recorded->timed;
   subject.profile.link = std::move(recorded->link);
+  subject.notes = notes_of(*recorded, name_or_file);
+  subject.plays_interval = !recorded->timed;
   return subject;
 }
 

@@ -11,12 +11,12 @@ namespace tandem::netsim {
 
 /// A network to be previewed: a shipped profile, a user's profile, or a recording.
 struct ProfileSource {
-  Profile profile;   ///< for a recording: its name, summary and link
-  std::string file;  ///< file of the network; empty: shipped
-  std::string text;  ///< text of a profile as in its file
+  Profile profile;        ///< for a recording: its name, summary and link
+  std::string file = {};  ///< file of the network; empty: shipped
+  std::string text = {};  ///< text of a profile as in its file
   bool recording = false;
-  bool plays_interval = false;     ///< a recording without times, played with `interval`
-  std::vector<std::string> notes;  ///< facts that a report must contain about it
+  bool plays_interval = false;          ///< a recording without times, played with `interval`
+  std::vector<std::string> notes = {};  ///< facts that a report must contain about it
 };
 
 /// Loads a profile or a recording.

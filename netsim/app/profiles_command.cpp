@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "common/base/format.h"
@@ -49,17 +48,15 @@ bool speaks_utf8() {
 }
 
 int list(bool json) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const ShippedProfile& shipped : shipped_profiles()) {
-    const auto profile = shipped_profile(shipped.name);
-    if (!profile) continue;  // a test reads all shipped profiles; a profile that cannot be read is a bug
-    if (json) {
-      all.push_back(profile_json(*profile));
-    } else {
-      io::print_formatted(stdout, "%-20s %s\n", profile->name.c_str(), profile->summary.c_str());
-    }
+  std::vector<Profile> all;  // a test reads all shipped profiles; a profile that cannot be read is a bug
+  for (const ShippedProfile& shipped : shipped_profiles())
+    if (auto profile = shipped_profile(shipped.name)) all.push_back(std::move(*profile));
+  if (json) {
+    std::fputs(profiles_json(all).c_str(), stdout);
+  } else {
+    for (const Profile& profile : all)
+      io::print_formatted(stdout, "%-20s %s\n", profile.name.c_str(), profile.summary.c_str());
   }
-  if (json) std::printf("%s\n", all.dump(2).c_str());
   return 0;
 }
 
@@ -98,9 +95,7 @@ int show(const ProfilesArguments& arguments) {
   });
   line.clear();
   if (arguments.json) {
-    auto json = profile_json(*subject, portrait);
-    json["interrupted"] = interrupted;
-    std::printf("%s\n", json.dump(2).c_str());
+    std::fputs(profile_json(*subject, portrait, interrupted).c_str(), stdout);
   } else {
     const PictureStyle style{io::text_width(stdout).value_or(kPipeWidth), !arguments.ascii && speaks_utf8()};
     io::print(stdout, profile_report(*subject, portrait, style));

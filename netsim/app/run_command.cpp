@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
 #include "common/io/command_line.h"
@@ -11,18 +10,18 @@
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
 #include "hal/io/motion_file.h"
+#include "netsim/app/law_options.h"
 #include "netsim/app/netsim_commands.h"
+#include "netsim/app/run_json.h"
 #include "netsim/app/run_log.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/profiles/app/network_options.h"
-#include "netsim/quality/quality_json.h"
 #include "netsim/system/run_simulation.h"
 #include "netsim/system/session_notes.h"
 #include "netsim/system/simulation.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
 #include "server/report/report_summary.h"
-#include "server/session/session_invariant_checker.h"
 
 namespace tandem::netsim {
 namespace {
@@ -98,21 +97,15 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
   if (auto scene = load_scene(arguments.scene)) {
     setup.scene = std::move(*scene);
   } else {
-    for (const InputError& error : scene.error()) mistakes.add(to_text(error));
+    mistakes.add(to_text(scene.error()));
     check_outputs(arguments, mistakes);
     return setup;  // without a scene the seats are unknown, and names in scripts or hands cannot be checked
   }
   if (arguments.duration_s > 0) setup.scene.duration = arguments.duration_s;
   if (setup.scene.endless())
     mistakes.add("--duration: " + endless_scene_error(arguments.scene, "give --duration S, such as --duration 60"));
-  if (arguments.channel == "raw") choose_law(setup.scene, LawKind::kRaw);
-  if (arguments.channel == "replica") choose_law(setup.scene, LawKind::kReplica);
-  if (arguments.channel == "set_position") choose_law(setup.scene, LawKind::kSetPosition);
-  for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
-    if (arguments.mfs == server::mfs_name(mode)) setup.scene.channel.mfs = mode;
-  if (const auto problem = law_problem(setup.scene))
-    mistakes.add((arguments.channel.empty() ? "--mfs: " : "--channel: ") + arguments.scene + ": " + problem->key +
-                 ": " + problem->words);
+  set_law(setup.scene, arguments.channel, arguments.mfs);
+  mistakes.add(arguments.channel.empty() ? "--mfs" : "--channel", law_conflict(setup.scene, arguments.scene));
   for (const std::string& text : arguments.hands) {
     const auto cut = text.find('=');
     const std::string seat = text.substr(0, cut);
@@ -147,18 +140,6 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
 void show_progress(const Simulation& simulation) {
   std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", simulation.session().clock().time(), simulation.scene().duration);
   std::fflush(stderr);
-}
-
-/// Returns the report as JSON, with every seat's network quality beside its link, and the notes.
-std::string report_json(const server::RunReport& report, const std::vector<NamedLink>& links,
-                        const std::vector<std::string>& notes, bool interrupted) {
-  auto json = nlohmann::ordered_json::parse(server::to_json(report));
-  for (auto& seat : json["seats"])
-    for (const NamedLink& one : links)
-      if (seat["name"] == one.name) seat["quality"] = quality_json(one.link);
-  json["interrupted"] = interrupted;
-  json["notes"] = notes;
-  return json.dump(2) + "\n";
 }
 
 /// Prints all effective values: the scene's, then the network's.
@@ -237,7 +218,7 @@ int run_command(const RunArguments& arguments) {
         setup.replay ? replay_summary(simulation).c_str() : "", words.c_str());
   if (interrupted)
     SignalWatcher::report("run", format("%.3f of %g s of the session", report.duration_s, setup.scene.duration));
-  if (json_file.is_open()) json_file.write(report_json(report, links, notes, interrupted));
+  if (json_file.is_open()) json_file.write(run_json(report, links, notes, interrupted));
   for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim run: %s\n", problem.c_str());

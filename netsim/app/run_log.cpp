@@ -54,11 +54,7 @@ std::expected<std::shared_ptr<const Replay>, std::string> load_replay(const std:
   const auto text = read_whole_file(file, kFileMax);
   if (!text) return std::unexpected(text.error());
   const auto rows = parse_decision_csv(*text, file);
-  if (!rows) {
-    std::string lines = to_text(rows.error());
-    while (!lines.empty() && lines.back() == '\n') lines.pop_back();
-    return std::unexpected(lines);
-  }
+  if (!rows) return std::unexpected(lines_of(rows.error()));
   auto replay = Replay::make(*rows);
   if (!replay) return std::unexpected(file + ": " + replay.error());
   return std::make_shared<const Replay>(std::move(*replay));

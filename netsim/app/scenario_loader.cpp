@@ -5,12 +5,11 @@
 #include <filesystem>
 #include <optional>
 #include <set>
-#include <sstream>
 
-#include "common/base/milliseconds.h"
 #include "common/base/suggestions.h"
 #include "hal/io/motion_file.h"
 #include "netsim/profiles/app/capacity_file.h"
+#include "netsim/profiles/app/network_numbers.h"
 #include "netsim/profiles/app/network_options.h"
 #include "netsim/profiles/profile_loader.h"
 #include "netsim/scenario/shipped_scenarios.h"
@@ -63,40 +62,19 @@ class Folder {
 
   [[nodiscard]] std::expected<ScenarioLink, InputErrors> network(const ScenarioNetworkSpec& spec) const {
     ScenarioLink out;
-    std::ostringstream words;
-    const auto add = [&words](const auto&... parts) {
-      if (words.tellp() > 0) words << ", ";
-      (words << ... << parts);
-    };
     if (spec.profile) {
       auto found = profile(spec);
       if (!found) return found;
       out = std::move(*found);
-      add(out.description);
     }
-    const LinkSpec numbers = link_from({.delay = from_milliseconds(spec.delay_ms.value_or(0)),
-                                        .jitter = from_milliseconds(spec.jitter_ms.value_or(0)),
-                                        .loss = spec.loss_percent.value_or(0) / 100,
-                                        .duplicate = spec.duplicate_percent.value_or(0) / 100,
-                                        .reorder = spec.reorder_percent.value_or(0) / 100,
-                                        .outages = {}});
-    for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-      PathSpec& path = out.link[direction];
-      const PathSpec& wanted = numbers[direction];
-      if (spec.delay_ms) path.floor = wanted.floor;
-      if (spec.jitter_ms) path.body = wanted.body;
-      if (spec.loss_percent) path.loss.probability = wanted.loss.probability;
-      if (spec.duplicate_percent) path.duplicate = wanted.duplicate;
-      if (spec.reorder_percent) path.reorder = wanted.reorder;
-      for (const SpecError& p : problems(path))
-        return std::unexpected(blame(std::string(netsim::name(direction)) + ": " + p.key + ": " + p.message));
-    }
-    if (spec.delay_ms) add("delay ", *spec.delay_ms, " ms");
-    if (spec.jitter_ms) add("jitter 0 to ", *spec.jitter_ms, " ms");
-    if (spec.loss_percent) add("loss ", *spec.loss_percent, " %");
-    if (spec.duplicate_percent) add("duplicates ", *spec.duplicate_percent, " %");
-    if (spec.reorder_percent) add("reordered ", *spec.reorder_percent, " %");
-    out.description = words.tellp() > 0 ? words.str() : "perfect";
+    const NetworkNumbers numbers{spec.delay_ms, spec.jitter_ms, spec.loss_percent, spec.duplicate_percent,
+                                 spec.reorder_percent};
+    numbers.apply(out.link);
+    if (std::string problem = first_problem(out.link); !problem.empty())
+      return std::unexpected(blame(std::move(problem)));
+    const std::string words = numbers.text();
+    out.description += (out.description.empty() || words.empty() ? "" : ", ") + words;
+    if (out.description.empty()) out.description = "perfect";
     return out;
   }
 

@@ -51,6 +51,9 @@ struct SeedRunObserver {
 /// Runs one seed to its end and judges invariants and limits.
 [[nodiscard]] SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRunObserver& observer);
 
+/// Returns the JSON report of a run without its key cpu_s, which differs between equal runs.
+[[nodiscard]] std::string without_cpu_time(const std::string& report);
+
 /// Encodes an outcome for transfer from one process to another.
 [[nodiscard]] std::string to_bytes(const SeedOutcome& outcome);
 /// Decodes an outcome. @throws std::exception if the bytes are not those of to_bytes.

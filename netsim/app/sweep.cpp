@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "common/base/format.h"
 #include "common/base/milliseconds.h"
@@ -15,7 +13,6 @@
 namespace tandem::netsim {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using State = SeedOutcome::State;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -79,16 +76,6 @@ SweepPoint judged(SweepPoint point, const ScenarioResult& r, bool least) {
   return point;
 }
 
-std::string replay(const SweepSpec& spec, const SweepPoint& p, std::uint64_t seed) {
-  std::ostringstream text;
-  text << "tandem-netsim run " << spec.scene_name << " --delay " << p.delay_ms << " --jitter " << p.jitter_ms
-       << " --loss " << p.loss_percent << " --seed " << seed << (spec.options.empty() ? "" : " ") << spec.options
-       << " --trace out.csv";
-  return text.str();
-}
-
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-
 /// Returns whether the map shows millimetres.
 bool in_mm(const std::string& unit) { return unit == "m"; }
 
@@ -100,6 +87,16 @@ std::string cell(const SweepPoint& p, bool mm) {
 }
 
 }  // namespace
+
+std::string Sweep::unit() const { return unit_of(spec.metric); }
+
+double Sweep::value_of(const SeedOutcome& outcome) const { return value_of_seed(outcome, least_is_worst(spec.metric)); }
+
+std::string Sweep::replay(const SweepPoint& p, std::uint64_t seed) const {
+  return format("tandem-netsim run %s --delay %g --jitter %g --loss %g --seed %llu%s%s --trace out.csv",
+                spec.scene_name.c_str(), p.delay_ms, p.jitter_ms, p.loss_percent, static_cast<unsigned long long>(seed),
+                spec.options.empty() ? "" : " ", spec.options.c_str());
+}
 
 bool Sweep::good() const noexcept {
   return std::ranges::all_of(points, [](const SweepPoint& p) { return p.complete && !p.broken && !p.trouble; });
@@ -177,7 +174,7 @@ Sweep run_sweep(SweepSpec spec, const TestOptions& options) {
 
 std::string sweep_map(const Sweep& sweep) {
   const SweepSpec& spec = sweep.spec;
-  const std::string unit = unit_of(spec.metric);
+  const std::string unit = sweep.unit();
   const bool mm = in_mm(unit);
   const std::size_t seeds = sweep.runs.scenarios.empty() ? 0 : sweep.runs.scenarios.front().seeds.size();
   std::string out = spec.scene_name + ": worst " + spec.metric + " of any " +
@@ -218,7 +215,7 @@ std::string sweep_map(const Sweep& sweep) {
              (s.trouble.empty()
                   ? "invariant " + broken->invariant + " broken" + (broken->seat.empty() ? "" : " at " + broken->seat)
                   : s.trouble) +
-             "\n  replay: " + replay(spec, sweep.points[i], s.seed) + "\n";
+             "\n  replay: " + sweep.replay(sweep.points[i], s.seed) + "\n";
     }
   }
   if (shown > 5) out += "\nand " + std::to_string(shown - 5) + " more seeds; --json names all of them\n";
@@ -226,7 +223,7 @@ std::string sweep_map(const Sweep& sweep) {
 }
 
 std::string sweep_csv(const Sweep& sweep) {
-  const std::string unit = unit_of(sweep.spec.metric);
+  const std::string unit = sweep.unit();
   std::string out =
       "delay[ms],jitter[ms],loss[%],worst[" + unit + "],median[" + unit + "],worst_seed[1],broken[1],trouble[1]\n";
   for (const SweepPoint& p : sweep.points) {
@@ -236,41 +233,6 @@ std::string sweep_csv(const Sweep& sweep) {
            (p.trouble ? "1" : "0") + "\n";
   }
   return out;
-}
-
-std::string sweep_json(const Sweep& sweep) {
-  const bool least = least_is_worst(sweep.spec.metric);
-  Json j{{"version", 1},
-         {"scene", sweep.spec.scene_name},
-         {"metric", sweep.spec.metric},
-         {"unit", unit_of(sweep.spec.metric)},
-         {"good", sweep.good()},
-         {"points", Json::array()}};
-  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    const SweepPoint& p = sweep.points[i];
-    Json point{{"delay_ms", p.delay_ms},
-               {"jitter_ms", p.jitter_ms},
-               {"loss_percent", p.loss_percent},
-               {"worst", number(p.worst)},
-               {"median", number(p.median)},
-               {"worst_seed", std::isfinite(p.worst) ? Json(p.worst_seed) : Json(nullptr)},
-               {"broken", p.broken},
-               {"trouble", p.trouble},
-               {"seeds", Json::array()}};
-    for (const SeedOutcome& s : sweep.runs.scenarios[i].seeds) {
-      Json broken = Json::array();
-      for (const auto& v : s.violations)
-        if (!v.expected) broken.push_back(v.invariant + (v.seat.empty() ? "" : " at " + v.seat));
-      point["seeds"].push_back({{"seed", s.seed},
-                                {"value", number(value_of_seed(s, least))},
-                                {"broken", std::move(broken)},
-                                {"trouble", s.trouble},
-                                {"trace_hash", s.trace_hash},
-                                {"replay", replay(sweep.spec, p, s.seed)}});
-    }
-    j["points"].push_back(std::move(point));
-  }
-  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tandem::netsim

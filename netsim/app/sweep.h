@@ -36,6 +36,12 @@ struct Sweep {
 
   /// Returns whether every point is complete and broke no invariant.
   [[nodiscard]] bool good() const noexcept;
+  /// Returns the unit of the metric, from its ending.
+  [[nodiscard]] std::string unit() const;
+  /// Returns the value of the worst seat or tool of one seed; NaN if one of them has no number.
+  [[nodiscard]] double value_of(const SeedOutcome& outcome) const;
+  /// Returns the command that repeats one seed of a point and writes its trace.
+  [[nodiscard]] std::string replay(const SweepPoint& point, std::uint64_t seed) const;
 };
 
 /// Maximum number of values of one axis, and of points of a grid.

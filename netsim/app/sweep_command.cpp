@@ -7,6 +7,8 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "netsim/app/exit_status.h"
+#include "netsim/app/law_options.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/sweep.h"
@@ -14,7 +16,6 @@
 #include "netsim/system/session_notes.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
-#include "server/session/session_invariant_checker.h"
 
 namespace tandem::netsim {
 namespace {
@@ -36,7 +37,7 @@ SweepSpec understand(const SweepArguments& a, io::UsageErrors& mistakes) {
   if (auto scene = load_scene(a.scene)) {
     spec.scene = std::move(*scene);
   } else {
-    for (const InputError& error : scene.error()) mistakes.add(to_text(error));
+    mistakes.add(to_text(scene.error()));
   }
   const auto axis = [&](const char* option, const std::string& text, double hi, const char* unit,
                         std::vector<double>& into) {
@@ -71,20 +72,10 @@ SweepSpec understand(const SweepArguments& a, io::UsageErrors& mistakes) {
                    " is measured in phases that the scene marks `contact: true`; the run of " + a.scene + " has none");
   }
   const auto add = [&](const std::string& option) { spec.options += (spec.options.empty() ? "" : " ") + option; };
-  if (!a.channel.empty()) {
-    choose_law(spec.scene, a.channel == "raw"       ? LawKind::kRaw
-                           : a.channel == "replica" ? LawKind::kReplica
-                                                    : LawKind::kSetPosition);
-    add("--channel " + a.channel);
-  }
-  if (!a.mfs.empty()) {
-    for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
-      if (a.mfs == server::mfs_name(mode)) spec.scene.channel.mfs = mode;
-    add("--mfs " + a.mfs);
-  }
-  if (const auto problem = law_problem(spec.scene))
-    mistakes.add((a.channel.empty() ? "--mfs: " : "--channel: ") + a.scene + ": " + problem->key + ": " +
-                 problem->words);
+  set_law(spec.scene, a.channel, a.mfs);
+  if (!a.channel.empty()) add("--channel " + a.channel);
+  if (!a.mfs.empty()) add("--mfs " + a.mfs);
+  mistakes.add(a.channel.empty() ? "--mfs" : "--channel", law_conflict(spec.scene, a.scene));
   return spec;
 }
 
@@ -118,13 +109,7 @@ int sweep_command(const SweepArguments& a) {
                                        std::to_string(sweep.runs.all()) + " runs");
   json_file.write(sweep_json(sweep));
   csv_file.write(sweep_csv(sweep));
-  int code = !interrupted && sweep.good() ? io::kExitDone : io::kExitTrouble;
-  for (const auto& problem : {json_file.close(), csv_file.close()})
-    if (!problem.empty()) {
-      io::print_formatted(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
-      code = io::kExitTrouble;
-    }
-  return code;
+  return exit_status("tandem-netsim sweep", {json_file.close(), csv_file.close()}, !interrupted && sweep.good());
 }
 
 }  // namespace

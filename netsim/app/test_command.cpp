@@ -7,6 +7,7 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "netsim/app/exit_status.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/scenario_loader.h"
 #include "netsim/app/signal_watcher.h"
@@ -92,7 +93,7 @@ int test_command(const TestArguments& a) {
   if (scenarios) {
     check_together(a, *scenarios, mistakes);
   } else {
-    for (const InputError& error : scenarios.error()) mistakes.add(to_text(error));
+    mistakes.add(to_text(scenarios.error()));
   }
   if (!mistakes.empty()) return mistakes.report_each("tandem-netsim test");
   for (const std::string& note : left_out) io::print_formatted(stderr, "note: %s\n", note.c_str());
@@ -141,13 +142,8 @@ int test_command(const TestArguments& a) {
         "test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
   json_file.write(test_json(result));
   junit_file.write(junit_xml(result));
-  int code = !result.interrupted && result.passed() ? io::kExitDone : io::kExitTrouble;
-  for (const auto& problem : {json_file.close(), junit_file.close()})
-    if (!problem.empty()) {
-      io::print_formatted(stderr, "tandem-netsim test: %s\n", problem.c_str());
-      code = io::kExitTrouble;
-    }
-  return code;
+  return exit_status("tandem-netsim test", {json_file.close(), junit_file.close()},
+                     !result.interrupted && result.passed());
 }
 
 }  // namespace

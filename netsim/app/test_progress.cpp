@@ -12,14 +12,14 @@ TestProgress::TestProgress(bool quiet) : line_(quiet || isatty(STDERR_FILENO) ==
 
 void TestProgress::show(const io::JobProgress& p, std::size_t failed) {
   if (!line_.wanted()) return;
-  std::string words = format("%3.0f %%  %zu of %zu seeds done, %zu running, %zu failed", 100 * p.share, p.done, p.count,
-                             p.running, failed);
-  if (std::isfinite(p.left_s) && p.done < p.count) words += ", about " + length_text(p.left_s) + " left";
-  line_.show(words);
+  line_.show(format("%3.0f %%  %zu of %zu seeds done, %zu running, %zu failed", 100 * p.share, p.done, p.count,
+                    p.running, failed) +
+             left_text(p));
 }
 
-std::string length_text(double seconds) {
-  return seconds < 100 ? format("%.0f s", seconds) : format("%.1f min", seconds / 60);
+std::string left_text(const io::JobProgress& p) {
+  if (!std::isfinite(p.left_s) || p.done >= p.count) return {};
+  return p.left_s < 100 ? format(", about %.0f s left", p.left_s) : format(", about %.1f min left", p.left_s / 60);
 }
 
 }  // namespace tandem::netsim

@@ -18,7 +18,7 @@ class TestProgress {
   io::StatusLine line_;
 };
 
-/// Returns a duration as text: `12 s`, `3.5 min`.
-[[nodiscard]] std::string length_text(double seconds);
+/// Returns the estimated rest as text: `, about 12 s left`, `, about 3.5 min left`; empty if it is unknown.
+[[nodiscard]] std::string left_text(const io::JobProgress& progress);
 
 }  // namespace tandem::netsim

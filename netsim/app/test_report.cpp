@@ -3,41 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <limits>
-#include <nlohmann/json.hpp>
 
+#include "common/base/format.h"
 #include "netsim/app/test_notes.h"
 
 namespace tandem::netsim {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using State = SeedOutcome::State;
 
 constexpr std::size_t kSeedsShown = 40;     // marks per line of the table
 constexpr std::size_t kFailuresShown = 20;  // with causes; the others by seed only
-
-Json json_number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-
-/// Value of a limit that is nearest to breaking it, or exceeds it most.
-struct Worst {
-  const Limit* limit = nullptr;
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::uint64_t seed = 0;
-  [[nodiscard]] double room() const noexcept { return slack(*limit, value); }
-};
-
-/// Returns the worst value of a limit; nullopt if no seed was judged by it.
-std::optional<Worst> worst_of(const ScenarioResult& r, std::size_t limit) {
-  std::optional<Worst> worst;
-  for (const SeedOutcome& s : r.seeds) {
-    if (limit >= s.values.size() || (s.state != State::kPass && s.state != State::kFail)) continue;
-    const Worst one{&r.scenario.limits[limit], s.values[limit], s.seed};
-    if (!worst || one.room() < worst->room()) worst = one;
-  }
-  return worst;
-}
 
 char mark(State state) {
   constexpr std::array<char, 5> kMarks{'-', '.', 'F', 'T', 'C'};
@@ -66,10 +42,10 @@ void put_limits(const ScenarioResult& r, std::string& out) {
     if (std::any_of(limits.begin(), limits.begin() + static_cast<std::ptrdiff_t>(i),
                     [&](const Limit& l) { return together(l, limits[i]); }))
       continue;
-    std::optional<Worst> worst;
+    std::optional<WorstValue> worst;
     for (std::size_t k = i; k < limits.size(); ++k) {
       if (!together(limits[i], limits[k])) continue;
-      if (const auto one = worst_of(r, k); one && (!worst || one->room() < worst->room())) worst = one;
+      if (const auto one = r.worst_of(k); one && (!worst || one->room() < worst->room())) worst = one;
     }
     if (!worst) continue;
     const Limit& limit = *worst->limit;
@@ -135,22 +111,19 @@ void put_scenario(const ScenarioResult& r, std::size_t name_width, std::string& 
   for (std::size_t at = 0; at < marks.size(); at += kSeedsShown) {
     out += padded(at == 0 ? r.scenario.name : "", name_width + 2) + padded(at == 0 ? range : "", 12) +
            padded(marks.substr(at, kSeedsShown), std::min(kSeedsShown, std::max<std::size_t>(marks.size(), 8)) + 2);
-    if (at == 0) {
-      std::array<char, 40> speed{};
-      if (r.real_time() > 0) std::snprintf(speed.data(), speed.size(), "%.0f x real time per core", r.real_time());
-      out += padded(verdict(r), 14) + speed.data();
-    }
+    if (at == 0)
+      out += padded(verdict(r), 14) + (r.real_time() > 0 ? format("%.0f x real time per core", r.real_time()) : "");
     while (out.back() == ' ') out.pop_back();
     out += '\n';
   }
 }
 
 void put_failures(const TestResult& result, std::string& out) {
-  std::size_t shown = 0, failed = 0;
+  std::size_t failed = 0;
   for (const ScenarioResult& r : result.scenarios)
     for (const SeedOutcome& s : r.seeds) {
       if (!s.failed()) continue;
-      if (++failed; ++shown > kFailuresShown) continue;
+      if (++failed > kFailuresShown) continue;
       out += "\nFAIL " + r.scenario.name + ", seed " + std::to_string(s.seed) + "\n";
       for (const std::string& cause : causes(r.scenario, s)) out += "  " + cause + "\n";
       out += "  replay: " + replay_command(r.scenario, s.seed) + "\n";
@@ -163,12 +136,8 @@ void put_failures(const TestResult& result, std::string& out) {
 
 std::string test_summary(const TestResult& result) {
   std::string out;
-  std::size_t width = 8, seeds = 0, failed = 0;
-  for (const ScenarioResult& r : result.scenarios) {
-    width = std::max(width, r.scenario.name.size());
-    seeds += r.seeds.size();
-    failed += r.failed();
-  }
+  std::size_t width = 8;
+  for (const ScenarioResult& r : result.scenarios) width = std::max(width, r.scenario.name.size());
   out += padded("scenario", width + 2) + padded("seeds", 12) + ". pass, F broken, T trouble, C crash, - not run\n";
   for (const ScenarioResult& r : result.scenarios) put_scenario(r, width, out);
   for (const ScenarioResult& r : result.scenarios) {
@@ -195,84 +164,9 @@ std::string test_summary(const TestResult& result) {
     }
     out += "\n";
   }
-  std::array<char, 200> line;
-  std::snprintf(line.data(), line.size(), "\n%s: %zu of %zu seeds passed, %zu failed, %zu not run, in %.1f s\n",
-                result.passed() ? "pass" : "FAIL", seeds - failed - result.not_run(), seeds, failed, result.not_run(),
-                result.wall_s);
-  return out + line.data();
-}
-
-std::string test_json(const TestResult& result) {
-  Json j;
-  std::size_t seeds = 0, failed = 0;
-  double cpu = 0;
-  Json scenarios = Json::array();
-  for (const ScenarioResult& r : result.scenarios) {
-    const Scenario& s = r.scenario;
-    double scenario_cpu = 0;
-    for (const SeedOutcome& o : r.seeds) scenario_cpu += o.cpu_s;
-    cpu += scenario_cpu;
-    seeds += r.seeds.size();
-    failed += r.failed();
-    Json one{{"name", s.name},
-             {"file", s.file},
-             {"summary", s.summary},
-             {"scene", s.scene},
-             {"network", s.network},
-             {"seat_networks", Json::array()},
-             {"duration_s", json_number(s.setup.scene.duration)},
-             {"verdict", r.passed() ? "pass" : "fail"},
-             {"cpu_s", json_number(scenario_cpu)}};
-    for (const auto& [seat, network] : s.seat_networks)
-      one["seat_networks"].push_back({{"seat", seat}, {"network", network}});
-    one["notes"] = s.notes;
-    one["limits"] = Json::array();
-    for (std::size_t i = 0; i < s.limits.size(); ++i) {
-      const Limit& limit = s.limits[i];
-      const auto worst = worst_of(r, i);
-      one["limits"].push_back(
-          {{"subject", limit.subject},
-           {"metric", limit.metric},
-           {"unit", limit.unit},
-           {"min", limit.min ? json_number(*limit.min) : Json(nullptr)},
-           {"max", limit.max ? json_number(*limit.max) : Json(nullptr)},
-           {"worst", worst ? json_number(worst->value) : Json(nullptr)},
-           {"worst_seed", worst ? Json(worst->seed) : Json(nullptr)},
-           {"margin_percent", worst ? json_number(margin_percent(limit, worst->value)) : Json(nullptr)}});
-    }
-    one["seeds"] = Json::array();
-    for (const SeedOutcome& o : r.seeds) {
-      Json seed{{"seed", o.seed}, {"verdict", name(o.state)}, {"causes", causes(s, o)}};
-      seed["values"] = Json::array();
-      for (const double value : o.values) seed["values"].push_back(json_number(value));
-      seed["violations"] = Json::array();
-      for (const server::Violation& v : o.violations)
-        seed["violations"].push_back({{"invariant", v.invariant},
-                                      {"seat", v.seat},
-                                      {"at_s", v.at_s},
-                                      {"expected", v.expected},
-                                      {"count", v.count}});
-      seed["network"] = Json::array();
-      for (const auto& [seat, band] : o.bands) seed["network"].push_back({{"seat", seat}, {"band", band}});
-      seed["notes"] = o.notes;
-      seed["duration_s"] = json_number(o.duration_s);
-      seed["trace_hash"] = o.trace_hash;
-      seed["cpu_s"] = json_number(o.cpu_s);
-      seed["replay"] = replay_command(s, o.seed);
-      if (!o.report.empty()) seed["report"] = Json::parse(o.report);
-      one["seeds"].push_back(std::move(seed));
-    }
-    scenarios.push_back(std::move(one));
-  }
-  j["version"] = 1;
-  j["verdict"] = result.passed() ? "pass" : "fail";
-  j["interrupted"] = result.interrupted;
-  j["seeds_run"] = seeds - result.not_run();
-  j["seeds_failed"] = failed;
-  j["seeds_not_run"] = result.not_run();
-  j["cpu_s"] = json_number(cpu);
-  j["scenarios"] = std::move(scenarios);
-  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::size_t all = result.all(), failed = result.failed(), not_run = result.not_run();
+  return out + format("\n%s: %zu of %zu seeds passed, %zu failed, %zu not run, in %.1f s\n",
+                      result.passed() ? "pass" : "FAIL", all - failed - not_run, all, failed, not_run, result.wall_s);
 }
 
 }  // namespace tandem::netsim

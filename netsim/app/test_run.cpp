@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <functional>
 #include <stdexcept>
 
+#include "common/base/format.h"
 #include "common/io/output_file.h"
 
 namespace tandem::netsim {
@@ -36,9 +37,14 @@ std::string run_in_child(const Scenario& scenario, std::uint64_t seed, const Tes
 }
 
 std::string violation_text(const server::Violation& v) {
-  char text[160];
-  std::snprintf(text, sizeof text, "first at %.3f s, %llu times", v.at_s, static_cast<unsigned long long>(v.count));
-  return "invariant " + v.invariant + " broken" + (v.seat.empty() ? "" : " at " + v.seat) + ", " + text;
+  return "invariant " + v.invariant + " broken" + (v.seat.empty() ? "" : " at " + v.seat) +
+         format(", first at %.3f s, %llu times", v.at_s, static_cast<unsigned long long>(v.count));
+}
+
+/// Returns the sum of a number over all items, from `zero` on.
+auto total_of(const auto& items, auto zero, auto number) {
+  for (const auto& item : items) zero += std::invoke(number, item);
+  return zero;
 }
 
 }  // namespace
@@ -51,26 +57,28 @@ std::size_t ScenarioResult::failed() const noexcept {
 }
 bool ScenarioResult::passed() const noexcept { return count(State::kPass) == seeds.size(); }
 
+double ScenarioResult::cpu_s() const noexcept { return total_of(seeds, 0.0, &SeedOutcome::cpu_s); }
 double ScenarioResult::real_time() const noexcept {
-  double cpu = 0, ran = 0;
+  return cpu_s() > 0 ? total_of(seeds, 0.0, &SeedOutcome::duration_s) / cpu_s() : 0;
+}
+
+std::optional<WorstValue> ScenarioResult::worst_of(std::size_t limit) const {
+  std::optional<WorstValue> worst;
   for (const SeedOutcome& s : seeds) {
-    cpu += s.cpu_s;
-    ran += s.duration_s;
+    if (limit >= s.values.size() || (s.state != State::kPass && s.state != State::kFail)) continue;
+    const WorstValue one{&scenario.limits[limit], s.values[limit], s.seed};
+    if (!worst || one.room() < worst->room()) worst = one;
   }
-  return cpu > 0 ? ran / cpu : 0;
+  return worst;
 }
 
 bool TestResult::passed() const noexcept { return std::ranges::all_of(scenarios, &ScenarioResult::passed); }
 std::size_t TestResult::not_run() const noexcept {
-  std::size_t n = 0;
-  for (const ScenarioResult& s : scenarios) n += s.count(State::kNotRun);
-  return n;
+  return total_of(scenarios, std::size_t{0}, [](const ScenarioResult& s) { return s.count(State::kNotRun); });
 }
-
+std::size_t TestResult::failed() const noexcept { return total_of(scenarios, std::size_t{0}, &ScenarioResult::failed); }
 std::size_t TestResult::all() const noexcept {
-  std::size_t n = 0;
-  for (const ScenarioResult& s : scenarios) n += s.seeds.size();
-  return n;
+  return total_of(scenarios, std::size_t{0}, [](const ScenarioResult& s) { return s.seeds.size(); });
 }
 
 TestResult run_tests(std::vector<Scenario> scenarios, const TestOptions& options) {

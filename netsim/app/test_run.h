@@ -21,13 +21,24 @@ struct TestOptions {
   std::function<void(const io::JobProgress&, std::size_t failed)> on_progress = {};
 };
 
+/// Value of a limit that is nearest to breaking it, or exceeds it most.
+struct WorstValue {
+  const Limit* limit = nullptr;
+  double value = 0;
+  std::uint64_t seed = 0;
+  [[nodiscard]] double room() const noexcept { return slack(*limit, value); }
+};
+
 struct ScenarioResult {
   Scenario scenario;
   std::vector<SeedOutcome> seeds;  ///< ascending; includes the seeds that were not run
 
   [[nodiscard]] std::size_t count(SeedOutcome::State state) const noexcept;
   [[nodiscard]] std::size_t failed() const noexcept;
-  [[nodiscard]] bool passed() const noexcept;  ///< returns whether every seed was run and passed
+  [[nodiscard]] bool passed() const noexcept;   ///< returns whether every seed was run and passed
+  [[nodiscard]] double cpu_s() const noexcept;  ///< returns the sum of its seeds
+  /// Returns the worst value of a limit of the scenario; nullopt if no seed was judged by it. It refers to the limit.
+  [[nodiscard]] std::optional<WorstValue> worst_of(std::size_t limit) const;
   /// Returns virtual seconds per second of one core; 0 if no seed ran.
   [[nodiscard]] double real_time() const noexcept;
 };
@@ -39,6 +50,7 @@ struct TestResult {
 
   [[nodiscard]] bool passed() const noexcept;
   [[nodiscard]] std::size_t not_run() const noexcept;
+  [[nodiscard]] std::size_t failed() const noexcept;
   [[nodiscard]] std::size_t all() const noexcept;  ///< returns the number of seeds of all scenarios
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "netsim/demo/experiment_times.h"
 #include "netsim/demo/plot_axes.h"
 
 namespace tandem::netsim::demo {
@@ -10,6 +11,9 @@ namespace tandem::netsim::demo {
 using namespace plot;
 
 namespace {
+
+constexpr TimeLabels kNamed{"a: trainee pushes", "b: trainer pushes", "α moves", "reaches the wall", "trainee aligned"};
+constexpr TimeLabels kUnnamed{};
 
 Curve curve(const std::string& label, const std::string& ink, const Column& x, const Column& y, double x_scale,
             double y_scale, bool path) {
@@ -29,17 +33,6 @@ std::vector<Curve> three(const TraceData& d, const Column& tool, const Column& t
                          double tool_scale, double hand_scale) {
   return {over_time(d, "slave", "slave", tool, tool_scale), over_time(d, "trainer", "trainer", trainer, hand_scale),
           over_time(d, "trainee", "trainee", trainee, hand_scale)};
-}
-
-void mark_free_motion(Panel& panel, double duration, bool named) {
-  panel.x = Range{0, duration};
-  panel.bands = {{7, 8.5, named ? "a: trainee pushes" : ""}, {14, 15.5, named ? "b: trainer pushes" : ""}};
-  panel.verticals = {{11.5, named ? "α moves" : ""}};
-}
-
-void mark_contact(Panel& panel, double duration, bool named) {
-  panel.x = Range{0, duration};
-  panel.verticals = {{3, named ? "reaches the wall" : ""}, {13, named ? "trainee aligned" : ""}};
 }
 
 /// Returns the first row of `t` at or after a time; the last row if there is none.
@@ -93,7 +86,7 @@ CaptionedFigure figure_7(const TraceData& d, double duration) {
     Panel p{.x_label = j == 2 ? kTimeAxis : "",
             .y_label = "θ" + std::to_string(j + 1) + " [rad]",
             .curves = three(d, d.tool.q[j], d.trainer.q[j], d.trainee.q[j], 1, 1)};
-    mark_free_motion(p, duration, j == 0);
+    mark_times(p, Task::kFreeMotion, duration, j == 0 ? kNamed : kUnnamed);
     f.figure.panels.push_back(std::move(p));
   }
   return f;
@@ -112,7 +105,7 @@ CaptionedFigure figure_8(const TraceData& d, double duration) {
     Panel p{.y_label = "T" + std::to_string(j + 1) + " [N m]",
             .curves = three(d, d.tool.torque[j], d.trainer.torque[j], d.trainee.torque[j], -1, 1),
             .y_span_min = 0.02};
-    mark_free_motion(p, duration, j == 0);
+    mark_times(p, Task::kFreeMotion, duration, j == 0 ? kNamed : kUnnamed);
     f.figure.panels.push_back(std::move(p));
   }
   Panel alpha{.x_label = kTimeAxis,
@@ -120,7 +113,7 @@ CaptionedFigure figure_8(const TraceData& d, double duration) {
               .curves = {over_time(d, "α of the trainer", "alpha", d.trainer.alpha)},
               .y = Range{-0.1, 1.1},
               .height = 70};
-  mark_free_motion(alpha, duration, false);
+  mark_times(alpha, Task::kFreeMotion, duration, kUnnamed);
   f.figure.panels.push_back(std::move(alpha));
   return f;
 }
@@ -139,11 +132,7 @@ CaptionedFigure energy(const RunPlan& plan, const TraceData& d, const std::strin
   for (std::size_t a = 0; a < 3; ++a)
     p.curves.push_back(
         over_time(d, plan.joint_port() ? joints[a] : axes[a], inks[a], d.tool.e_p[a], milli ? kMilli : 1));
-  if (plan.task == Task::kFreeMotion) {
-    mark_free_motion(p, plan.duration_s, true);
-  } else {
-    mark_contact(p, plan.duration_s, true);
-  }
+  mark_times(p, plan.task, plan.duration_s, kNamed);
   f.figure.panels.push_back(std::move(p));
   return f;
 }
@@ -169,18 +158,17 @@ CaptionedFigure figure_11(const TraceData& d, double duration) {
                     "Forces are those that press towards the block: commanded to each device, and delivered (of the "
                     "slave: the load of the block). A Touch delivers 3.3 N at most.",
                     {"Position along x, commanded and delivered force along x, over time", 1, {}}};
-  Panel x{.y_label = "x [mm]",
-          .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMilli, kMilli),
-          .height = 170};
+  Panel x{
+      .y_label = "x [mm]", .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMilli, kMilli), .height = 170};
   x.horizontals = {{0, "wall"}};
-  mark_contact(x, duration, true);
+  mark_times(x, Task::kContact, duration, kNamed);
   Panel cmd{.y_label = "commanded [N]",
             .curves = three(d, d.tool.f_cmd[0], d.trainer.f_cmd[0], d.trainee.f_cmd[0], 1, -1)};
-  mark_contact(cmd, duration, false);
+  mark_times(cmd, Task::kContact, duration, kUnnamed);
   Panel out{.x_label = kTimeAxis,
             .y_label = "delivered [N]",
             .curves = three(d, d.tool.f_env[0], d.trainer.f_out[0], d.trainee.f_out[0], -1, -1)};
-  mark_contact(out, duration, false);
+  mark_times(out, Task::kContact, duration, kUnnamed);
   f.figure.panels = {std::move(x), std::move(cmd), std::move(out)};
   return f;
 }

@@ -122,23 +122,20 @@ double force_step(const TraceData& trace) {
 }
 
 TraceNumbers measure(const RunPlan& plan, const TraceData& trace) {
-  TraceNumbers numbers;
-  if (plan.task == Task::kFreeMotion) {
-    numbers.force_step_n = force_step(trace);
-    return numbers;
-  }
+  if (plan.task == Task::kFreeMotion) return {.force_step_n = force_step(trace)};
   const bool commanded = plan.setting == Setting::kSeed;
-  numbers.stiffness_n_m = rendered_stiffness(trace);
-  numbers.stiffness_held_n_m = held_stiffness(trace);
   const ForceError leader = force_error_x(trace, trace.trainer, kContactFrom, kContactEnd, commanded);
   const ForceError follower = force_error_x(trace, trace.trainee, kAlignFrom, kContactEnd, commanded);
-  numbers.force_x_leader_n = leader.rms_n, numbers.force_x_leader_percent = leader.percent;
-  numbers.force_x_follower_n = follower.rms_n, numbers.force_x_follower_percent = follower.percent;
   Squares apart;
   for (std::size_t k = 0; k < trace.rows(); ++k)
     if (trace.t[k] >= kAlignFrom && trace.t[k] < kContactEnd) apart.add(trace.trainee.x[0][k] - trace.trainer.x[0][k]);
-  numbers.aligned_x_m = apart.rms();
-  return numbers;
+  return {.stiffness_n_m = rendered_stiffness(trace),
+          .stiffness_held_n_m = held_stiffness(trace),
+          .force_x_leader_n = leader.rms_n,
+          .force_x_leader_percent = leader.percent,
+          .force_x_follower_n = follower.rms_n,
+          .force_x_follower_percent = follower.percent,
+          .aligned_x_m = apart.rms()};
 }
 
 }  // namespace tandem::netsim::demo

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "netsim/demo/experiment_times.h"
 #include "netsim/demo/plot_axes.h"
 
 namespace tandem::netsim::demo {
@@ -38,14 +39,17 @@ constexpr std::array<Subject, 3> kFreeMotion{{
      [](const TraceData& d, std::size_t k) { return norm(d.trainer.f_out, k); }},
 }};
 constexpr std::array<Subject, 3> kContact{{
-    {"position of the slave along x", "x [mm]",
-     [](const TraceData& d, std::size_t k) { return kMilli * d.tool.x[0][k]; }, 0, "wall"},
+    {"position of the slave along x", "x [mm]", [](const TraceData& d, std::size_t k) { return kMilli * d.tool.x[0][k]; },
+     0, "wall"},
     {"position of the trainer’s hand along x", "x [mm]",
      [](const TraceData& d, std::size_t k) { return kMilli * d.trainer.x[0][k]; }, 0, "wall"},
     {"force the trainer feels along x", "force [N]",
      [](const TraceData& d, std::size_t k) { return -d.trainer.f_out[0][k]; }},
 }};
 constexpr std::span<const Subject> subjects(Task task) { return task == Task::kFreeMotion ? kFreeMotion : kContact; }
+
+constexpr TimeLabels kOverlayLabels{"trainee pushes", "trainer pushes", "α moves", "reaches the wall",
+                                    "trainee aligned"};
 
 struct Ink {
   const char *label, *ink;
@@ -58,16 +62,6 @@ Curve curve_of(const RunResult& run, std::size_t index, bool path) {
   return {ink.label, ink.ink, index < run.overlay.size() ? run.overlay[index] : std::vector<Point2>{}, path};
 }
 
-void mark_times(Panel& panel, Task task, double duration, bool named) {
-  panel.x = Range{0, duration};
-  if (task == Task::kFreeMotion) {
-    panel.bands = {{7, 8.5, named ? "trainee pushes" : ""}, {14, 15.5, named ? "trainer pushes" : ""}};
-    panel.verticals = {{11.5, named ? "α moves" : ""}};
-  } else {
-    panel.verticals = {{3, named ? "reaches the wall" : ""}, {13, named ? "trainee aligned" : ""}};
-  }
-}
-
 Panel network_panel(const NetworkSeries& network, std::size_t way, Task task, double duration) {
   Panel p{.title = way == 0 ? "bad network, to the server: delay" : "bad network, from the server: delay",
           .x_label = way == 1 ? kTimeAxis : "",
@@ -75,7 +69,7 @@ Panel network_panel(const NetworkSeries& network, std::size_t way, Task task, do
           .curves = {{"", way == 0 ? "up" : "down", network.delay[way]}},
           .rug = network.lost[way],
           .height = 90};
-  mark_times(p, task, duration, false);
+  mark_times(p, task, duration, {});
   const Range range = range_of(p.curves, true, 1);
   p.y = Range{0, std::max(1.0, range.hi)};
   return p;
@@ -107,7 +101,7 @@ CaptionedFigure overlay_of(Task task, std::span<const RunResult> runs) {
     for (const RunResult& run : runs)
       if (run.plan->task == task) p.curves.push_back(curve_of(run, s, false));
     if (std::isfinite(rows[s].mark)) p.horizontals = {{rows[s].mark, rows[s].mark_label}};
-    mark_times(p, task, duration, s == 0);
+    mark_times(p, task, duration, s == 0 ? kOverlayLabels : TimeLabels{});
     if (s + 1 == rows.size() && network == nullptr) p.x_label = kTimeAxis;
     f.figure.panels.push_back(std::move(p));
   }
@@ -136,8 +130,7 @@ OverlaySeries overlay_series(const RunPlan& plan, const TraceData& trace) {
     series.push_back(downsample_extremes(points, kCurvePointsMax));
   }
   if (plan.task == Task::kFreeMotion) {
-    for (std::size_t k = 0; k < trace.rows(); ++k)
-      points[k] = {kMilli * trace.tool.x[0][k], kMilli * trace.tool.x[2][k]};
+    for (std::size_t k = 0; k < trace.rows(); ++k) points[k] = {kMilli * trace.tool.x[0][k], kMilli * trace.tool.x[2][k]};
     series.push_back(downsample_path(points, kPathStep, kCurvePointsMax));
   }
   return series;

@@ -21,16 +21,10 @@ const RunPlan& run_plan(Task task, Setting setting) noexcept {
 }
 
 std::string title_of(const RunPlan& plan) {
-  const std::string task = plan.task == Task::kFreeMotion ? "Free motion, " : "Contact, ";
-  switch (plan.setting) {
-    case Setting::kSeed:
-      return task + "the paper’s gains";
-    case Setting::kDefaults:
-      return task + "Tandem’s defaults";
-    case Setting::kBadNetwork:
-      return task + "Tandem’s defaults on the bad network";
-  }
-  return task;
+  constexpr std::array<const char*, kSettings> kNames{"the paper’s gains", "Tandem’s defaults",
+                                                      "Tandem’s defaults on the bad network"};
+  return std::string(plan.task == Task::kFreeMotion ? "Free motion, " : "Contact, ") +
+         kNames[static_cast<std::size_t>(plan.setting)];
 }
 
 std::string network_text(Setting setting) {

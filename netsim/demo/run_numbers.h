@@ -52,7 +52,7 @@ struct LinkNumbers {
 };
 struct PhaseNumbers {
   std::string name;
-  double from_s = 0, to_s = 0;
+  double from_s = 0;
   SeatNumbers trainer, trainee;
 };
 struct ViolationNumbers {
@@ -70,7 +70,7 @@ struct ReportNumbers {
   double effort_peak_n = kUnknown, speed_peak_m_s = kUnknown;  ///< largest of both hands
   double gate_trips = kUnknown;                                ///< sum of both hands
   double late_ticks = kUnknown;                                ///< of server and clients; unknown in virtual time
-  double contact_force_n = kUnknown, penetration_m = kUnknown;
+  double contact_force_n = kUnknown;
   std::vector<PhaseNumbers> phases;
   [[nodiscard]] const PhaseNumbers* phase(std::string_view name) const noexcept;
 };

@@ -1,19 +1,21 @@
 #include "netsim/demo/text_table.h"
 
+#include <algorithm>
+
+#include "netsim/plot/ticks.h"
+
 namespace tandem::netsim::demo {
 namespace {
 
 constexpr std::size_t kLabel = 44, kNarrowLabel = 12, kPaper = 6, kValue = 7,
                       kLimit = 9;  // a cell has 20 columns: value, limit, mark, gaps
 
-std::string left(std::string_view text, std::size_t width) {
-  const std::size_t own = width_of(text);
-  return std::string(text) + std::string(own < width ? width - own : 0, ' ');
+/// Returns the spaces that widen a text to `width` columns.
+std::string spaces(std::string_view text, std::size_t width) {
+  return std::string(width - std::min(width, width_of(text)), ' ');
 }
-std::string right(std::string_view text, std::size_t width) {
-  const std::size_t own = width_of(text);
-  return std::string(own < width ? width - own : 0, ' ') + std::string(text);
-}
+std::string left(std::string_view text, std::size_t width) { return std::string(text) + spaces(text, width); }
+std::string right(std::string_view text, std::size_t width) { return spaces(text, width) + std::string(text); }
 
 /// ANSI escapes; without colour the plain text.
 struct Paint {
@@ -45,23 +47,9 @@ std::string row_text(const Row& row, const Paint& paint, bool narrow) {
 
 }  // namespace
 
-std::size_t width_of(std::string_view text) noexcept {
-  std::size_t n = 0;
-  for (const char c : text) n += (static_cast<unsigned char>(c) & 0xC0u) != 0x80u ? 1 : 0;
-  return n;
-}
+std::size_t width_of(std::string_view text) noexcept { return static_cast<std::size_t>(plot::characters(text)); }
 
-std::string_view symbol(Mark mark) noexcept {
-  switch (mark) {
-    case Mark::kMet:
-      return "✓";
-    case Mark::kMissed:
-      return "✗";
-    case Mark::kNone:
-      break;
-  }
-  return "";
-}
+std::string_view symbol(Mark mark) noexcept { return mark == Mark::kMet ? "✓" : mark == Mark::kMissed ? "✗" : ""; }
 
 std::string wrapped(std::string_view text, std::size_t width, const std::string& indent) {
   std::string out;

@@ -9,6 +9,8 @@
 namespace tandem::netsim::demo {
 namespace {
 
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"}, kNumbers{"0", "1", "2"};
+
 /// Takes columns by name and collects the names of missing ones.
 class ColumnReader {
  public:
@@ -27,6 +29,13 @@ class ColumnReader {
   void take(const std::string& stem, const std::array<const char*, 3>& ends, Column3& into) {
     for (std::size_t a = 0; a < 3; ++a) take(stem + ends[a], into[a]);
   }
+  /// Takes the columns of a hand; their names begin with `stem`.
+  void take(const std::string& stem, HandColumns& into) {
+    take(stem + "q", kNumbers, into.q);
+    take(stem, kAxes, into.x);
+    take(stem + "f_cmd_", kAxes, into.f_cmd);
+    take(stem + "f_out_", kAxes, into.f_out);
+  }
   [[nodiscard]] const std::string& missing() const noexcept { return missing_; }
 
  private:
@@ -35,7 +44,8 @@ class ColumnReader {
 };
 
 constexpr double kNear = 0.002;  // [s]
-constexpr std::array<const char*, 3> kAxes{"x", "y", "z"}, kNumbers{"0", "1", "2"};
+constexpr std::array<Column3 HandColumns::*, 4> kHandColumns{&HandColumns::q, &HandColumns::x, &HandColumns::f_cmd,
+                                                             &HandColumns::f_out};
 
 }  // namespace
 
@@ -49,10 +59,7 @@ std::expected<TraceData, std::string> read_trace(std::string_view text) {
   for (const auto& [name, seat] : {std::pair{"trainer", &data.trainer}, std::pair{"trainee", &data.trainee}}) {
     const std::string stem = std::string(name) + ".";
     taker.take(stem + "alpha", seat->alpha);
-    taker.take(stem + "q", kNumbers, seat->q);
-    taker.take(stem, kAxes, seat->x);
-    taker.take(stem + "f_cmd_", kAxes, seat->f_cmd);
-    taker.take(stem + "f_out_", kAxes, seat->f_out);
+    taker.take(stem, *seat);
   }
   taker.take("tool.q", kNumbers, data.tool.q);
   taker.take("tool.", kAxes, data.tool.x);
@@ -69,10 +76,7 @@ std::expected<SeatSamples, std::string> read_samples(std::string_view text) {
   SeatSamples all;
   ColumnReader taker(*table);
   taker.take("t_s", all.t);
-  taker.take("q", kNumbers, all.q);
-  taker.take("", kAxes, all.x);
-  taker.take("f_cmd_", kAxes, all.f_cmd);
-  taker.take("f_out_", kAxes, all.f_out);
+  taker.take("", all);
   if (!taker.missing().empty()) return std::unexpected("samples: no column " + taker.missing());
   // Rows of the session: ascending from 0.
   std::vector<std::size_t> rows;
@@ -88,14 +92,12 @@ std::expected<SeatSamples, std::string> read_samples(std::string_view text) {
     column.resize(rows.size());
   };
   keep(all.t);
-  for (Column3* triple : {&all.q, &all.x, &all.f_cmd, &all.f_out})
-    for (Column& column : *triple) keep(column);
+  for (const auto columns : kHandColumns)
+    for (Column& column : all.*columns) keep(column);
   return all;
 }
 
 void put_samples(const Column& t, const SeatSamples& own, SeatTrace& seat) {
-  const std::array<std::pair<const Column3*, Column3*>, 4> pairs{
-      {{&own.q, &seat.q}, {&own.x, &seat.x}, {&own.f_cmd, &seat.f_cmd}, {&own.f_out, &seat.f_out}}};
   std::size_t after = 0;
   for (std::size_t k = 0; k < t.size(); ++k) {
     while (after < own.t.size() && own.t[after] < t[k]) ++after;
@@ -105,11 +107,11 @@ void put_samples(const Column& t, const SeatSamples& own, SeatTrace& seat) {
     const double w = inside ? (t[k] - own.t[after - 1]) / gap : 0;
     const std::size_t edge = after == 0 ? 0 : own.t.size() - 1;
     const bool near = !own.t.empty() && std::abs(own.t[edge] - t[k]) < kNear;
-    for (const auto& [from, to] : pairs)
+    for (const auto columns : kHandColumns)
       for (std::size_t a = 0; a < 3; ++a) {
-        const Column& c = (*from)[a];
-        (*to)[a][k] = inside ? c[after - 1] + w * (c[after] - c[after - 1])
-                             : (near ? c[edge] : std::numeric_limits<double>::quiet_NaN());
+        const Column& c = (own.*columns)[a];
+        (seat.*columns)[a][k] = inside ? c[after - 1] + w * (c[after] - c[after - 1])
+                                       : (near ? c[edge] : std::numeric_limits<double>::quiet_NaN());
       }
   }
 }

@@ -12,13 +12,16 @@ namespace tandem::netsim::demo {
 using Column = std::vector<double>;
 using Column3 = std::array<Column, 3>;
 
+/// The columns that the server's trace and a client's own samples have of a hand.
+struct HandColumns {
+  Column3 q;      ///< joints [rad]
+  Column3 x;      ///< tip, HAL frame: x right, y away, z up [m]
+  Column3 f_cmd;  ///< commanded force on the hand [N]
+  Column3 f_out;  ///< delivered force on the hand [N]
+};
 /// The hand of one user.
-struct SeatTrace {
+struct SeatTrace : HandColumns {
   Column alpha;    ///< [1]
-  Column3 q;       ///< joints [rad]
-  Column3 x;       ///< tip, HAL frame: x right, y away, z up [m]
-  Column3 f_cmd;   ///< commanded force on the hand [N]
-  Column3 f_out;   ///< delivered force on the hand [N]
   Column3 torque;  ///< J^T f_cmd [N m]; filled by app/joint_torques.h
 };
 /// The slave and the tool it carries.
@@ -31,9 +34,8 @@ struct ToolTrace {
   Column3 torque;  ///< J^T f_cmd [N m]; filled by app/joint_torques.h
 };
 /// Samples that a client recorded of its own hand, one row per servo tick, without loss or delay.
-struct SeatSamples {
-  Column t;                    ///< session time [s], as the client estimates it
-  Column3 q, x, f_cmd, f_out;  ///< as in SeatTrace
+struct SeatSamples : HandColumns {
+  Column t;  ///< session time [s], as the client estimates it
 };
 struct TraceData {
   Column t;  ///< since the session began [s]

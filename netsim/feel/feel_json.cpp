@@ -14,66 +14,64 @@ using Json = nlohmann::ordered_json;
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 double from_json(const Json& j) { return j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>(); }
 
+/// Adds numbers by key.
+void put_numbers(const auto& numbers, Json& into) {
+  for (const auto& [key, value] : numbers) into[key] = number(value);
+}
+
+/// @param indent  spaces per level; -1: one line
+std::string text(const Json& json, int indent) { return json.dump(indent, ' ', false, Json::error_handler_t::replace); }
+
 }  // namespace
 
 std::string feel_json(const FeelReport& r) {
-  Json j{{"version", 1},
-         {"scene", r.scene},
-         {"network", r.network},
-         {"law", r.channel},
-         {"hands", r.plain_hands ? "plain" : "drawn"}};
-  j["probes"] = Json::array();
+  Json probes = Json::array(), feel = Json::object(), limits = Json::array(), seeds = Json::array();
   for (const ProbeName& one : kProbes)
-    if (std::ranges::find(r.probes, one.probe) != r.probes.end()) j["probes"].push_back(one.name);
-  j["recordings"] = r.recordings;
-  j["one_way_s"] = number(r.one_way_s);
-  Json feel = Json::object();
+    if (std::ranges::find(r.probes, one.probe) != r.probes.end()) probes.push_back(one.name);
   for (const FeelSection& section : feel_sections())
-    for (const FeelKey& key : section.keys) {
-      const auto it = r.numbers.find(std::string(key.key));
-      if (it == r.numbers.end()) continue;
-      feel[std::string(key.key)] = {{"mean", number(it->second.mean)},
-                                    {"worst", number(it->second.worst)},
-                                    {"worst_seed", it->second.worst_seed},
-                                    {"unit", std::string(si_unit(key.key))}};
-    }
-  j["feel"] = std::move(feel);
-  j["noticed"] = noticeable_text(r.spec, r.numbers, r.one_way_s);
-  j["noticeable"] = Json::object();
-  for (const auto& [key, value] : noticeable_numbers(r.spec, r.numbers, r.one_way_s))
-    j["noticeable"][key] = number(value);
-  j["limits"] = Json::array();
-  for (const FeelLimit& limit : r.limits) {
-    const auto it = r.numbers.find(limit.key);
-    j["limits"].push_back({{"key", limit.key},
-                           {"at_least", limit.at_least},
-                           {"end", limit.end},
-                           {"holds", it != r.numbers.end() && limit.holds(it->second)}});
-  }
-  j["passed"] = r.passed();
-  j["interrupted"] = r.interrupted;
-  j["troubles"] = r.troubles;
-  j["notes"] = r.notes;
-  j["seeds"] = Json::array();
-  for (const FeelSeed& seed : r.seeds) {
-    Json one{{"seed", seed.seed}};
-    for (const auto& [key, value] : seed.values) one[key] = number(value);
-    j["seeds"].push_back(std::move(one));
-  }
-  j["lived_s"] = number(r.lived_s);
-  j["wall_s"] = number(r.wall_s);
-  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    for (const auto& [key, of] : r.rows(section))
+      feel[std::string(key->key)] = {{"mean", number(of.mean)},
+                                     {"worst", number(of.worst)},
+                                     {"worst_seed", of.worst_seed},
+                                     {"unit", std::string(si_unit(key->key))}};
+  for (const FeelLimit& limit : r.limits)
+    limits.push_back({{"key", limit.key}, {"at_least", limit.at_least}, {"end", limit.end}, {"holds", r.holds(limit)}});
+  for (const FeelSeed& seed : r.seeds) put_numbers(seed.values, seeds.emplace_back(Json{{"seed", seed.seed}}));
+  Json noticeable = Json::object();
+  put_numbers(noticeable_numbers(r.spec, r.numbers, r.one_way_s), noticeable);
+  return text({{"version", 1},
+               {"scene", r.scene},
+               {"network", r.network},
+               {"law", r.channel},
+               {"hands", r.plain_hands ? "plain" : "drawn"},
+               {"probes", std::move(probes)},
+               {"recordings", r.recordings},
+               {"one_way_s", number(r.one_way_s)},
+               {"feel", std::move(feel)},
+               {"noticed", noticeable_text(r.spec, r.numbers, r.one_way_s)},
+               {"noticeable", std::move(noticeable)},
+               {"limits", std::move(limits)},
+               {"passed", r.passed()},
+               {"interrupted", r.interrupted},
+               {"troubles", r.troubles},
+               {"notes", r.notes},
+               {"seeds", std::move(seeds)},
+               {"lived_s", number(r.lived_s)},
+               {"wall_s", number(r.wall_s)}},
+              2) +
+         "\n";
 }
 
 std::string to_bytes(const ProbeResult& result) {
   const Exposure& e = result.exposure;
-  Json j{{"exposure", {e.s, e.engaged_s, e.held_s, e.saturated_s, e.trips, e.error_square}},
-         {"lived", result.lived_s},
-         {"one_way", number(result.one_way_s)},
-         {"trouble", result.trouble}};
-  j["values"] = Json::object();
-  for (const auto& [key, value] : result.values) j["values"][key] = number(value);
-  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json values = Json::object();
+  put_numbers(result.values, values);
+  return text({{"exposure", {e.s, e.engaged_s, e.held_s, e.saturated_s, e.trips, e.error_square}},
+               {"lived", result.lived_s},
+               {"one_way", number(result.one_way_s)},
+               {"trouble", result.trouble},
+               {"values", std::move(values)}},
+              -1);
 }
 
 ProbeResult probe_result_from_bytes(const std::string& bytes) {

@@ -2,6 +2,8 @@
 
 #include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "netsim/feel/feel_summary.h"
@@ -25,6 +27,12 @@ struct FeelReport {
   double lived_s = 0, wall_s = 0;
   bool interrupted = false;
 
+  /// Returns the number of a key; null if it was not measured.
+  [[nodiscard]] const FeelNumber* find(std::string_view key) const;
+  /// Returns whether a limit holds; a number that does not exist breaks it.
+  [[nodiscard]] bool holds(const FeelLimit& limit) const;
+  /// Returns the measured keys of a section and their numbers, in order.
+  [[nodiscard]] std::vector<std::pair<const FeelKey*, FeelNumber>> rows(const FeelSection& section) const;
   /// Returns the limits that are broken, or whose number does not exist.
   [[nodiscard]] std::vector<const FeelLimit*> broken() const;
   /// Returns whether all was measured and every limit holds.

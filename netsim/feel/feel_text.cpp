@@ -42,12 +42,27 @@ std::string row(const FeelKey& key, const FeelNumber& number) {
 
 }  // namespace
 
+const FeelNumber* FeelReport::find(std::string_view key) const {
+  const auto it = numbers.find(std::string(key));
+  return it == numbers.end() ? nullptr : &it->second;
+}
+
+bool FeelReport::holds(const FeelLimit& limit) const {
+  const FeelNumber* const number = find(limit.key);
+  return number != nullptr && limit.holds(*number);
+}
+
+std::vector<std::pair<const FeelKey*, FeelNumber>> FeelReport::rows(const FeelSection& section) const {
+  std::vector<std::pair<const FeelKey*, FeelNumber>> out;
+  for (const FeelKey& key : section.keys)
+    if (const FeelNumber* const number = find(key.key)) out.emplace_back(&key, *number);
+  return out;
+}
+
 std::vector<const FeelLimit*> FeelReport::broken() const {
   std::vector<const FeelLimit*> out;
-  for (const FeelLimit& limit : limits) {
-    const auto it = numbers.find(limit.key);
-    if (it == numbers.end() || !limit.holds(it->second)) out.push_back(&limit);
-  }
+  for (const FeelLimit& limit : limits)
+    if (!holds(limit)) out.push_back(&limit);
   return out;
 }
 
@@ -61,8 +76,7 @@ std::string feel_text(const FeelReport& r) {
   out += format("  %-42s %9s %9s\n", "", "mean", "worst");
   for (const FeelSection& section : feel_sections()) {
     std::string rows;
-    for (const FeelKey& key : section.keys)
-      if (const auto it = r.numbers.find(std::string(key.key)); it != r.numbers.end()) rows += row(key, it->second);
+    for (const auto& [key, number] : r.rows(section)) rows += row(*key, number);
     if (!rows.empty()) out += std::string(section.title) + "\n" + rows;
   }
   const std::vector<std::string> words = noticeable_text(r.spec, r.numbers, r.one_way_s);
@@ -70,13 +84,13 @@ std::string feel_text(const FeelReport& r) {
   for (const std::string& sentence : words) out += wrapped_lines(sentence, "  ");
   for (const std::string& trouble : r.troubles) out += wrapped_lines("could not be measured: " + trouble, "");
   for (const FeelLimit* limit : r.broken()) {
-    const auto it = r.numbers.find(limit->key);
+    const FeelNumber* const number = r.find(limit->key);
     const std::string unit = si_unit(limit->key).empty() ? "" : " " + std::string(si_unit(limit->key));
-    const std::string got = it == r.numbers.end() ? "was not measured"
-                            : std::isnan(it->second.mean)
+    const std::string got = number == nullptr ? "was not measured"
+                            : std::isnan(number->mean)
                                 ? "does not exist in every seed"
-                                : format("mean %.4g, worst %.4g%s (seed %llu)", it->second.mean, it->second.worst,
-                                         unit.c_str(), static_cast<unsigned long long>(it->second.worst_seed));
+                                : format("mean %.4g, worst %.4g%s (seed %llu)", number->mean, number->worst,
+                                         unit.c_str(), static_cast<unsigned long long>(number->worst_seed));
     out += wrapped_lines(
         format("FAIL %s: ", limit->key.c_str()) + got +
             format("; must be at %s %g, the worst seed %g", limit->at_least ? "least" : "most", limit->end,
@@ -95,12 +109,9 @@ std::string feel_csv(const FeelReport& r) {
   std::string out = "key,unit,mean,worst,worst_seed\n";
   const auto value = [](double v) { return std::isfinite(v) ? format("%.9g", v) : std::string(); };
   for (const FeelSection& section : feel_sections())
-    for (const FeelKey& key : section.keys) {
-      const auto it = r.numbers.find(std::string(key.key));
-      if (it == r.numbers.end()) continue;
-      out += std::string(key.key) + "," + std::string(si_unit(key.key)) + "," + value(it->second.mean) + "," +
-             value(it->second.worst) + "," + std::to_string(it->second.worst_seed) + "\n";
-    }
+    for (const auto& [key, number] : r.rows(section))
+      out += std::string(key->key) + "," + std::string(si_unit(key->key)) + "," + value(number.mean) + "," +
+             value(number.worst) + "," + std::to_string(number.worst_seed) + "\n";
   return out;
 }
 

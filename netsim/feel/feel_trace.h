@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hal/core/device.h"
+#include "netsim/feel/meters.h"
 
 namespace tandem::netsim {
 
@@ -34,6 +35,13 @@ struct FeelTrace {
 
   /// Returns the rows [first, second) with session times in [from, to).
   [[nodiscard]] std::pair<std::size_t, std::size_t> window(double from, double to) const noexcept;
+  /// Returns the rows of a column with session times in [from, to).
+  /// @param column  `t`, or a column of the trace
+  template <typename Value>
+  [[nodiscard]] std::span<const Value> part(const std::vector<Value>& column, double from, double to) const noexcept {
+    const auto [first, end] = window(from, to);
+    return std::span{column}.subspan(first, end - first);
+  }
 };
 
 }  // namespace tandem::netsim

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 namespace tandem::netsim {
 namespace {
@@ -57,6 +56,14 @@ hal::Vec3 mean(Series values) noexcept {
   for (const hal::Vec3& v : values) sum += v;
   return sum / static_cast<double>(values.size());
 }
+
+std::vector<double> along_x(Series values) {
+  std::vector<double> out;
+  for (const hal::Vec3& v : values) out.push_back(v.x());
+  return out;
+}
+
+double larger(double a, double b) noexcept { return std::isnan(a) || std::isnan(b) ? kNaN : std::max(a, b); }
 
 double rms(Series values) noexcept {
   if (values.empty()) return kNaN;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "hal/core/device.h"
 
@@ -17,6 +18,12 @@ using Series = std::span<const hal::Vec3>;
 
 [[nodiscard]] double mean(std::span<const double> values) noexcept;
 [[nodiscard]] hal::Vec3 mean(Series values) noexcept;
+
+/// Returns the x coordinates.
+[[nodiscard]] std::vector<double> along_x(Series values);
+
+/// Returns the larger number; NaN if either is NaN.
+[[nodiscard]] double larger(double a, double b) noexcept;
 
 /// Returns the root of the mean square of the norms.
 [[nodiscard]] double rms(Series values) noexcept;

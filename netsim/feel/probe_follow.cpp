@@ -25,23 +25,20 @@ struct Beside {
 
 /// Returns the distance of hand 1 from hand 0.
 Beside beside(const FeelTrace& trace, double from, double to) {
-  const auto [first, end] = trace.window(from, to);
+  const Series leader = trace.part(trace.hands[0].x, from, to), follower = trace.part(trace.hands[1].x, from, to);
   const auto length = static_cast<std::size_t>(std::llround(kMean * trace.tick_hz));
-  Beside out{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
-  if (end < first + length) return out;
+  if (leader.size() < length)
+    return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   double square = 0, rest = 0;
   std::size_t parts = 0;
-  for (std::size_t begin = first; begin + length <= end; begin += length, ++parts) {
-    const Series leader = Series{trace.hands[0].x}.subspan(begin, length),
-                 follower = Series{trace.hands[1].x}.subspan(begin, length);
-    const hal::Vec3 middle = mean(follower) - mean(leader);
+  for (std::size_t begin = 0; begin + length <= leader.size(); begin += length, ++parts) {
+    const Series led = follower.subspan(begin, length), leads = leader.subspan(begin, length);
+    const hal::Vec3 middle = mean(led) - mean(leads);
     square += middle.squaredNorm();
-    const double all = rms_difference(follower, leader);
+    const double all = rms_difference(led, leads);
     rest += std::max(0.0, all * all - middle.squaredNorm());
   }
-  out.offset = std::sqrt(square / static_cast<double>(parts));
-  out.wander = std::sqrt(rest / static_cast<double>(parts));
-  return out;
+  return {std::sqrt(square / static_cast<double>(parts)), std::sqrt(rest / static_cast<double>(parts))};
 }
 
 }  // namespace
@@ -51,12 +48,10 @@ ProbeResult probe_follow(const FeelSetup& setup, std::uint64_t seed) {
   const DrawnHand leader{setup.hands, seed, 0}, follower{setup.hands, seed, 1};
   const auto go = [&](const IntendedPath& path, double length, const EnvironmentSpec& environment = {},
                       double start = 0) {
-    ProbeRun run;
-    run.length = length;
-    run.start_x = start;
-    run.environment = environment;
-    run.hands = {{leader.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM), leader.move(path, length)},
-                 {follower.with_impedance(HandModel::kRelaxed, 0, 2, 0.1)}};
+    const ProbeRun run{.length = length,
+                       .start_x = start,
+                       .hands = {{firm(leader), leader.move(path, length)}, {relaxed(follower)}},
+                       .environment = environment};
     return run_part(setup, run, seed, result);
   };
   const auto away = [](double t) { return hal::sim::min_jerk((t - kMoveAt) / kMoveFor).value; };

@@ -20,71 +20,50 @@ struct Circle {
 };
 constexpr Circle kCircles[] = {{"05hz", 0.5, 0.05, 11}, {"1hz", 1, 0.03, 9}};
 
-ProbeRun both(const FeelSetup& setup, std::uint64_t seed, double length) {
-  const DrawnHand follower{setup.hands, seed, 1};
-  ProbeRun run;
-  run.length = length;
-  run.hands.resize(2);
-  run.hands[1].hand = follower.with_impedance(HandModel::kRelaxed, 0, 2, 0.1);
-  return run;
-}
-
 void put_errors(const FeelTrace& trace, double from, double to, const std::string& motion, FeelValues& v) {
-  const auto [first, end] = trace.window(from, to);
-  const auto part = [&](const std::vector<hal::Vec3>& all) { return Series{all}.subspan(first, end - first); };
+  const Series leader = trace.part(trace.hands[0].x, from, to), tool = trace.part(trace.tool, from, to);
   const auto lag = static_cast<std::size_t>(std::llround(trace.one_way_s * trace.tick_hz));
-  v["leader_tool_" + motion + "_m"] = rms_difference(part(trace.hands[0].x), part(trace.tool));
-  v["follower_tool_" + motion + "_m"] = rms_difference(part(trace.hands[1].x), part(trace.tool));
-  v["transport_lag_" + motion + "_m"] = rms_lag(part(trace.hands[0].x), lag);
+  v["leader_tool_" + motion + "_m"] = rms_difference(leader, tool);
+  v["follower_tool_" + motion + "_m"] = rms_difference(trace.part(trace.hands[1].x, from, to), tool);
+  v["transport_lag_" + motion + "_m"] = rms_lag(leader, lag);
 }
 
 void put_follower(const FeelTrace& trace, const Circle& circle, FeelValues& v) {
-  const auto [first, end] = trace.window(kSettle, circle.end);
-  const Series force = Series{trace.hands[1].f}.subspan(first, end - first);
+  const Series force = trace.part(trace.hands[1].f, kSettle, circle.end);
   v[std::string("follower_force_") + circle.name + "_n"] = rms(force);
   v[std::string("follower_step_") + circle.name + "_n_ms"] = largest_step_per_ms(force, trace.tick_hz);
 }
 
 /// Measures drag and apparent mass: the leader's force against velocity and acceleration of the hand, along x.
 void put_drag(const FeelTrace& trace, const Circle& circle, FeelValues& v) {
-  const auto [first, end] = trace.window(kSettle, circle.end);
-  v[std::string("drag_") + circle.name + "_n"] = rms(Series{trace.hands[0].f}.subspan(first, end - first));
-  std::vector<double> x, f;
-  for (std::size_t i = first; i < end; ++i) {
-    x.push_back(trace.hands[0].x[i].x());
-    f.push_back(trace.hands[0].f[i].x());
-  }
-  const std::complex<double> speed = std::complex<double>(0, kTurn * circle.hz) *
-                                     harmonic(std::span{trace.t}.subspan(first, end - first), x, circle.hz);
-  const std::complex<double> impedance =
-      -harmonic(std::span{trace.t}.subspan(first, end - first), f, circle.hz) / speed;
+  const auto t = trace.part(trace.t, kSettle, circle.end);
+  const Series x = trace.part(trace.hands[0].x, kSettle, circle.end),
+               f = trace.part(trace.hands[0].f, kSettle, circle.end);
+  v[std::string("drag_") + circle.name + "_n"] = rms(f);
+  const std::complex<double> speed = std::complex<double>(0, kTurn * circle.hz) * harmonic(t, along_x(x), circle.hz);
+  const std::complex<double> impedance = -harmonic(t, along_x(f), circle.hz) / speed;
   v[std::string("drag_") + circle.name + "_n_s_m"] = impedance.real();
   v[std::string("apparent_mass_") + circle.name + "_kg"] = impedance.imag() / (kTurn * circle.hz);
 }
 
 void put_overshoot(const FeelTrace& trace, FeelValues& v) {
-  const auto [first, end] = trace.window(kStepAt, kStepEnd);
-  std::vector<double> hand, tool;
-  for (std::size_t i = first; i < end; ++i) {
-    hand.push_back(trace.hands[0].x[i].x());
-    tool.push_back(trace.tool[i].x());
-  }
+  const std::vector<double> tool = along_x(trace.part(trace.tool, kStepAt, kStepEnd));
   v["overshoot"] = overshoot(tool);
-  v["overshoot_above_hand"] = overshoot_above(tool, hand);
+  v["overshoot_above_hand"] = overshoot_above(tool, along_x(trace.part(trace.hands[0].x, kStepAt, kStepEnd)));
 }
 
 }  // namespace
 
 ProbeResult probe_free(const FeelSetup& setup, std::uint64_t seed) {
   ProbeResult result;
-  const DrawnHand leader{setup.hands, seed, 0};
-  const auto go = [&](const IntendedPath& path, double length) {
-    ProbeRun run = both(setup, seed, length);
-    run.hands[0] = {leader.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM), leader.move(path, length)};
+  const DrawnHand leader{setup.hands, seed, 0}, follower{setup.hands, seed, 1};
+  const auto play = [&](std::shared_ptr<const hal::sim::RecordedMotion> motion, double length) {
+    const ProbeRun run{.length = length, .hands = {{firm(leader), std::move(motion)}, {relaxed(follower)}}};
     FeelTrace trace = run_part(setup, run, seed, result);
     result.exposure.add(exposure_of(trace, 1));
     return trace;
   };
+  const auto go = [&](const IntendedPath& path, double length) { return play(leader.move(path, length), length); };
   for (const Circle& circle : kCircles) {
     const FeelTrace trace = go(
         [&](double t) {
@@ -102,25 +81,16 @@ ProbeResult probe_free(const FeelSetup& setup, std::uint64_t seed) {
   put_overshoot(step, result.values);
   put_errors(step, kStepAt, kStepEnd, "step", result.values);
 
-  double square = 0, lag_square = 0, follower_square = 0;
+  std::map<std::string, double> squares;
   for (const FeelSetup::Recording& recording : setup.recordings) {
     const double length = std::min(kRecordingMax, recording.motion->duration());
-    ProbeRun run = both(setup, seed, length);
-    run.hands[0] = {leader.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM), recording.motion};
-    const FeelTrace trace = run_part(setup, run, seed, result);
-    result.exposure.add(exposure_of(trace, 1));
+    const FeelTrace trace = play(recording.motion, length);
     FeelValues v;
     put_errors(trace, std::min(kSettle, 0.5 * length), length, "recorded", v);
-    square += std::pow(v["leader_tool_recorded_m"], 2);
-    follower_square += std::pow(v["follower_tool_recorded_m"], 2);
-    lag_square += std::pow(v["transport_lag_recorded_m"], 2);
+    for (const auto& [key, error] : v) squares[key] += std::pow(error, 2);
   }
-  if (!setup.recordings.empty()) {
-    const auto count = static_cast<double>(setup.recordings.size());
-    result.values["leader_tool_recorded_m"] = std::sqrt(square / count);
-    result.values["follower_tool_recorded_m"] = std::sqrt(follower_square / count);
-    result.values["transport_lag_recorded_m"] = std::sqrt(lag_square / count);
-  }
+  for (const auto& [key, square] : squares)
+    result.values[key] = std::sqrt(square / static_cast<double>(setup.recordings.size()));
   return result;
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -51,23 +50,19 @@ ProbeResult probe_gain(const FeelSetup& setup, std::uint64_t seed) {
   ProbeResult result;
   const std::vector<Dwell> plan = dwells();
   const DrawnHand hand{setup.hands, seed, 0};
-  ProbeRun run;
-  run.length = plan.back().end;
-  run.hands = {{hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM),
-                hand.move([&](double t) { return position(plan, t); }, run.length)}};
+  const double length = plan.back().end;
+  const ProbeRun run{.length = length,
+                     .hands = {{firm(hand), hand.move([&](double t) { return position(plan, t); }, length)}}};
   const FeelTrace trace = run_part(setup, run, seed, result);
   double most = 0;
   for (const Dwell& d : plan) {
-    const auto [first, end] = trace.window(d.measure, d.fade);
-    std::vector<double> x, tool;
-    for (std::size_t i = first; i < end; ++i) {
-      x.push_back(trace.hands[0].x[i].x());
-      tool.push_back(trace.tool[i].x());
-    }
-    const auto t = std::span{trace.t}.subspan(first, end - first);
-    const double gain = std::abs(harmonic(t, tool, d.hz)) / std::abs(harmonic(t, x, d.hz));
+    const auto t = trace.part(trace.t, d.measure, d.fade);
+    const auto amplitude = [&](const std::vector<hal::Vec3>& x) {
+      return std::abs(harmonic(t, along_x(trace.part(x, d.measure, d.fade)), d.hz));
+    };
+    const double gain = amplitude(trace.tool) / amplitude(trace.hands[0].x);
     result.values[format("gain_%ghz", d.hz)] = gain;
-    most = std::isnan(gain) || std::isnan(most) ? std::numeric_limits<double>::quiet_NaN() : std::max(most, gain);
+    most = larger(most, gain);
   }
   result.values["gain_max"] = most;
   return result;

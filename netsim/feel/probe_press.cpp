@@ -12,9 +12,9 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kFront = 0.010, kDepthMin = 0.003, kDepthMax = 0.020, kPressDeep = 0.050;              // [m]
-constexpr double kTouch = 2, kPressed = 8, kSlowly = 16, kSteady = 10, kBoneEnd = 20, kTissueEnd = 14;  // [s]
-constexpr double kReserve = 0.85;  // of the motor's force
+constexpr double kDepthMin = 0.003, kDepthMax = 0.020, kPressDeep = 0.050;                       // [m]
+constexpr double kPressed = 8, kSlowly = 16, kSteady = 10, kBoneEnd = 20, kTissueEnd = 14;  // [s]
+constexpr double kReserve = 0.85;                                                           // of the motor's force
 constexpr double kSlopeLow = 0.15,
                  kSlopeHigh = 0.9;  // of the motor's force, or of the largest force if that is smaller
 
@@ -26,42 +26,28 @@ double depth_of(const FeelSetup& setup) {
 
 ProbeRun press(const FeelSetup& setup, std::uint64_t seed, double wall, double depth, double pressed, double length) {
   const DrawnHand hand{setup.hands, seed, 0};
-  const auto path = [=](double t) {
-    const double approach = hal::sim::min_jerk(t - 1).value,
-                 press = hal::sim::min_jerk((t - kTouch) / (pressed - kTouch)).value;
-    return hal::Vec3(kFront * (approach - 1) + depth * press, 0, 0);
-  };
-  ProbeRun run;
-  run.length = length;
-  run.start_x = -kFront;
-  run.hands = {{hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM), hand.move(path, length)}};
-  run.environment = wall_of(wall);
-  return run;
+  return {.length = length,
+          .start_x = -kPressFront,
+          .hands = {{firm(hand), hand.move(press_path(depth, pressed), length)}},
+          .environment = wall_of(wall)};
 }
 
-/// Along x: position of the hand [m], force on the hand [N], force on the environment [N].
-struct Pressed {
-  std::vector<double> x, felt, tool;
-};
-Pressed along_x(const FeelTrace& trace, double from, double to) {
-  const auto [first, end] = trace.window(from, to);
-  Pressed out;
-  for (std::size_t i = first; i < end; ++i) {
-    out.x.push_back(trace.hands[0].x[i].x());
-    out.felt.push_back(-trace.hands[0].f[i].x());
-    out.tool.push_back(-trace.f_env[i].x());
-  }
+/// Returns the forces that press on the hand or on the environment: those against x [N].
+std::vector<double> pressing(Series forces) {
+  std::vector<double> out = along_x(forces);
+  for (double& f : out) f = -f;
   return out;
 }
 
 double stiffness(const FeelTrace& trace) {
-  Pressed p = along_x(trace, kTouch, kSlowly);
-  if (p.felt.empty()) return mean(p.felt);
-  const double limit = trace.hands[0].force_max, most = std::min(*std::ranges::max_element(p.felt), limit);
+  const std::vector<double> x = along_x(trace.part(trace.hands[0].x, kPressTouch, kSlowly)),
+                            felt = pressing(trace.part(trace.hands[0].f, kPressTouch, kSlowly));
+  if (felt.empty()) return mean(felt);
+  const double limit = trace.hands[0].force_max, most = std::min(*std::ranges::max_element(felt), limit);
   const double high = kSlopeHigh * most, low = kSlopeLow * (most > 2 * kSlopeLow * limit ? limit : most);
   const auto end =
-      static_cast<std::size_t>(std::ranges::find_if(p.felt, [&](double f) { return f > high; }) - p.felt.begin());
-  return slope(std::span{p.x}.first(end), std::span{p.felt}.first(end), low, high);
+      static_cast<std::size_t>(std::ranges::find_if(felt, [&](double f) { return f > high; }) - felt.begin());
+  return slope(std::span{x}.first(end), std::span{felt}.first(end), low, high);
 }
 
 /// Means while the hand holds still.
@@ -70,8 +56,9 @@ struct Held {
   double stiffness = 0;             ///< force on the hand over its depth [N/m]
 };
 Held held(const FeelTrace& trace, double end) {
-  const Pressed p = along_x(trace, kSteady, end);
-  return {mean(p.felt), std::abs(mean(p.felt) - mean(p.tool)), mean(p.felt) / mean(p.x)};
+  const double felt = mean(pressing(trace.part(trace.hands[0].f, kSteady, end)));
+  const double tool = mean(pressing(trace.part(trace.f_env, kSteady, end)));
+  return {felt, std::abs(felt - tool), felt / mean(along_x(trace.part(trace.hands[0].x, kSteady, end)))};
 }
 
 }  // namespace

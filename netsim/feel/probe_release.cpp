@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/base/format.h"
 #include "netsim/feel/meters.h"
@@ -15,8 +13,8 @@ constexpr double kPress = 0.004, kRelease = 4, kPull = 1;  // [m, s, N]
 // The device's damping, minus the effect of the sampled spring, lets the handle settle. On bone, at 0.93 of the
 // stiffness that a Touch renders, the time constant is 9 s.
 constexpr double kReleaseMeasure = 30, kReleaseEnd = 34;  // [s]
-constexpr double kReleaseBand = 0.5;  // [Hz]; below it is the drift of the pose under gravity compensation
-constexpr double kSettled = 1e-4;     // [m] RMS; an encoder step of a Touch is 5.5e-5
+constexpr double kReleaseBand = 0.5;               // [Hz]; below it is the drift of the pose under gravity compensation
+constexpr double kSettled = 1e-4;           // [m] RMS; an encoder step of a Touch is 5.5e-5
 
 }  // namespace
 
@@ -25,23 +23,19 @@ ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed) {
   const DrawnHand hand{setup.hands, seed, 0};
   double most = 0;
   for (const double k : kReleaseK) {
-    ProbeRun run;
-    run.length = kReleaseEnd;
-    run.frictionless = true;
-    run.environment = wall_of(k);
-    run.hands = {{hand.with_impedance(HandModel::kLettingGo, kFirmK, kFirmB, kFirmM)}};
+    ProbeRun run{.length = kReleaseEnd,
+                 .hands = {{firm(hand, HandModel::kLettingGo)}},
+                 .environment = wall_of(k),
+                 .frictionless = true};
     HandSpec& opens = run.hands[0].hand;
     opens.release_at = kRelease;
     opens.drags = {kPull * hand.factor(11, 0.7, 1.4), 0, 0};
     opens.trajectory.kind = Trajectory::Kind::kWaypoints;
     opens.trajectory.waypoints = {{1, {0, 0, 0}}, {3, {kPress, 0, 0}}};
     const FeelTrace trace = run_part(setup, run, seed, result);
-    const auto [first, end] = trace.window(kReleaseMeasure, kReleaseEnd);
-    const double amplitude =
-        rms_above(Series{trace.hands[0].x}.subspan(first, end - first), kReleaseBand, trace.tick_hz);
+    const double amplitude = rms_above(trace.part(trace.hands[0].x, kReleaseMeasure, kReleaseEnd), kReleaseBand, trace.tick_hz);
     result.values[format("released_%g_m", k)] = amplitude;
-    most = std::isnan(amplitude) || std::isnan(most) ? std::numeric_limits<double>::quiet_NaN()
-                                                     : std::max(most, amplitude);
+    most = larger(most, amplitude);
   }
   result.values["released_m"] = most;
   result.values["released_settles"] = std::isnan(most) ? most : most <= kSettled ? 1 : 0;

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
@@ -9,10 +5,6 @@
 /// back, then rests without tremor; a relaxed hand is pushed.
 namespace tandem::netsim {
 namespace {
-
-constexpr double kRestAway = 0.03, kRestMove = 0.3, kRestOut = 1, kRestBack = 2;  // [m, s, s, s]
-constexpr double kRestMeasure = 7.5, kRestEnd = 12.5;                             // [s]
-constexpr double kRestBand = 1;                                                   // [Hz]
 
 struct Resting {
   const char* key;
@@ -32,23 +24,15 @@ ProbeResult probe_rest(const FeelSetup& setup, std::uint64_t seed) {
   ProbeResult result;
   const DrawnHand hand{setup.hands, seed, 0};
   const DrawnHand steady{HandKind::kPlain, seed, 0};  // moves without tremor
-  const auto path = [](double t) {
-    return hal::Vec3(kRestAway * (hal::sim::min_jerk((t - kRestOut) / kRestMove).value -
-                                  hal::sim::min_jerk((t - kRestBack) / kRestMove).value),
-                     0, 0);
-  };
   double most = 0;
   for (const Resting& r : kHands) {
-    ProbeRun run;
-    run.length = kRestEnd;
-    run.hands = {{hand.with_impedance(r.model, r.k, r.b, r.m)}};
-    if (r.model == HandModel::kRecorded) run.hands[0].motion = steady.move(path, kRestEnd);
-    if (r.model == HandModel::kRelaxed) run.pushes = {{.hand = 0, .at = kRestBack, .force = {2, 0, 0}, .length = 0.1}};
+    ProbeRun run{.length = kCycleEnd, .hands = {{hand.with_impedance(r.model, r.k, r.b, r.m)}}};
+    if (r.model == HandModel::kRecorded) run.hands[0].motion = steady.move(kick_path, kCycleEnd);
+    if (r.model == HandModel::kRelaxed) run.pushes = {{.hand = 0, .at = kKickBack, .force = {2, 0, 0}, .length = 0.1}};
     const FeelTrace trace = run_part(setup, run, seed, result);
-    const auto [first, end] = trace.window(kRestMeasure, kRestEnd);
-    const double force = rms_above(Series{trace.hands[0].f}.subspan(first, end - first), kRestBand, trace.tick_hz);
+    const double force = limit_cycle(trace, trace.hands[0]);
     result.values[r.key] = force;
-    most = std::isnan(force) || std::isnan(most) ? std::numeric_limits<double>::quiet_NaN() : std::max(most, force);
+    most = larger(most, force);
   }
   result.values["limit_cycle_n"] = most;
   return result;

@@ -40,9 +40,7 @@ void add_row(FeelTrace& trace, const Simulation& simulation) {
 }  // namespace
 
 EnvironmentSpec wall_of(double k) {
-  EnvironmentSpec environment;
-  environment.wall = WallSpec{.axis = 0, .at = 0, .k = k, .b = 5, .from_below = true};
-  return environment;
+  return {.wall = WallSpec{.axis = 0, .at = 0, .k = k, .b = 5, .from_below = true}, .tissue = {}};
 }
 
 SimulationConfig simulation_config_of(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed) {

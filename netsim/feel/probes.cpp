@@ -1,6 +1,9 @@
 #include "netsim/feel/probes.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "netsim/feel/meters.h"
 
 namespace tandem::netsim {
 
@@ -45,26 +48,24 @@ FeelTrace run_part(const FeelSetup& setup, const ProbeRun& run, std::uint64_t se
   return trace;
 }
 
-ProbeResult run_probe(Probe probe, const FeelSetup& setup, std::uint64_t seed) {
-  switch (probe) {
-    case Probe::kPress:
-      return probe_press(setup, seed);
-    case Probe::kFree:
-      return probe_free(setup, seed);
-    case Probe::kGain:
-      return probe_gain(setup, seed);
-    case Probe::kRest:
-      return probe_rest(setup, seed);
-    case Probe::kRelease:
-      return probe_release(setup, seed);
-    case Probe::kHandOver:
-      return probe_handover(setup, seed);
-    case Probe::kShare:
-      return probe_share(setup, seed);
-    case Probe::kFollow:
-      return probe_follow(setup, seed);
-  }
-  return {};
+const ProbeName& row_of(Probe probe) { return *std::ranges::find(kProbes, probe, &ProbeName::probe); }
+
+IntendedPath press_path(double depth, double pressed) {
+  return [=](double t) {
+    const double approach = hal::sim::min_jerk(t - 1).value,
+                 press = hal::sim::min_jerk((t - kPressTouch) / (pressed - kPressTouch)).value;
+    return hal::Vec3(kPressFront * (approach - 1) + depth * press, 0, 0);
+  };
+}
+
+hal::Vec3 kick_path(double t) {
+  constexpr double kAway = 0.03, kMove = 0.3, kOut = 1;  // [m, s, s]
+  return {kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kKickBack) / kMove).value), 0,
+          0};
+}
+
+double limit_cycle(const FeelTrace& trace, const FeelTrace::Hand& hand) {
+  return rms_above(trace.part(hand.f, kCycleFrom, kCycleEnd), kCycleBand, trace.tick_hz);
 }
 
 }  // namespace tandem::netsim

@@ -22,22 +22,6 @@ enum class Probe : std::uint8_t {
   kShare,     ///< two hands that share a tool; one of them is kicked
   kFollow,    ///< a relaxed hand beside the hand that leads it
 };
-struct ProbeName {
-  Probe probe;
-  std::string_view name;
-  std::string_view description;
-};
-inline constexpr std::array<ProbeName, 8> kProbes{{
-    {Probe::kPress, "press", "pressing on bone and tissue"},
-    {Probe::kFree, "free", "free motion"},
-    {Probe::kGain, "gain", "tool over hand by frequency"},
-    {Probe::kRest, "rest", "resting hands after a kick"},
-    {Probe::kRelease, "release", "released hands against a spring"},
-    {Probe::kHandOver, "handover", "handing authority over in contact"},
-    {Probe::kShare, "share", "hands that share a tool, after a kick"},
-    {Probe::kFollow, "follow", "a relaxed hand beside the leader's"},
-}};
-
 /// Frequencies of Probe::kGain [Hz].
 inline constexpr std::array<double, 10> kGainHz{0.25, 0.5, 1, 2, 3, 4, 5, 6, 8, 10};
 /// Authority of the kicked hand in Probe::kShare.
@@ -67,8 +51,6 @@ struct ProbeResult {
   std::string trouble;  ///< failure of the first run that did not work; its numbers are NaN
 };
 
-[[nodiscard]] ProbeResult run_probe(Probe probe, const FeelSetup& setup, std::uint64_t seed);
-
 /// The single probes.
 [[nodiscard]] ProbeResult probe_press(const FeelSetup& setup, std::uint64_t seed);
 [[nodiscard]] ProbeResult probe_free(const FeelSetup& setup, std::uint64_t seed);
@@ -79,9 +61,52 @@ struct ProbeResult {
 [[nodiscard]] ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed);
 [[nodiscard]] ProbeResult probe_follow(const FeelSetup& setup, std::uint64_t seed);
 
+struct ProbeName {
+  Probe probe;
+  std::string_view name;
+  ProbeResult (*run)(const FeelSetup& setup, std::uint64_t seed);
+};
+inline constexpr std::array<ProbeName, 8> kProbes{{
+    {Probe::kPress, "press", probe_press},
+    {Probe::kFree, "free", probe_free},
+    {Probe::kGain, "gain", probe_gain},
+    {Probe::kRest, "rest", probe_rest},
+    {Probe::kRelease, "release", probe_release},
+    {Probe::kHandOver, "handover", probe_handover},
+    {Probe::kShare, "share", probe_share},
+    {Probe::kFollow, "follow", probe_follow},
+}};
+/// Returns the row of a probe in kProbes.
+[[nodiscard]] const ProbeName& row_of(Probe probe);
+
+[[nodiscard]] inline ProbeResult run_probe(Probe probe, const FeelSetup& setup, std::uint64_t seed) {
+  return row_of(probe).run(setup, seed);
+}
+
 /// Runs one part of a probe; adds its time and its trouble to `result`.
 [[nodiscard]] FeelTrace run_part(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed, ProbeResult& result);
 /// Impedance of an ideal user who guides a tool firmly; HandModel::kRecorded. [N/m, N s/m, kg]
 inline constexpr double kFirmK = 1000, kFirmB = 10, kFirmM = 0.1;
+/// Returns that user's hand with the impedance of `hand`.
+[[nodiscard]] inline HandSpec firm(const DrawnHand& hand, HandModel model = HandModel::kRecorded) {
+  return hand.with_impedance(model, kFirmK, kFirmB, kFirmM);
+}
+/// Returns the hand of a user who follows without effort.
+[[nodiscard]] inline HandSpec relaxed(const DrawnHand& hand) {
+  return hand.with_impedance(HandModel::kRelaxed, 0, 2, 0.1);
+}
+
+/// Path of a press along x on a wall at 0: the hand starts kPressFront in front of it, touches it at kPressTouch, and
+/// is `depth` behind its surface from `pressed` on [m, s].
+inline constexpr double kPressFront = 0.010, kPressTouch = 2;
+[[nodiscard]] IntendedPath press_path(double depth, double pressed);
+
+/// Limit cycles of hands at rest: the force above kCycleBand [Hz] from kCycleFrom to kCycleEnd [s], after a kick.
+inline constexpr double kCycleFrom = 7.5, kCycleEnd = 12.5, kCycleBand = 1;
+/// Path of a kick along x: 30 mm within 0.3 s, and back from kKickBack [s] on.
+inline constexpr double kKickBack = 2;
+[[nodiscard]] hal::Vec3 kick_path(double t);
+/// Returns the RMS force on a hand of the trace in a limit cycle [N].
+[[nodiscard]] double limit_cycle(const FeelTrace& trace, const FeelTrace::Hand& hand);
 
 }  // namespace tandem::netsim

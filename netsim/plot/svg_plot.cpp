@@ -1,6 +1,7 @@
 #include "netsim/plot/svg_plot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -22,14 +23,14 @@ struct Frame {
   [[nodiscard]] double py(double v) const { return (y.hi - v) / (y.hi - y.lo) * height; }
 };
 
+/// Returns a coordinate in tenths of a pixel.
+long long tenths(double v) { return std::llround(std::clamp(v, -1e6, 1e6) * 10); }
+
 /// Returns a coordinate to a tenth of a pixel, in ASCII.
 std::string px_text(double v) {
-  const auto tenths = static_cast<long long>(std::llround(std::clamp(v, -1e6, 1e6) * 10));
-  std::string text = tenths < 0 ? "-" : "";
-  const auto magnitude = static_cast<unsigned long long>(tenths < 0 ? -tenths : tenths);
-  text += std::to_string(magnitude / 10);
-  if (magnitude % 10 != 0) (text += '.') += static_cast<char>('0' + magnitude % 10);
-  return text;
+  const long long t = tenths(v), magnitude = std::abs(t);
+  return (t < 0 ? "-" : "") + std::to_string(magnitude / 10) +
+         (magnitude % 10 != 0 ? "." + std::to_string(magnitude % 10) : "");
 }
 
 void text_at(std::ostream& out, double x, double y, std::string_view kind, std::string_view text,
@@ -43,11 +44,6 @@ void line(std::ostream& out, double x1, double y1, double x2, double y2, std::st
       << "\" y2=\"" << px_text(y2) << "\"/>";
 }
 
-/// Returns the number of characters of UTF-8 text; all characters here are one column wide.
-double characters(std::string_view text) {
-  return static_cast<double>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 void draw_curve(std::ostream& out, const Frame& f, const Curve& curve) {
   // More than two points per pixel are not visible.
   const auto most = std::clamp<std::size_t>(static_cast<std::size_t>(2 * f.width), 4, kCurvePointsMax);
@@ -57,7 +53,6 @@ void draw_curve(std::ostream& out, const Frame& f, const Curve& curve) {
   at = curve.path ? downsample_path(at, 1.0, most) : downsample_extremes(at, most);
   if (at.empty()) return;
   // Relative moves in tenths of a pixel. Their exact sum keeps rounding errors from accumulating.
-  const auto tenths = [](double v) { return std::llround(std::clamp(v, -1e6, 1e6) * 10); };
   long long x = tenths(at.front().x), y = tenths(at.front().y);
   out << "<path class=\"line " << curve.ink << "\" d=\"M" << px_text(at.front().x) << ' ' << px_text(at.front().y)
       << 'l';
@@ -196,27 +191,23 @@ Frame frame_of(const Panel& panel, double left, double top, double width) {
   return f;
 }
 
+struct Entity {
+  char character;
+  std::string_view text;
+};
+constexpr std::array<Entity, 4> kEntities{{{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}}};
+
 }  // namespace
 
 std::string escaped(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
+    const auto* const entity = std::ranges::find(kEntities, c, &Entity::character);
+    if (entity == kEntities.end()) {
+      out += c;
+    } else {
+      out += entity->text;
     }
   }
   return out;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Round numbers for axes. Pure functions.
@@ -15,6 +16,9 @@ struct Ticks {
 /// Returns round numbers within [lo, hi], about `wanted` of them and never more than 2 * wanted + 2. Bounds that are
 /// not finite or not in order give no ticks.
 [[nodiscard]] Ticks round_ticks(double lo, double hi, int wanted);
+
+/// Returns the number of characters of UTF-8 text; all characters here are one column wide.
+[[nodiscard]] double characters(std::string_view text);
 
 /// Returns `value` with this number of decimals and the minus sign U+2212; "-0.0" is printed as "0.0". A value that is
 /// not finite gives an en dash.

@@ -7,61 +7,41 @@
 #include <string>
 
 #include "common/base/csv.h"
+#include "netsim/profiles/table_errors.h"
 
 namespace tandem::netsim {
 namespace {
 
 constexpr std::int64_t kMsMax = 10'000'000'000;
-
-class UsageErrors {
- public:
-  explicit UsageErrors(std::string_view file) : file_(file) {}
-  void add(std::size_t line, std::size_t column, std::string key, std::string_view value, std::string message) {
-    if (all_.size() < kCsvErrorsMax) {
-      all_.push_back({file_, static_cast<int>(line), static_cast<int>(column), std::move(key),
-                      std::string(value.substr(0, 40)), std::move(message)});
-    }
-  }
-  [[nodiscard]] InputErrors& all() noexcept { return all_; }
-
- private:
-  std::string file_;
-  InputErrors all_;
-};
-
 using Traces = std::array<std::shared_ptr<CapacityTrace>, kDirections>;
 
-void read_table(const CsvTable& table, Traces& traces, UsageErrors& mistakes) {
+void read_table(const CsvTable& table, Traces& traces, TableErrors& mistakes) {
   const auto direction = table.find("direction"), time = table.find("t_ms"), count = table.find("opportunities");
   if (!direction || !time || !count) {
-    return mistakes.add(1, 1, "", "", "needs the columns direction[...], t_ms[...] and opportunities[...]");
+    return mistakes.add("needs the columns direction[...], t_ms[...] and opportunities[...]");
   }
   if (const std::string& unit = table.columns()[*time].unit; unit != "ms" && !unit.starts_with("ms "))
     return mistakes.add(1, *time + 1, "t_ms", "[" + unit + "]", "its unit must be [ms]; convert the column");
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const auto wrong = [&](std::size_t column, std::string message) {
-      mistakes.add(table.line(row), column + 1, table.columns()[column].name, table.cell(row, column),
-                   std::move(message));
-    };
     const auto whole = [&](std::size_t column, double lo, double hi) -> std::int64_t {
       const auto value = table.number(row, column);
       if (value && *value >= lo && *value <= hi && *value == std::floor(*value))
         return static_cast<std::int64_t>(*value);
-      wrong(column, "must be a whole number in range");
+      mistakes.add(table, row, column, "must be a whole number in range");
       return -1;
     };
     const std::string_view name = table.cell(row, *direction);
-    if (name != "up" && name != "down") wrong(*direction, "must be up or down");
+    if (name != "up" && name != "down") mistakes.add(table, row, *direction, "must be up or down");
     const std::int64_t ms = whole(*time, 0, static_cast<double>(kMsMax));
     const std::int64_t opportunities = whole(*count, 1, 1e6);
     if (ms < 0 || opportunities < 0) continue;
     auto& entries = traces[name == "down" ? 1 : 0]->entries;
-    if (!entries.empty() && ms <= entries.back().ms) wrong(*time, "time does not go on");
+    if (!entries.empty() && ms <= entries.back().ms) mistakes.add(table, row, *time, "time does not go on");
     entries.push_back({ms, static_cast<std::uint64_t>(opportunities)});
   }
 }
 
-void read_lines(std::string_view text, CapacityTrace& trace, UsageErrors& mistakes) {
+void read_lines(std::string_view text, CapacityTrace& trace, TableErrors& mistakes) {
   for (std::size_t line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
     std::string_view cell = text.substr(0, end);
@@ -84,14 +64,14 @@ void read_lines(std::string_view text, CapacityTrace& trace, UsageErrors& mistak
 }  // namespace
 
 std::expected<LinkSpec, InputErrors> parse_capacity(std::string_view text, std::string_view file_name) {
-  UsageErrors mistakes{file_name};
+  TableErrors mistakes{file_name};
   Traces traces{std::make_shared<CapacityTrace>(), std::make_shared<CapacityTrace>()};
   if (text.find(',') != std::string_view::npos) {
     const auto table = CsvTable::parse(text);
     if (table) {
       read_table(*table, traces, mistakes);
     } else {
-      mistakes.add(table.error().line, table.error().column, "", "", table.error().message);
+      mistakes.add(table.error());
     }
   } else {
     read_lines(text, *traces[0], mistakes);
@@ -101,13 +81,13 @@ std::expected<LinkSpec, InputErrors> parse_capacity(std::string_view text, std::
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     auto& trace = traces[static_cast<std::size_t>(direction)];
     if (trace->entries.empty()) {
-      if (mistakes.all().empty()) mistakes.add(1, 1, "", "", std::string("holds no opportunity ") + name(direction));
+      if (mistakes.empty()) mistakes.add(std::string("holds no opportunity ") + name(direction));
       break;
     }
     trace->period = std::chrono::milliseconds(trace->entries.back().ms + 1);
     link[direction].rate.trace = trace;
   }
-  if (!mistakes.all().empty()) return std::unexpected(std::move(mistakes.all()));
+  if (!mistakes.empty()) return mistakes.take();
   return link;
 }
 

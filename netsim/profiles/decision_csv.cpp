@@ -8,6 +8,7 @@
 
 #include "common/base/csv.h"
 #include "common/base/suggestions.h"
+#include "netsim/profiles/table_errors.h"
 
 namespace tandem::netsim {
 namespace {
@@ -16,56 +17,52 @@ enum Column : std::size_t { kIn, kLink, kDirection, kFlow, kIndex, kSize, kVerdi
 constexpr std::array<const char*, kColumns> kNames{"t_in_ns", "link",    "dir",      "flow", "idx",
                                                    "size",    "verdict", "t_out_ns", "cause"};
 
+/// Parses the whole text as a number that is not negative. @return false if it is none
+bool read_whole(std::string_view text, auto& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && !text.empty();
+}
+
 /// Parses `cut 12` or `flipped 3 1234567`.
 bool read_damage(std::string_view text, Corruption& damage) {
-  const auto number = [](std::string_view word, auto& value) {
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc{} && end == word.data() + word.size() && !word.empty();
-  };
   if (text.starts_with("cut ")) {
     damage.kind = Corruption::Kind::kTruncated;
-    return number(text.substr(4), damage.length);
+    return read_whole(text.substr(4), damage.length);
   }
   if (!text.starts_with("flipped ")) return false;
   text.remove_prefix(8);
   const std::size_t space = text.find(' ');
   if (space == text.npos) return false;
   damage.kind = Corruption::Kind::kBitFlips;
-  return number(text.substr(0, space), damage.bits) && number(text.substr(space + 1), damage.seed);
+  return read_whole(text.substr(0, space), damage.bits) && read_whole(text.substr(space + 1), damage.seed);
 }
 
 class DecisionCsvReader {
  public:
-  DecisionCsvReader(const CsvTable& table, std::string_view file) : table_(table), file_(file) {}
+  DecisionCsvReader(const CsvTable& table, std::string_view file) : table_(table), errors_(file) {}
 
   std::expected<std::vector<Decision>, InputErrors> read() {
     for (std::size_t c = 0; c < kColumns; ++c) {
       if (const auto found = table_.find(kNames[c])) {
         column_[c] = *found;
       } else {
-        mistake({std::string(file_), 1, 1, kNames[c], "", "this column of a decision log is missing"});
+        errors_.add(1, 1, kNames[c], "", "this column of a decision log is missing");
       }
     }
-    if (errors_.empty() && table_.rows() == 0) mistake({std::string(file_), 1, 1, "", "", "holds no decision"});
+    if (errors_.empty() && table_.rows() == 0) errors_.add("holds no decision");
     if (errors_.empty()) rows();
-    if (!errors_.empty()) return std::unexpected(std::move(errors_));
+    if (!errors_.empty()) return errors_.take();
     return std::move(rows_);
   }
 
  private:
-  void mistake(InputError error) {
-    if (errors_.size() < kCsvErrorsMax) errors_.push_back(std::move(error));
-  }
   void mistake(std::size_t row, Column c, std::string message) {
-    mistake({std::string(file_), static_cast<int>(table_.line(row)), static_cast<int>(column_[c] + 1), kNames[c],
-             std::string(table_.cell(row, column_[c]).substr(0, 40)), std::move(message)});
+    errors_.add(table_, row, column_[c], std::move(message));
   }
 
   std::uint64_t whole(std::size_t row, Column c, std::uint64_t max) {
-    const std::string_view cell = table_.cell(row, column_[c]);
     std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error == std::errc{} && end == cell.data() + cell.size() && !cell.empty() && value <= max) return value;
+    if (read_whole(table_.cell(row, column_[c]), value) && value <= max) return value;
     mistake(row, c, "must be a whole number in [0, " + std::to_string(max) + "]");
     return 0;
   }
@@ -111,7 +108,7 @@ class DecisionCsvReader {
     constexpr std::uint64_t kTime = std::uint64_t{1} << 62;
     constexpr std::uint64_t kNumber = std::numeric_limits<std::uint32_t>::max();
     rows_.reserve(table_.rows());
-    for (std::size_t row = 0; row < table_.rows() && errors_.size() < kCsvErrorsMax; ++row) {
+    for (std::size_t row = 0; row < table_.rows() && !errors_.full(); ++row) {
       Decision d;
       d.in = Time{Duration{static_cast<std::int64_t>(whole(row, kIn, kTime))}};
       d.out = Time{Duration{static_cast<std::int64_t>(whole(row, kOut, kTime))}};
@@ -132,17 +129,16 @@ class DecisionCsvReader {
       const Decision &a = rows_[i - 1], &b = rows_[i];
       if (a.in == b.in && a.link == b.link && a.flow == b.flow && a.direction == b.direction && a.index == b.index &&
           a.copy == b.copy) {
-        mistake({std::string(file_), 0, 0, "idx", std::to_string(b.index),
-                 "flow " + std::to_string(b.flow) + " " + name(b.direction) + " holds this datagram twice"});
+        errors_.add(0, 0, "idx", std::to_string(b.index),
+                    "flow " + std::to_string(b.flow) + " " + name(b.direction) + " holds this datagram twice");
       }
     }
   }
 
   const CsvTable& table_;
-  std::string_view file_;
   std::array<std::size_t, kColumns> column_{};
   std::vector<Decision> rows_;
-  InputErrors errors_;
+  TableErrors errors_;
 };
 
 }  // namespace
@@ -151,9 +147,9 @@ std::expected<std::vector<Decision>, InputErrors> parse_decision_csv(std::string
                                                                      std::string_view file_name) {
   const auto table = CsvTable::parse(text);
   if (!table) {
-    const CsvError& e = table.error();
-    return std::unexpected(
-        InputErrors{{std::string(file_name), static_cast<int>(e.line), static_cast<int>(e.column), "", "", e.message}});
+    TableErrors errors{file_name};
+    errors.add(table.error());
+    return errors.take();
   }
   return DecisionCsvReader(*table, file_name).read();
 }

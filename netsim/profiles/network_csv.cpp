@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/csv.h"
+#include "netsim/profiles/table_errors.h"
 
 namespace tandem::netsim {
 namespace {
@@ -18,45 +19,35 @@ class NetworkCsvReader {
  public:
   NetworkCsvReader(const CsvTable& table, std::string_view file, Duration interval)
       : table_(table),
-        file_(file),
         interval_(interval),
         rtt_(table.find("rtt_ms")),
         delay_(table.find("delay_ms")),
         time_(table.find("t_s")),
-        lost_(table.find("lost")) {
+        lost_(table.find("lost")),
+        errors_(file) {
     if (!time_) time_ = table.find("t_send_s");
   }
 
   std::expected<RecordedNetwork, InputErrors> read() {
     columns();
     if (errors_.empty()) rows();
-    if (!errors_.empty()) return std::unexpected(std::move(errors_));
+    if (!errors_.empty()) return errors_.take();
     return finish();
   }
 
  private:
-  void mistake(std::size_t line, std::size_t column, std::string key, std::string_view value, std::string message) {
-    if (errors_.size() < kCsvErrorsMax) {
-      errors_.push_back({std::string(file_), static_cast<int>(line), static_cast<int>(column), std::move(key),
-                         std::string(value.substr(0, 40)), std::move(message)});
-    }
-  }
-  void mistake(std::size_t row, std::size_t column, std::string message) {
-    mistake(table_.line(row), column + 1, table_.columns()[column].name, table_.cell(row, column), std::move(message));
-  }
-
   void columns() {
-    if (rtt_ && delay_) mistake(1, 1, "", "", "rtt_ms and delay_ms exclude each other");
-    if (!rtt_ && !delay_) mistake(1, 1, "", "", "needs a column rtt_ms[ms] or delay_ms[ms]");
+    if (rtt_ && delay_) errors_.add("rtt_ms and delay_ms exclude each other");
+    if (!rtt_ && !delay_) errors_.add("needs a column rtt_ms[ms] or delay_ms[ms]");
     if (!time_ && interval_ <= Duration::zero()) {
-      mistake(1, 1, "", "",
-              "has no column t_s[s] or t_send_s[s]: give the time between rows, --trace-interval MS (in a scenario "
-              "trace_interval_ms)");
+      errors_.add(
+          "has no column t_s[s] or t_send_s[s]: give the time between rows, --trace-interval MS (in a scenario "
+          "trace_interval_ms)");
     }
     for (const auto& column : {rtt_, delay_}) unit(column, "ms");
     unit(time_, "s");
     unit(lost_, "1");
-    if (table_.rows() == 0) mistake(1, 1, "", "", "holds no row");
+    if (table_.rows() == 0) errors_.add("holds no row");
   }
 
   /// Checks the unit of a column. The column's name determines how its numbers are read, so a wrong unit would silently
@@ -67,8 +58,8 @@ class NetworkCsvReader {
     if (head.unit == must || head.unit.starts_with(std::string(must) + " ") ||
         head.unit.starts_with(std::string(must) + ";"))
       return;
-    mistake(1, *column + 1, head.name, "[" + head.unit + "]",
-            "its unit must be [" + std::string(must) + "]; convert the column");
+    errors_.add(1, *column + 1, head.name, "[" + head.unit + "]",
+                "its unit must be [" + std::string(must) + "]; convert the column");
   }
 
   void rows() {
@@ -78,7 +69,7 @@ class NetworkCsvReader {
       DelayTrace::Step step;
       const auto ms = table_.optional_number(row, value);
       if (!ms || (*ms && !(**ms >= 0 && **ms <= kDelayMaxMs))) {
-        mistake(row, value, "must be a number in [0, 60000] ms, or empty for lost");
+        errors_.add(table_, row, value, "must be a number in [0, 60000] ms, or empty for lost");
       } else if (*ms) {
         step.delay = Duration{std::llround(**ms * (rtt_ ? 0.5e6 : 1e6))};
       } else {
@@ -87,18 +78,18 @@ class NetworkCsvReader {
       if (lost_) {
         const std::string_view lost = table_.cell(row, *lost_);
         if (lost == "1") step.lost = true;
-        if (lost != "1" && lost != "0" && !lost.empty()) mistake(row, *lost_, "must be 0 or 1");
+        if (lost != "1" && lost != "0" && !lost.empty()) errors_.add(table_, row, *lost_, "must be 0 or 1");
       }
       step.at = interval_ * static_cast<std::int64_t>(row);
       if (time_) {
         const auto s = table_.number(row, *time_);
         if (!s || std::abs(*s) > kTimeMaxS) {
-          mistake(row, *time_, "must be a number of seconds");
+          errors_.add(table_, row, *time_, "must be a number of seconds");
           continue;
         }
         if (row == 0) start_s = *s;
         step.at = from_seconds(*s - start_s);
-        if (!steps_.empty() && step.at <= steps_.back().at) mistake(row, *time_, "time does not go on");
+        if (!steps_.empty() && step.at <= steps_.back().at) errors_.add(table_, row, *time_, "time does not go on");
       }
       steps_.push_back(step);
     }
@@ -122,17 +113,17 @@ class NetworkCsvReader {
   }
 
   RecordedNetwork finish() {
-    RecordedNetwork network;
-    auto trace = std::make_shared<DelayTrace>();
     // The last row is in force for the mean row distance; a single row lasts forever, because the recording repeats.
     const Duration last = steps_.back().at;
     const auto gaps = static_cast<std::int64_t>(steps_.size()) - 1;
+    auto trace = std::make_shared<DelayTrace>();
     trace->period = last + (gaps > 0 ? std::max(last / gaps, Duration{1}) : Duration{1'000'000'000});
-    for (const DelayTrace::Step& step : steps_) network.lost += step.lost ? 1 : 0;
-    network.rows = steps_.size();
-    network.rtt_split = rtt_.has_value();
-    network.timed = time_.has_value();
-    network.length = trace->period;
+    RecordedNetwork network{.link = {},
+                            .rtt_split = rtt_.has_value(),
+                            .rows = steps_.size(),
+                            .lost = static_cast<std::size_t>(std::ranges::count_if(steps_, &DelayTrace::Step::lost)),
+                            .length = trace->period,
+                            .timed = time_.has_value()};
     find_gaps(network);
     trace->steps = std::move(steps_);
     network.link.up.trace = trace;
@@ -141,11 +132,10 @@ class NetworkCsvReader {
   }
 
   const CsvTable& table_;
-  std::string_view file_;
   Duration interval_;
   std::optional<std::size_t> rtt_, delay_, time_, lost_;
   std::vector<DelayTrace::Step> steps_;
-  InputErrors errors_;
+  TableErrors errors_;
 };
 
 }  // namespace
@@ -168,9 +158,9 @@ std::expected<RecordedNetwork, InputErrors> parse_network_csv(std::string_view t
                                                               Duration interval) {
   const auto table = CsvTable::parse(text);
   if (!table) {
-    const CsvError& e = table.error();
-    return std::unexpected(
-        InputErrors{{std::string(file_name), static_cast<int>(e.line), static_cast<int>(e.column), "", "", e.message}});
+    TableErrors errors{file_name};
+    errors.add(table.error());
+    return errors.take();
   }
   return NetworkCsvReader(*table, file_name, interval).read();
 }

@@ -26,7 +26,7 @@ constexpr Embedded kEmbedded[] = {
 std::vector<ShippedProfile> sorted() {
   std::vector<ShippedProfile> all;
   for (const Embedded& profile : kEmbedded) all.push_back({profile.name, profile.text});
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::ranges::sort(all, {}, &ShippedProfile::name);
   return all;
 }
 
@@ -83,10 +83,9 @@ std::expected<Profile, InputErrors> shipped_profile(std::string_view name) {
     if (profile.name == name) return parse_profile(profile.text, std::string(name) + ".textproto");
     names.emplace_back(profile.name);
   }
-  InputError error;
-  error.message = "no profile is called \"" + std::string(name) + "\"; " + suggest(name, names) +
-                  "; a file needs its path or its ending, such as my.textproto";
-  return std::unexpected(InputErrors{error});
+  return std::unexpected(InputErrors{{"", 0, 0, "", "",
+                                      "no profile is called \"" + std::string(name) + "\"; " + suggest(name, names) +
+                                          "; a file needs its path or its ending, such as my.textproto"}});
 }
 
 }  // namespace tandem::netsim

@@ -28,21 +28,20 @@ std::vector<plot::Band> lost_spans(const ProfilePreviewDirection& way, std::size
 plot::Panel over_time(const ProfilePreview& portrait, Direction direction, const std::string& title) {
   const auto d = static_cast<std::size_t>(direction);
   const ProfilePreviewDirection& way = portrait.ways[d];
-  plot::Panel panel;
-  panel.title = title + ", " + name(direction) + ": delay, and what was lost";
-  panel.x_label = "time [s]";
-  panel.y_label = "delay [ms]";
-  panel.height = 190;
-  panel.x = plot::Range{0, seconds(portrait.shown)};
-  panel.y_span_min = 1;
+  plot::Panel panel{.title = title + ", " + name(direction) + ": delay, and what was lost",
+                    .x_label = "time [s]",
+                    .y_label = "delay [ms]",
+                    .bands = lost_spans(way, kOutageFrom),
+                    .rug = lost_spans(way, 1),
+                    .x = plot::Range{0, seconds(portrait.shown)},
+                    .y_span_min = 1,
+                    .height = 190};
   plot::Curve curve{"", d == 0 ? "up" : "down", {}, false};
   for (std::size_t i = 0; i < way.shown.size(); ++i) {
     if (way.shown[i] == ProfilePreviewDirection::kLost) continue;
     curve.points.push_back({static_cast<double>(i) * 1e-3, way.shown[i] * 1e-3});
   }
   panel.curves.push_back(std::move(curve));
-  panel.bands = lost_spans(way, kOutageFrom);
-  panel.rug = lost_spans(way, 1);
   return panel;
 }
 
@@ -50,12 +49,11 @@ plot::Panel over_time(const ProfilePreview& portrait, Direction direction, const
 double nines(double share) { return -std::log10(std::max(1 - share, 1e-12)); }
 
 plot::Panel distribution(const ProfilePreview& portrait, const std::vector<ExpectedQuantile>& promised) {
-  plot::Panel panel;
-  panel.title = format("distribution over %.0f minutes", seconds(portrait.length) / 60);
-  panel.x_label = "share that is faster: 0 none, 1 is 90 %, 2 is 99 %, 3 is 99.9 %, ...";
-  panel.y_label = "delay [ms]";
-  panel.height = 220;
-  panel.y_span_min = 1;
+  plot::Panel panel{.title = format("distribution over %.0f minutes", seconds(portrait.length) / 60),
+                    .x_label = "share that is faster: 0 none, 1 is 90 %, 2 is 99 %, 3 is 99.9 %, ...",
+                    .y_label = "delay [ms]",
+                    .y_span_min = 1,
+                    .height = 220};
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     const auto d = static_cast<std::size_t>(direction);
     const ProfilePreviewDirection& way = portrait.ways[d];
@@ -84,11 +82,10 @@ plot::Panel distribution(const ProfilePreview& portrait, const std::vector<Expec
 
 plot::Figure profile_preview_figure(const ProfilePreview& portrait, const std::string& title,
                                     const std::vector<ExpectedQuantile>& promised) {
-  plot::Figure figure;
-  figure.description = title;
-  figure.panels = {over_time(portrait, Direction::kUp, title), over_time(portrait, Direction::kDown, title),
-                   distribution(portrait, promised)};
-  return figure;
+  return {title,
+          1,
+          {over_time(portrait, Direction::kUp, title), over_time(portrait, Direction::kDown, title),
+           distribution(portrait, promised)}};
 }
 
 }  // namespace tandem::netsim

@@ -55,6 +55,12 @@ std::string right(std::string text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }
 
+/// Returns the line without spaces at its end, and a line feed.
+std::string trimmed(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
 std::string axis(double length_s, std::size_t columns, bool utf8) {
   std::string line, numbers(columns + 8, ' ');
   const plot::Ticks ticks = plot::round_ticks(0, length_s, std::max(2, static_cast<int>(columns / 12)));
@@ -66,12 +72,7 @@ std::string axis(double length_s, std::size_t columns, bool utf8) {
     numbers.replace(at, text.size(), text);
   }
   for (std::size_t c = 0; c < columns; ++c) line += utf8 ? (marked[c] ? "┴" : "─") : (marked[c] ? "+" : "-");
-  while (!numbers.empty() && numbers.back() == ' ') numbers.pop_back();
-  return std::string(kLabel, ' ') + (utf8 ? "└" : "+") + line + "\n" + std::string(kLabel + 1, ' ') + numbers + "\n";
-}
-
-void trim(std::string& line) {
-  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return std::string(kLabel, ' ') + (utf8 ? "└" : "+") + line + "\n" + trimmed(std::string(kLabel + 1, ' ') + numbers);
 }
 
 }  // namespace
@@ -105,15 +106,13 @@ std::string delay_picture(const ProfilePreviewDirection& way, Duration shown, co
         row % 2 == 0 || row + 1 == kRows ? delay_text(scale.begin_of(row + 1 == kRows ? kRows : row)) : "", kLabel - 1);
     line += style.utf8 ? " │" : " |";
     for (std::size_t c = 0; c < columns; ++c) line += shade(share(cells[c][row], c), style.utf8);
-    trim(line);
-    text += line + "\n";
+    text += trimmed(std::move(line));
   }
   text += axis(seconds(shown), columns, style.utf8);
   std::string line = right("lost", kLabel - 1) + "  ";
   for (std::size_t c = 0; c < columns; ++c) line += shade(share(lost[c], c), style.utf8);
-  trim(line);
   const auto legend = [&](double s) { return std::string(shade(s, style.utf8)); };
-  return text + line + "\n" + std::string(kLabel + 1, ' ') +
+  return text + trimmed(std::move(line)) + std::string(kLabel + 1, ' ') +
          "each mark: a share of what was sent then: " + legend(0.001) + " below 1 %  " + legend(0.05) +
          " below 10 %  " + legend(0.2) + " below half  " + legend(1) + " more\n";
 }
@@ -141,8 +140,7 @@ std::string delay_histogram(const ProfilePreviewDirection& way, const PictureSty
     if (halves % 2 == 1 || (halves == 0 && counts[row] > 0)) bar += style.utf8 ? "▌" : ".";
     std::string line = right("to " + delay_text(scale.begin_of(row + 1)), kLabel + 4) + right(share_text(share), 10) +
                        right(share_text(static_cast<double>(below) / all), 10) + "  " + bar;
-    trim(line);
-    text += line + "\n";
+    text += trimmed(std::move(line));
   }
   return text;
 }

@@ -108,11 +108,13 @@ void ChildProcess::signal(int number) noexcept {
   if (running()) ::kill(pid_, number);
 }
 
-std::string ChildProcess::output() const {
-  std::ifstream file(log_);
+std::string ChildProcess::output() const { return read_text(log_).value_or(""); }
+
+std::optional<std::string> read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
-  return text.str();
+  return file ? std::optional(text.str()) : std::nullopt;
 }
 
 void end_all(std::span<ChildProcess> children) noexcept {

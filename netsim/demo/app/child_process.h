@@ -29,7 +29,6 @@ class ChildProcess {
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const std::string& log() const noexcept { return log_; }
-  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
   /// Returns whether the process still runs; reaps it if it ended.
   [[nodiscard]] bool running() noexcept;
   /// Returns the exit code of a process that ended; 128 + n after signal n. Empty while it runs.
@@ -48,6 +47,9 @@ class ChildProcess {
 
 /// Ends the processes that still run: SIGINT, then SIGTERM, then SIGKILL, with a time limit for each step.
 void end_all(std::span<ChildProcess> children) noexcept;
+
+/// Returns the contents of a file; empty if it cannot be read.
+[[nodiscard]] std::optional<std::string> read_text(const std::string& path);
 
 /// Returns the command as a user would type it.
 [[nodiscard]] std::string command_text(const std::vector<std::string>& arguments);

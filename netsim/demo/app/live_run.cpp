@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <sstream>
 #include <thread>
 #include <utility>
@@ -117,11 +116,9 @@ bool LiveRunProcesses::wait_for_end() {
 }
 
 std::expected<std::string, std::string> LiveRunProcesses::contents(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) return std::unexpected(path + " cannot be read");
-  return text.str();
+  auto text = read_text(path);
+  if (!text) return std::unexpected(path + " cannot be read");
+  return std::move(*text);
 }
 
 std::expected<RawRun, std::string> LiveRunProcesses::play() {

@@ -6,12 +6,11 @@
 #include <optional>
 
 #include "common/base/milliseconds.h"
-#include "common/transport/digest.h"
 #include "netsim/demo/app/network_series.h"
-#include "netsim/system/simulation_report.h"
+#include "netsim/system/run_simulation.h"
+#include "netsim/system/simulation.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
-#include "server/report/trace_csv.h"
 
 namespace tandem::netsim::demo {
 namespace {
@@ -59,28 +58,23 @@ std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunObser
   DecisionLog decisions{bad ? static_cast<std::size_t>(kDecisionsPerSecond * (plan.duration_s + kJoining)) : 0};
   if (bad) simulation.network().log_to(&decisions);
   std::optional<Time> begun;
-  server::ReportBuilder builder{simulation.scene()};
-  const server::TraceCsv csv{simulation.scene()};
-
   RawRun run;
-  run.trace = csv.header();
-  for (std::uint64_t n = 0; simulation.step(); ++n) {
-    builder.add(simulation.record());
-    if (simulation.record().running) {
-      csv.append(simulation.record(), run.trace);
-      if (!begun) begun = simulation.now();
-    }
-    if (n % 250 != 0) continue;
-    if (observer.stop->load()) return std::unexpected(kInterrupted);
-    observer.progress(simulation.session().clock().time());
-  }
-  if (!simulation.trouble().empty()) return std::unexpected(simulation.trouble());
-  server::RunReport report = simulation_report(simulation, builder, setup.seed);
-  transport::Digest digest;
-  digest.add(run.trace);
-  report.trace_hash = digest.hex();
-  report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  run.json = server::to_json(report);
+  SimulationResult result = run_simulation(simulation, setup.seed,
+                                           {.keep_running =
+                                                [&](double session_s) {
+                                                  observer.progress(session_s);
+                                                  return !observer.stop->load();
+                                                },
+                                            .trace = [&](std::string_view rows) { run.trace += rows; },
+                                            .tick =
+                                                [&](Simulation& now) {
+                                                  if (!begun && now.record().running) begun = now.now();
+                                                }});
+  if (result.interrupted) return std::unexpected(kInterrupted);
+  if (!result.trouble.empty()) return std::unexpected(result.trouble);
+  result.report.feel.clear();  // the demo measures its own numbers
+  result.report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  run.json = server::to_json(result.report);
   if (begun) run.network = network_series(decisions.rows(), *begun, plan.duration_s);
   return run;
 }

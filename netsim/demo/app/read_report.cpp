@@ -28,50 +28,45 @@ double sum(double a, double b) {
 }
 
 SeatNumbers seat_numbers(const Json& j) {
-  SeatNumbers s;
-  s.tracking_m = number(j, "tracking_rms_m");
-  s.lag_removed_m = number(j, "tracking_rms_lag_removed_m");
-  s.transport_lag_m = number(j, "transport_lag_rms_m");
-  s.force_error_n = number(j, "force_error_rms_n");
-  s.force_error_commanded_n = number(j, "force_error_commanded_rms_n");
+  SeatNumbers s{.tracking_m = number(j, "tracking_rms_m"),
+                .lag_removed_m = number(j, "tracking_rms_lag_removed_m"),
+                .transport_lag_m = number(j, "transport_lag_rms_m"),
+                .force_error_n = number(j, "force_error_rms_n"),
+                .force_error_commanded_n = number(j, "force_error_commanded_rms_n")};
   if (const auto joints = j.find("joint_rms_rad"); joints != j.end() && joints->is_array())
     for (std::size_t k = 0; k < std::min<std::size_t>(3, joints->size()); ++k)
       if ((*joints)[k].is_number()) s.joint_rad[k] = (*joints)[k].get<double>();
   return s;
 }
 
-LinkNumbers link_numbers(const Json& seat) {
-  LinkNumbers l;
-  const auto link = seat.find("link");
-  if (link == seat.end()) return l;
-  l.rtt_p50_ms = number(*link, "rtt_p50_ms");
-  l.rtt_p99_ms = number(*link, "rtt_p99_ms");
-  if (const auto up = link->find("up"); up != link->end())
-    l.loss_up_percent = number(*up, "loss_percent"), l.gap_up_ms = number(*up, "longest_gap_ms");
-  if (const auto down = link->find("down"); down != link->end())
-    l.loss_down_percent = number(*down, "loss_percent"), l.gap_down_ms = number(*down, "longest_gap_ms");
-  return l;
+/// Returns the number `key` of the object `part` in `j`.
+double number_in(const Json& j, const char* part, const char* key) {
+  const auto at = j.find(part);
+  return at != j.end() ? number(*at, key) : kUnknown;
 }
 
-void take_seat(const Json& seat, ReportNumbers& out) {
+LinkNumbers link_numbers(const Json& seat) {
+  const auto link = seat.find("link");
+  if (link == seat.end()) return {};
+  return {.rtt_p50_ms = number(*link, "rtt_p50_ms"),
+          .rtt_p99_ms = number(*link, "rtt_p99_ms"),
+          .loss_up_percent = number_in(*link, "up", "loss_percent"),
+          .loss_down_percent = number_in(*link, "down", "loss_percent"),
+          .gap_up_ms = number_in(*link, "up", "longest_gap_ms"),
+          .gap_down_ms = number_in(*link, "down", "longest_gap_ms")};
+}
+
+/// Reads the numbers of a seat into those of the trainer or of the trainee in `out`; other seats have none.
+template <typename Numbers>
+void take_seat(const Json& seat, Numbers& out) {
   const std::string name = seat.value("name", "");
-  if (name == "trainer") out.trainer = seat_numbers(seat), out.trainer_link = link_numbers(seat);
-  if (name == "trainee") out.trainee = seat_numbers(seat), out.trainee_link = link_numbers(seat);
-  out.effort_peak_n = larger(out.effort_peak_n, number(seat, "effort_peak_n"));
-  out.speed_peak_m_s = larger(out.speed_peak_m_s, number(seat, "speed_peak_m_s"));
-  out.gate_trips = sum(out.gate_trips, number(seat, "gate_trips"));
-  out.late_ticks = sum(out.late_ticks, number(seat, "late_ticks"));
+  if (name == "trainer") out.trainer = seat_numbers(seat);
+  if (name == "trainee") out.trainee = seat_numbers(seat);
 }
 
 PhaseNumbers phase_numbers(const Json& j) {
-  PhaseNumbers p;
-  p.name = j.value("name", "");
-  p.from_s = number(j, "from_s");
-  p.to_s = number(j, "to_s");
-  for (const Json& seat : j.at("seats")) {
-    if (seat.value("name", "") == "trainer") p.trainer = seat_numbers(seat);
-    if (seat.value("name", "") == "trainee") p.trainee = seat_numbers(seat);
-  }
+  PhaseNumbers p{.name = j.value("name", ""), .from_s = number(j, "from_s"), .trainer = {}, .trainee = {}};
+  for (const Json& seat : j.at("seats")) take_seat(seat, p);
   return p;
 }
 
@@ -83,12 +78,17 @@ ReportNumbers take(const Json& j) {
   out.trace_hash = j.value("trace_hash", "");
   for (const Json& v : j.at("violations"))
     out.violations.push_back({v.at("invariant"), v.value("seat", ""), number(v, "at_s"), v.at("expected")});
-  if (const auto machine = j.find("machine"); machine != j.end()) out.late_ticks = number(*machine, "late_ticks");
-  for (const Json& seat : j.at("seats")) take_seat(seat, out);
-  for (const Json& tool : j.at("tools")) {
-    out.contact_force_n = number(tool, "contact_force_rms_n");
-    out.penetration_m = number(tool, "penetration_max_m");
+  out.late_ticks = number_in(j, "machine", "late_ticks");
+  for (const Json& seat : j.at("seats")) {
+    take_seat(seat, out);
+    if (seat.value("name", "") == "trainer") out.trainer_link = link_numbers(seat);
+    if (seat.value("name", "") == "trainee") out.trainee_link = link_numbers(seat);
+    out.effort_peak_n = larger(out.effort_peak_n, number(seat, "effort_peak_n"));
+    out.speed_peak_m_s = larger(out.speed_peak_m_s, number(seat, "speed_peak_m_s"));
+    out.gate_trips = sum(out.gate_trips, number(seat, "gate_trips"));
+    out.late_ticks = sum(out.late_ticks, number(seat, "late_ticks"));
   }
+  for (const Json& tool : j.at("tools")) out.contact_force_n = number(tool, "contact_force_rms_n");
   for (const Json& phase : j.at("phases")) out.phases.push_back(phase_numbers(phase));
   return out;
 }
@@ -106,9 +106,7 @@ std::expected<ReportNumbers, std::string> read_report(const std::string& json) {
 double read_late_ticks(const std::string& json) {
   const Json j = Json::parse(json, nullptr, false);
   if (!j.is_object()) return 0;
-  const double own = number(j, "late_ticks");
-  const auto machine = j.find("machine");
-  const double of_machine = machine != j.end() ? number(*machine, "late_ticks") : kUnknown;
+  const double own = number(j, "late_ticks"), of_machine = number_in(j, "machine", "late_ticks");
   return std::isfinite(own) ? own : std::isfinite(of_machine) ? of_machine : 0;
 }
 

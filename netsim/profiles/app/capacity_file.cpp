@@ -34,11 +34,7 @@ bool looks_like_capacity(std::string_view text) {
 
 std::expected<CapacityFile, std::string> parse_capacity_file(std::string_view text, const std::string& path) {
   auto link = parse_capacity(text, path);
-  if (!link) {
-    std::string mistakes = to_text(link.error());
-    while (!mistakes.empty() && mistakes.back() == '\n') mistakes.pop_back();
-    return std::unexpected(mistakes);
-  }
+  if (!link) return std::unexpected(lines_of(link.error()));
   std::string words = "recorded capacity " + path;
   if (is_table(text)) {
     words += " (table), up " + contents(*link->up.rate.trace) + ", down " + contents(*link->down.rate.trace);

@@ -10,10 +10,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/base/format.h"
 #include "common/base/milliseconds.h"
 #include "common/base/unit_suffix.h"
 #include "common/io/command_line.h"
 #include "netsim/profiles/app/capacity_file.h"
+#include "netsim/profiles/app/network_numbers.h"
 #include "netsim/profiles/network_csv.h"
 #include "netsim/profiles/profile_loader.h"
 #include "netsim/profiles/schedule_loader.h"
@@ -22,17 +24,14 @@ namespace tandem::netsim {
 namespace {
 
 constexpr std::uintmax_t kFileMax = 64U << 20;
-constexpr std::array kNumbers{"--delay", "--jitter", "--loss", "--duplicate", "--reorder", "--outage"};
+/// Options that --network excludes; the others of the network follow.
+constexpr std::array kExcluded{"--delay",   "--jitter", "--loss",    "--duplicate",
+                               "--reorder", "--outage", "--profile", "--capacity"};
+constexpr std::array kOthers{"--network", "--trace-interval", "--script", "--seed"};
 
 /// Returns whether a name denotes a file: an existing file, or a name with a slash or a dot.
 bool is_file(const std::string& name) {
   return std::filesystem::exists(name) || name.find('/') != std::string::npos || name.find('.') != std::string::npos;
-}
-
-std::string lines_of(const InputErrors& errors) {
-  std::string text = to_text(errors);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
 }
 
 /// @param file  file of the profile; empty: shipped profile
@@ -41,13 +40,13 @@ std::expected<NetworkChoice, std::string> from_profile(std::expected<Profile, In
   if (!profile) return std::unexpected(lines_of(profile.error()));
   const auto capacity = complete_capacity(*profile, file, capacity_file);
   if (!capacity) return std::unexpected(capacity.error());
-  NetworkChoice choice;
-  choice.name = profile->name;
-  choice.description = "profile " + (file.empty() ? profile->name : file) + " (version " +
-                       std::to_string(profile->version) + ")" + (capacity->empty() ? "" : ", " + *capacity);
-  choice.link = std::move(profile->link);
-  choice.plays_capacity = !capacity->empty();
-  return choice;
+  return NetworkChoice{.link = std::move(profile->link),
+                       .name = profile->name,
+                       .description = "profile " + (file.empty() ? profile->name : file) + " (version " +
+                                      std::to_string(profile->version) + ")" +
+                                      (capacity->empty() ? "" : ", " + *capacity),
+                       .notes = {},
+                       .plays_capacity = !capacity->empty()};
 }
 
 }  // namespace
@@ -55,6 +54,12 @@ std::expected<NetworkChoice, std::string> from_profile(std::expected<Profile, In
 void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more) {
   for (const std::string& note : more)
     if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+}
+
+std::string lines_of(const InputErrors& errors) {
+  std::string text = to_text(errors);
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text;
 }
 
 std::expected<std::string, std::string> read_whole_file(const std::string& path, std::uintmax_t bytes_max) {
@@ -96,38 +101,31 @@ std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
   if (count == 3 && !(period > length && period <= 2'592'000)) {
     return wrong("PERIOD must be longer than LENGTH and at most 2592000 s");
   }
-  OutageSpec outage;
-  outage.start = from_seconds(start);
-  outage.length = from_seconds(length);
-  outage.period = from_seconds(period);
-  return outage;
+  return OutageSpec{.start = from_seconds(start), .length = from_seconds(length), .period = from_seconds(period)};
 }
 
 std::expected<NetworkChoice, std::string> named_network(const std::string& name_or_file, const std::string& capacity,
                                                         double trace_interval_ms) {
-  NetworkChoice choice;
   if (!is_file(name_or_file)) return from_profile(shipped_profile(name_or_file), "", capacity);
   const auto text = read_network_file(name_or_file);
   if (!text) return std::unexpected(text.error());
-  choice.name = std::filesystem::path(name_or_file).stem().string();
+  const std::string name = std::filesystem::path(name_or_file).stem().string();
   if (looks_like_capacity(*text)) {
     auto recorded = parse_capacity_file(*text, name_or_file);
     if (!recorded) return std::unexpected(recorded.error());
-    choice.link = std::move(recorded->link);
-    choice.description = std::move(recorded->description);
-    return choice;
+    return NetworkChoice{
+        .link = std::move(recorded->link), .name = name, .description = std::move(recorded->description), .notes = {}};
   }
   if (!name_or_file.ends_with(".csv")) return from_profile(parse_profile(*text, name_or_file), name_or_file, capacity);
   const auto recorded = parse_network_csv(*text, name_or_file, from_milliseconds(trace_interval_ms));
   if (!recorded) return std::unexpected(lines_of(recorded.error()));
-  choice.link = recorded->link;
-  std::ostringstream words;
-  words << "recording " << name_or_file << ": " << recorded->rows << " rows, " << recorded->lost << " lost, "
-        << seconds(recorded->length) << " s, then from the start again";
-  choice.description = words.str();
-  choice.notes = notes_of(*recorded, name_or_file);
-  choice.plays_interval = !recorded->timed;
-  return choice;
+  return NetworkChoice{
+      .link = recorded->link,
+      .name = name,
+      .description = format("recording %s: %zu rows, %zu lost, %g s, then from the start again", name_or_file.c_str(),
+                            recorded->rows, recorded->lost, seconds(recorded->length)),
+      .notes = notes_of(*recorded, name_or_file),
+      .plays_interval = !recorded->timed};
 }
 
 void NetworkOptions::add_to(const io::Command& command) {
@@ -212,10 +210,7 @@ std::string NetworkOptions::interval_problem(const NetworkChoice& choice) const 
 std::expected<NetworkChoice, std::string> NetworkOptions::network() const {
   if (given("--network")) {
     std::string mistakes;
-    for (const char* option : kNumbers) {
-      if (given(option)) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes " + option;
-    }
-    for (const char* option : {"--profile", "--capacity"}) {
+    for (const char* option : kExcluded) {
       if (given(option)) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes " + option;
     }
     if (!mistakes.empty()) return std::unexpected(mistakes);
@@ -238,44 +233,27 @@ std::expected<NetworkChoice, std::string> NetworkOptions::network() const {
     }
     choice = std::move(*profile);
   }
-  std::vector<OutageSpec> outages;
   for (const std::string& text : outages_) {
     const auto outage = parse_outage(text);
     if (!outage) return std::unexpected(outage.error());
-    outages.push_back(*outage);
+    for (const Direction direction : {Direction::kUp, Direction::kDown})
+      choice.link[direction].outages.push_back(*outage);
   }
-  const LinkSpec numbers = link_from({.delay = from_milliseconds(delay_ms_),
-                                      .jitter = from_milliseconds(jitter_ms_),
-                                      .loss = loss_percent_ / 100,
-                                      .duplicate = duplicate_percent_ / 100,
-                                      .reorder = reorder_percent_ / 100,
-                                      .outages = outages});
-  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    PathSpec& path = choice.link[direction];
-    const PathSpec& wanted = numbers[direction];
-    if (given("--delay")) path.floor = wanted.floor;
-    if (given("--jitter")) path.body = wanted.body;
-    if (given("--loss")) path.loss.probability = wanted.loss.probability;
-    if (given("--duplicate")) path.duplicate = wanted.duplicate;
-    if (given("--reorder")) path.reorder = wanted.reorder;
-    path.outages.insert(path.outages.end(), outages.begin(), outages.end());
-    for (const SpecError& problem : problems(path)) {
-      return std::unexpected(std::string(netsim::name(direction)) + ": " + problem.key + ": " + problem.message);
-    }
-  }
-  std::ostringstream words;
-  const auto add = [&words](const auto&... parts) {
-    if (words.tellp() > 0) words << ", ";
-    (words << ... << parts);
+  const auto number = [&](const char* option, double value) {
+    return given(option) ? std::optional(value) : std::nullopt;
   };
-  if (given("--profile")) add(choice.description);
-  if (!given("--profile") || given("--delay")) add("delay ", delay_ms_, " ms");
-  if (given("--jitter")) add("jitter 0 to ", jitter_ms_, " ms");
-  if (given("--loss")) add("loss ", loss_percent_, " %");
-  if (given("--duplicate")) add("duplicates ", duplicate_percent_, " %");
-  if (given("--reorder")) add("reordered ", reorder_percent_, " %");
-  for (const std::string& outage : outages_) add("outage ", outage, " s");
-  choice.description = words.str();
+  const NetworkNumbers numbers{
+      .delay_ms = given("--profile") ? number("--delay", delay_ms_) : delay_ms_,
+      .jitter_ms = number("--jitter", jitter_ms_),
+      .loss_percent = number("--loss", loss_percent_),
+      .duplicate_percent = number("--duplicate", duplicate_percent_),
+      .reorder_percent = number("--reorder", reorder_percent_),
+  };
+  numbers.apply(choice.link);
+  if (std::string problem = first_problem(choice.link); !problem.empty()) return std::unexpected(std::move(problem));
+  const std::string words = numbers.text();
+  choice.description += (choice.description.empty() || words.empty() ? "" : ", ") + words;
+  for (const std::string& outage : outages_) choice.description += ", outage " + outage + " s";
   return choice;
 }
 
@@ -294,9 +272,7 @@ std::expected<ScriptChoice, std::string> NetworkOptions::events(std::span<const 
       add_notes(script.notes, choice->notes);
       return std::move(choice->link);
     }
-    InputError error;
-    error.message = choice.error();
-    return std::unexpected(InputErrors{error});
+    return std::unexpected(InputErrors{{"", 0, 0, "", "", choice.error()}});
   };
   auto events = parse_script(*text, script_, clients, find);
   if (!events) return std::unexpected(lines_of(events.error()));
@@ -310,12 +286,8 @@ std::expected<ScriptChoice, std::string> NetworkOptions::events(std::span<const 
 
 std::vector<std::string> NetworkOptions::all_given() const {
   std::vector<std::string> all;
-  const auto look = [&](const char* option) {
-    if (given(option)) all.emplace_back(option);
-  };
-  for (const char* option : kNumbers) look(option);
-  for (const char* option : {"--profile", "--capacity", "--network", "--trace-interval", "--script", "--seed"})
-    look(option);
+  for (const std::span<const char* const> options : {std::span<const char* const>(kExcluded), {kOthers}})
+    std::ranges::copy_if(options, std::back_inserter(all), [&](const char* option) { return given(option); });
   return all;
 }
 

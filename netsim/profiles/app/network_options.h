@@ -84,6 +84,9 @@ class NetworkOptions {
 /// Appends the notes that are not present yet, because several networks may share a recording.
 void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more);
 
+/// Returns one line per error, without a line feed at the end.
+[[nodiscard]] std::string lines_of(const InputErrors& errors);
+
 /// Returns the contents of a file of at most `bytes_max` bytes, or an error: `FILE: reason`.
 [[nodiscard]] std::expected<std::string, std::string> read_whole_file(const std::string& path,
                                                                       std::uintmax_t bytes_max);

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "netsim/feel/feel_trace.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -21,6 +23,26 @@ std::vector<hal::Vec3> wave(double seconds, double amplitude, double hz) {
   std::vector<hal::Vec3> out;
   for (const double t : times(seconds)) out.emplace_back(amplitude * std::sin(kTurn * hz * t), 0, 0);
   return out;
+}
+
+TEST(FeelMeters, AlongXKeepsTheFirstCoordinateOfEachRow) {
+  const std::vector<hal::Vec3> rows{{1, 2, 3}, {-4, 5, 6}};
+  EXPECT_EQ(along_x(rows), (std::vector<double>{1, -4}));
+}
+
+TEST(FeelMeters, LargerOfANumberAndNanIsNan) {
+  EXPECT_EQ(larger(-2, 1), 1);
+  EXPECT_TRUE(std::isnan(larger(NAN, 1)));
+  EXPECT_TRUE(std::isnan(larger(1, NAN)));
+}
+
+TEST(FeelTrace, PartHoldsTheRowsFromTheFirstTimeToBeforeTheSecond) {
+  FeelTrace trace;
+  trace.t = {0, 1, 2, 3};
+  const std::vector<double> column{10, 11, 12, 13};
+  const auto part = trace.part(column, 1, 3);
+  EXPECT_EQ(std::vector<double>(part.begin(), part.end()), (std::vector<double>{11, 12}));
+  EXPECT_TRUE(trace.part(column, 3, 1).empty());
 }
 
 TEST(FeelMeters, RmsOfASineIsItsAmplitudeOverRootTwo) {
