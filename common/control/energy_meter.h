@@ -13,12 +13,11 @@ namespace tandem::control {
 class EnergyMeter {
  public:
   /// @param q  present position.  @param effort_held  effort that the motor really held since the last call, saturated.
-  /// @return energy given to the hand since then [J], sum of all axes; 0 at the first call and for readings that are
-  /// not finite.
+  /// @return energy given to the hand since then [J], sum of all axes; 0 up to the first finite reading, and for
+  /// readings that are not finite.
   double advance(std::size_t dof, const AxisArray& q, const AxisArray& effort_held) noexcept TANDEM_REALTIME {
     double given = 0;
-    if (started_)
-      for (std::size_t a = 0; a < dof; ++a) given += effort_held[a] * (q[a] - q_[a]);
+    for (std::size_t a = 0; a < dof; ++a) given += (started_ ? effort_held[a] : 0) * (q[a] - q_[a]);
     if (!std::isfinite(given)) return 0;
     q_ = q;
     started_ = true;

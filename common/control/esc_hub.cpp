@@ -78,8 +78,10 @@ void EscHub::settle(std::size_t seat, const AxisArray& before, const AxisArray& 
       const double wanted = std::min(left, 0.5 * s.k[a] * (c.share - c.alpha) * std::max(0.0, released));
       end.credit(a, sources_[j].grant(wanted));
       left -= wanted;
-      sources_[j].fill((1 - c.alpha) * paid * (c.share > 0 ? 1 : 0));
-      paid = 0;
+      // Each part of the spring stored its own energy. With one tool that is all, also the cost of a rising stiffness.
+      const double stored = p_.tools == 1 ? paid : std::min(paid, 0.5 * s.k[a] * c.share * std::max(0.0, -released));
+      if (c.share > 0) sources_[j].fill((1 - c.alpha / c.share) * stored);
+      paid -= stored;
     }
     // The decay of the offset moves the follower as a moving tool would. The flow sources pay the share without
     // authority.

@@ -27,14 +27,11 @@ class FlowSources {
   /// energy, <= wanted.
   [[nodiscard]] double grant(double wanted) noexcept {
     if (!(wanted > 0)) return 0;
-    if (mode_ == FlowSourceMode::kTank) {
-      const double given = wanted < tank_ ? wanted : tank_;
-      tank_ -= given;
-      granted_ += given;
-      return given;
-    }
-    granted_ += wanted;
-    return wanted;
+    const bool limited = mode_ == FlowSourceMode::kTank;
+    const double given = limited && tank_ < wanted ? tank_ : wanted;
+    if (limited) tank_ -= given;
+    granted_ += given;
+    return given;
   }
   /// Adds dissipated energy and energy absorbed by the sources to the tank. The tank holds at most four times its
   /// initial level.

@@ -61,7 +61,8 @@ std::expected<SimulatedJoin, server::JoinResult> simulate_link_test_join(server:
   const server::SeatCatalogue& catalogue = session.seat_catalogue();
   const transport::SecureChannel::Params client = client_end(key.derive(number), 0, kSeatsMax + 1, catalogue.tick());
   auto link = std::make_unique<transport::SecureChannel>(server_end(client));
-  const server::JoinResult result = session.admit_link_test_peer(now, link);
+  std::size_t place = 0;
+  const server::JoinResult result = session.link_test_peers().admit(now, link, place);
   if (result != server::JoinResult::kAccepted) return std::unexpected(result);
   return SimulatedJoin{catalogue.setup(0), client};
 }

@@ -58,7 +58,7 @@ std::uint32_t SimulatedServer::due_ticks(Time now) noexcept {
 }
 
 void SimulatedServer::run(Time now) noexcept {
-  session_->set_load_state(load_shedder_.step(now, missed_ * tick_, tick_used_));
+  session_->lifecycle().set_load_state(load_shedder_.step(now, missed_ * tick_, tick_used_));
   session_->on_tick(now, missed_);
   if (session_->path_tokens().low())
     fill_path_tokens(*session_, RandomKey{config_->seed}.derive(kTokenKey), token_draws_ += server::PathTokens::kMax);
@@ -75,8 +75,8 @@ void SimulatedServer::update_checkpoint(Time now, bool participants_changed) {
   constexpr Duration kEvery = std::chrono::milliseconds(500);
   if (!participants_changed && now - checkpoint_at_ < kEvery &&
       session_->authority().version() == checkpoint_.authority_version &&
-      session_->stop_latch().stops() == checkpoint_.stops && session_->epoch() == checkpoint_.epoch &&
-      session_->begun() == checkpoint_.begun)
+      session_->stop_control().latch().stops() == checkpoint_.stops && session_->epoch() == checkpoint_.epoch &&
+      session_->start_condition().begun() == checkpoint_.begun)
     return;
   checkpoint_ = session_->checkpoint();
   checkpoint_at_ = now;

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "common/base/enumerator_count.h"
+
 namespace tandem::server {
+
+static_assert(kShedLevels == enumerator_count<ShedLevel>());
 
 namespace {
 constexpr std::uint32_t kTenth = 10;  // 1/10 of a window's ticks; fewer are outliers

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 
+#include "common/base/enumerator_count.h"
+
 namespace tandem::server {
+
+static_assert(kRights == enumerator_count<Right>());
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "common/base/axes.h"
+#include "common/base/enumerator_count.h"
 #include "common/base/time.h"
 
 namespace tandem::server {
@@ -56,31 +57,32 @@ static_assert(std::is_trivially_copyable_v<AuditEvent>);
 
 /// Name in the audit log: `join`, ...
 [[nodiscard]] constexpr const char* to_text(AuditEvent::What what) noexcept {
-  constexpr const char* kNames[] = {"join",
-                                    "leave",
-                                    "loss",
-                                    "back",
-                                    "quarantined",
-                                    "cleared",
-                                    "forbidden",
-                                    "authority",
-                                    "stop",
-                                    "pause",
-                                    "resume",
-                                    "local-stop",
-                                    "local-resume",
-                                    "fault",
-                                    "instructor-away",
-                                    "restored",
-                                    "all-back",
-                                    "flood",
-                                    "removed",
-                                    "overload",
-                                    "overload-cleared",
-                                    "authority-refused",
-                                    "authority-canceled",
-                                    "authority-deferred"};
-  return what <= AuditEvent::What::kAuthorityDeferred ? kNames[static_cast<std::size_t>(what)] : "?";
+  constexpr std::array kNames{"join",
+                              "leave",
+                              "loss",
+                              "back",
+                              "quarantined",
+                              "cleared",
+                              "forbidden",
+                              "authority",
+                              "stop",
+                              "pause",
+                              "resume",
+                              "local-stop",
+                              "local-resume",
+                              "fault",
+                              "instructor-away",
+                              "restored",
+                              "all-back",
+                              "flood",
+                              "removed",
+                              "overload",
+                              "overload-cleared",
+                              "authority-refused",
+                              "authority-canceled",
+                              "authority-deferred"};
+  static_assert(kNames.size() == enumerator_count<AuditEvent::What>());
+  return static_cast<std::size_t>(what) < kNames.size() ? kNames[static_cast<std::size_t>(what)] : "?";
 }
 
 /// Queue of events for the thread that writes the log. If it is full, the newest event is dropped and counted, because

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "server/report/report.h"
 
@@ -27,19 +28,24 @@ const char* text(Role role) {
   return "";
 }
 
-void put(Json& j, const SeatMetrics& m) {
-  j["judged_s"] = number(m.judged_s);
-  j["tracking_rms_m"] = number(m.tracking_rms_m);
-  j["tracking_rms_lag_removed_m"] = number(m.tracking_rms_lag_removed_m);
-  j["transport_lag_rms_m"] = number(m.transport_lag_rms_m);
-  j["joint_rms_rad"] = Json::array();
-  for (const double q : m.joint_rms_rad) j["joint_rms_rad"].push_back(number(q));
-  j["force_error_rms_n"] = number(m.force_error_rms_n);
-  j["force_error_commanded_rms_n"] = number(m.force_error_commanded_rms_n);
-  j["force_error_percent"] = number(m.force_error_percent);
-  j["effort_peak_n"] = number(m.effort_peak_n);
-  j["speed_peak_m_s"] = number(m.speed_peak_m_s);
-  j["leader_offset_rms_m"] = number(m.leader_offset_rms_m);
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(number(v));
+  return list;
+}
+
+Json metrics(const SeatMetrics& m) {
+  return {{"judged_s", number(m.judged_s)},
+          {"tracking_rms_m", number(m.tracking_rms_m)},
+          {"tracking_rms_lag_removed_m", number(m.tracking_rms_lag_removed_m)},
+          {"transport_lag_rms_m", number(m.transport_lag_rms_m)},
+          {"joint_rms_rad", numbers(m.joint_rms_rad)},
+          {"force_error_rms_n", number(m.force_error_rms_n)},
+          {"force_error_commanded_rms_n", number(m.force_error_commanded_rms_n)},
+          {"force_error_percent", number(m.force_error_percent)},
+          {"effort_peak_n", number(m.effort_peak_n)},
+          {"speed_peak_m_s", number(m.speed_peak_m_s)},
+          {"leader_offset_rms_m", number(m.leader_offset_rms_m)}};
 }
 
 Json direction(const DirectionReport& d) {
@@ -55,25 +61,23 @@ double joule(const EnergyArray& nj) {
 }
 
 Json seat(const SeatReport& s) {
-  Json j;
-  j["name"] = s.name;
-  j["kind"] = text(s.kind);
-  j["role"] = text(s.role);
-  j["alpha_mean"] = number(s.alpha_mean);
-  put(j, s.metrics);
-  j["gate_trips"] = s.gate_trips;
-  j["gate"] = s.gate;
-  j["energy"] = {{"in_j", joule(s.last.e_in)},
-                 {"out_j", joule(s.last.e_out)},
-                 {"dissipated_j", number(s.last.dissipated_j)},
-                 {"refused_j", number(s.last.refused_j)},
-                 {"margin_min_j", number(s.last.margin_min_j)},
-                 {"mfs_j", number(s.mfs_j)},
-                 {"delivered_j", number(s.last.delivered_j)}};
-  j["link"] = {{"rtt_p50_ms", number(s.link.rtt_p50_ms)},
-               {"rtt_p99_ms", number(s.link.rtt_p99_ms)},
-               {"up", direction(s.link.up)},
-               {"down", direction(s.link.down)}};
+  Json j{{"name", s.name}, {"kind", text(s.kind)}, {"role", text(s.role)}, {"alpha_mean", number(s.alpha_mean)}};
+  j.update(metrics(s.metrics));
+  j.update({{"gate_trips", s.gate_trips},
+            {"gate", s.gate},
+            {"energy",
+             {{"in_j", joule(s.last.e_in)},
+              {"out_j", joule(s.last.e_out)},
+              {"dissipated_j", number(s.last.dissipated_j)},
+              {"refused_j", number(s.last.refused_j)},
+              {"margin_min_j", number(s.last.margin_min_j)},
+              {"mfs_j", number(s.mfs_j)},
+              {"delivered_j", number(s.last.delivered_j)}}},
+            {"link",
+             {{"rtt_p50_ms", number(s.link.rtt_p50_ms)},
+              {"rtt_p99_ms", number(s.link.rtt_p99_ms)},
+              {"up", direction(s.link.up)},
+              {"down", direction(s.link.down)}}}});
   return j;
 }
 
@@ -82,7 +86,7 @@ Json seats_of(const PhaseReport& part, const RunReport& r) {
   Json seats = Json::array();
   for (std::size_t i = 0; i < part.seats.size(); ++i) {
     Json s{{"name", r.seats[i].name}};
-    put(s, part.seats[i]);
+    s.update(metrics(part.seats[i]));
     seats.push_back(std::move(s));
   }
   return seats;
@@ -91,32 +95,32 @@ Json seats_of(const PhaseReport& part, const RunReport& r) {
 }  // namespace
 
 std::string to_json(const RunReport& r, int indent) {
-  Json j;
-  j["scenario"] = r.scenario;
-  j["seed"] = r.seed;
-  j["duration_s"] = number(r.duration_s);
-  j["stopped_s"] = number(r.stopped_s);
-  j["judged_s"] = number(r.judged_s);
-  j["moved"] = r.moved;
-  j["verdict"] = r.verdict();
-  j["violations"] = Json::array();
+  Json violations = Json::array(), seats = Json::array(), tools = Json::array(), phases = Json::array();
   for (const Violation& v : r.violations)
-    j["violations"].push_back(
+    violations.push_back(
         {{"invariant", v.invariant}, {"seat", v.seat}, {"at_s", v.at_s}, {"expected", v.expected}, {"count", v.count}});
-  j["trace_hash"] = r.trace_hash;
-  j["cpu_s"] = number(r.cpu_s);
-  j["seats"] = Json::array();
-  for (const SeatReport& s : r.seats) j["seats"].push_back(seat(s));
-  j["tools"] = Json::array();
+  for (const SeatReport& s : r.seats) seats.push_back(seat(s));
   for (const ToolReport& t : r.tools)
-    j["tools"].push_back({{"name", t.name},
-                          {"contact_force_rms_n", number(t.contact_force_rms_n)},
-                          {"penetration_max_m", number(t.penetration_max_m)},
-                          {"held_s", number(t.held_s)}});
-  j["phases"] = Json::array();
+    tools.push_back({{"name", t.name},
+                     {"contact_force_rms_n", number(t.contact_force_rms_n)},
+                     {"penetration_max_m", number(t.penetration_max_m)},
+                     {"held_s", number(t.held_s)}});
   for (const PhaseReport& p : r.phases)
-    j["phases"].push_back({{"name", p.name}, {"from_s", p.from_s}, {"to_s", p.to_s}, {"seats", seats_of(p, r)}});
-  j["outside_phases"] = r.outside ? Json{{"seats", seats_of(*r.outside, r)}} : Json(nullptr);
+    phases.push_back({{"name", p.name}, {"from_s", p.from_s}, {"to_s", p.to_s}, {"seats", seats_of(p, r)}});
+  Json j{{"scenario", r.scenario},
+         {"seed", r.seed},
+         {"duration_s", number(r.duration_s)},
+         {"stopped_s", number(r.stopped_s)},
+         {"judged_s", number(r.judged_s)},
+         {"moved", r.moved},
+         {"verdict", r.verdict()},
+         {"violations", std::move(violations)},
+         {"trace_hash", r.trace_hash},
+         {"cpu_s", number(r.cpu_s)},
+         {"seats", std::move(seats)},
+         {"tools", std::move(tools)},
+         {"phases", std::move(phases)},
+         {"outside_phases", r.outside ? Json{{"seats", seats_of(*r.outside, r)}} : Json(nullptr)}};
   if (!r.feel.empty()) {
     j["feel"] = Json::object();
     for (const auto& [key, value] : r.feel) j["feel"][key] = number(value);

@@ -2,29 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <limits>
 #include <utility>
+
+#include "common/base/format.h"
 
 namespace tandem::server {
 namespace {
 
-__attribute__((format(printf, 2, 3))) void put(std::string& out, const char* format, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  out += line;
-}
-
 /// A value in millimetres or newtons, or a dash if there is none.
 std::string cell(double value, double factor, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value * factor);
-  return text;
+  return std::isfinite(value) ? format("%.*f", decimals, value * factor) : "-";
 }
 
 constexpr std::size_t kLabelsMin =
@@ -67,10 +55,10 @@ void put_row(std::string& out, const Labels& labels, const std::string& what, co
              const SeatMetrics& m, bool reached) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   out += labels.text(what, seat);
-  put(out, kNumbers, cell(m.tracking_rms_m, 1e3, 2).c_str(), cell(m.tracking_rms_lag_removed_m, 1e3, 2).c_str(),
-      cell(m.transport_lag_rms_m, 1e3, 2).c_str(), cell(m.force_error_rms_n, 1, 3).c_str(),
-      cell(reached ? m.effort_peak_n : nothing, 1, 2).c_str(),
-      cell(reached ? m.speed_peak_m_s : nothing, 1, 2).c_str());
+  out += format(kNumbers, cell(m.tracking_rms_m, 1e3, 2).c_str(), cell(m.tracking_rms_lag_removed_m, 1e3, 2).c_str(),
+                cell(m.transport_lag_rms_m, 1e3, 2).c_str(), cell(m.force_error_rms_n, 1, 3).c_str(),
+                cell(reached ? m.effort_peak_n : nothing, 1, 2).c_str(),
+                cell(reached ? m.speed_peak_m_s : nothing, 1, 2).c_str());
 }
 
 }  // namespace
@@ -86,9 +74,9 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   }
   const std::string phase_head = labels.text("phase", "seat"), no_head = labels.text("", "");
   out += phase_head;
-  put(out, kNumbers, "tracking", "lag free", "lag", "force err", "peak", "speed");
+  out += format(kNumbers, "tracking", "lag free", "lag", "force err", "peak", "speed");
   out += no_head;
-  put(out, kNumbers, "RMS [mm]", "[mm]", "[mm]", "RMS [N]", "[N]", "[m/s]");
+  out += format(kNumbers, "RMS [mm]", "[mm]", "[mm]", "RMS [N]", "[N]", "[m/s]");
   for (const auto& s : r.seats)
     if (s.kind == SeatKind::kMaster && s.taken)
       put_row(out, labels, r.phases.empty() ? "whole session" : "all phases", s.name, s.metrics, r.duration_s > 0);
@@ -105,7 +93,7 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
       free += (free.empty() ? "" : ", ") + s.name;
       continue;
     }
-    put(out,
+    out += format(
         "  %s: round trip %.1f ms (p99 %.1f), loss up %.1f %% down %.1f %%, longest gap %.0f / %.0f ms, gate trips "
         "%u, at the end %s\n",
         s.name.c_str(), s.link.rtt_p50_ms, s.link.rtt_p99_ms, s.link.up.loss_percent, s.link.down.loss_percent,
@@ -114,33 +102,34 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   if (!free.empty()) out += "  not taken: " + free + "\n";
   for (std::size_t j = 0; j < r.tools.size(); ++j)
     if (r.tools[j].contact_force_rms_n > 0)
-      put(out, "  %s: contact force RMS %.2f N, penetration at most %.3f mm\n", scene.tools[j].name.c_str(),
-          r.tools[j].contact_force_rms_n, r.tools[j].penetration_max_m * 1e3);
+      out += format("  %s: contact force RMS %.2f N, penetration at most %.3f mm\n", scene.tools[j].name.c_str(),
+                    r.tools[j].contact_force_rms_n, r.tools[j].penetration_max_m * 1e3);
   for (std::size_t j = 0; j < r.tools.size(); ++j)
     if (r.tools[j].held_s > 0.01)
-      put(out,
+      out += format(
           "  %s: braked (HELD) for %.1f s: no seat with authority over it, or not its own slave, was connected; no "
           "hand was guided\n",
           scene.tools[j].name.c_str(), r.tools[j].held_s);
   if (r.stopped_s > 0)
-    put(out, "  the session was stopped for %.1f s, in which its clock did not advance\n", r.stopped_s);
+    out += format("  the session was stopped for %.1f s, in which its clock did not advance\n", r.stopped_s);
   if (r.duration_s <= 0) {
     out += "  not judged: the session never ran\n";
   } else if (r.judged_s <= 0) {
     out += "  not judged: no seat was engaged for more than a second, undisturbed, so no errors could be measured\n";
   } else if (!r.moved) {
-    put(out, "  not judged: no hand moved by more than %.0f mm; the figures above do not measure tracking\n",
-        ReportBuilder::kMoved * 1e3);
+    out += format("  not judged: no hand moved by more than %.0f mm; the figures above do not measure tracking\n",
+                  ReportBuilder::kMoved * 1e3);
   } else {
-    put(out,
+    out += format(
         "  judged: %.1f of %.1f s; not in it are times without an engaged hand, the first second after each "
         "engagement, and scripted pushes\n",
         r.judged_s, r.duration_s);
   }
   for (const auto& v : r.violations)
-    put(out, "  %s invariant %s%s%s first at %.3f s, %llu times%s\n",
-        v.expected ? "broken, never promised:" : "BROKEN:", v.invariant.c_str(), v.seat.empty() ? "" : " at ",
-        v.seat.c_str(), v.at_s, static_cast<unsigned long long>(v.count), v.expected ? "" : " - the verdict fails");
+    out += format("  %s invariant %s%s%s first at %.3f s, %llu times%s\n",
+                  v.expected ? "broken, never promised:" : "BROKEN:", v.invariant.c_str(), v.seat.empty() ? "" : " at ",
+                  v.seat.c_str(), v.at_s, static_cast<unsigned long long>(v.count),
+                  v.expected ? "" : " - the verdict fails");
   return out;
 }
 

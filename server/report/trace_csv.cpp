@@ -8,26 +8,26 @@ namespace tandem::server {
 
 namespace {
 
+template <class Value>
+void put_shortest(std::string& out, Value value) {
+  char digits[32];
+  out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
 void put_integer(std::string& out, std::uint64_t value) {
-  char digits[24];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  out.append(digits, end);
+  out += ',';
+  put_shortest(out, value);
 }
 
 /// Writes nine decimals, which is exact for the magnitudes of this simulation; other values, also NaN, as to_chars
 /// does.
 void put_number(std::string& out, double value) {
   out += ',';
-  if (!(std::abs(value) < 1e9)) {
-    char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-    out.append(digits, end);
-    return;
-  }
+  if (!(std::abs(value) < 1e9)) return put_shortest(out, value);
   const auto scaled = static_cast<std::int64_t>(std::llround(value * 1e9));
   if (scaled < 0) out += '-';
   const auto magnitude = static_cast<std::uint64_t>(scaled < 0 ? -scaled : scaled);
-  put_integer(out, magnitude / 1'000'000'000);
+  put_shortest(out, magnitude / 1'000'000'000);
   std::uint64_t rest = magnitude % 1'000'000'000;
   if (rest == 0) return;
   char decimals[10];
@@ -81,7 +81,7 @@ TraceCsv::TraceCsv(const SceneSpec& scene) : scene_(&scene) {
 }
 
 void TraceCsv::append(const TickRecord& record, std::string& out) const {
-  put_integer(out, record.tick);
+  put_shortest(out, record.tick);
   put_number(out, record.tick / scene_->tick_hz);
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
     const SeatRecord& s = record.seats[i];
@@ -90,10 +90,10 @@ void TraceCsv::append(const TickRecord& record, std::string& out) const {
     put_triple(out, s.x);
     put_triple(out, s.f_cmd);
     put_triple(out, s.f_out);
-    for (std::size_t a = 0; a < scene_->dof; ++a) (out += ','), put_integer(out, s.e_in[a]);
-    for (std::size_t a = 0; a < scene_->dof; ++a) (out += ','), put_integer(out, s.e_out[a]);
+    for (std::size_t a = 0; a < scene_->dof; ++a) put_integer(out, s.e_in[a]);
+    for (std::size_t a = 0; a < scene_->dof; ++a) put_integer(out, s.e_out[a]);
     if (scene_->seats[i].kind != SeatKind::kMaster) continue;
-    (out += ','), put_integer(out, s.leader);
+    put_integer(out, s.leader);
     put_triple(out, s.ghost);
   }
   for (std::size_t j = 0; j < scene_->tools.size(); ++j) {

@@ -18,14 +18,10 @@ class AuditTrail {
   /// @param seat     seat, or a value of AuditEvent that is no seat
   /// @param version  number that the event names, see AuditEvent
   void emit(Time now, AuditEvent::What what, std::size_t seat, std::uint32_t version = 0) noexcept {
-    AuditEvent e;
-    e.what = what;
-    e.seat = static_cast<std::uint8_t>(seat);
-    e.version = version;
-    emit(now, e);
+    emit(now, {.what = what, .seat = static_cast<std::uint8_t>(seat), .version = version});
   }
   /// Sets time and tick of an event and queues it.
-  void emit(Time now, AuditEvent& event) noexcept {
+  void emit(Time now, AuditEvent event) noexcept {
     event.tick = clock_->session_tick();
     event.at = now;
     queue_.push(event);

@@ -69,20 +69,19 @@ bool AuthorityControl::permitted(const Requester& by, const wire::AuthorityMessa
   return may;
 }
 
-AuthorityControl::Result AuthorityControl::request(Time now, const Requester& by,
-                                                   const wire::AuthorityMessage& wish) noexcept {
-  if (wish.tool >= tools_.size() || wish.masters != masters_) return Result::kInvalid;
+CommandResult AuthorityControl::request(Time now, const Requester& by, const wire::AuthorityMessage& wish) noexcept {
+  if (wish.tool >= tools_.size() || wish.masters != masters_) return CommandResult::kInvalid;
   if (wish.version != version_)
-    return Result::kOutdated;  // another change was faster: FORCE carries the newer authority
-  if (!permitted(by, wish)) return Result::kForbidden;
+    return CommandResult::kOutdated;  // another change was faster: FORCE carries the newer authority
+  if (!permitted(by, wish)) return CommandResult::kForbidden;
   const auto weights = tools_[wish.tool].authority.normalised(wish.alpha);
-  if (!weights) return Result::kInvalid;
+  if (!weights) return CommandResult::kInvalid;
   if (const auto party = stale_party(now, wish.tool, *weights, Stage::kScheduling)) {
     reject(now, by.audited_as, wish.tool, *weights, *party);
-    return Result::kStaleLink;
+    return CommandResult::kStaleLink;
   }
   schedule(now, by.audited_as, wish.tool, wish.alpha, AuthorityTransfer::kNotice);
-  return Result::kScheduled;
+  return CommandResult::kDone;
 }
 
 void AuthorityControl::schedule(Time now, std::uint8_t by, std::size_t tool, const control::MasterArray& wanted,
@@ -219,16 +218,14 @@ void AuthorityControl::fill_notice(std::size_t i, bool clock_stopped, wire::Forc
 void AuthorityControl::emit(Time now, AuditEvent::What what, std::uint8_t by, std::size_t tool,
                             const control::MasterArray& before, const control::MasterArray& after,
                             std::size_t party) noexcept {
-  AuditEvent e;
-  e.what = what;
-  e.seat = by;
-  e.tool = static_cast<std::uint8_t>(tool);
-  e.masters = static_cast<std::uint8_t>(masters_);
-  e.party = static_cast<std::uint8_t>(party);
-  e.before = before;
-  e.after = after;
-  e.version = version_;
-  audit_->emit(now, e);
+  audit_->emit(now, {.what = what,
+                     .seat = by,
+                     .tool = static_cast<std::uint8_t>(tool),
+                     .masters = static_cast<std::uint8_t>(masters_),
+                     .party = static_cast<std::uint8_t>(party),
+                     .version = version_,
+                     .before = before,
+                     .after = after});
 }
 
 }  // namespace tandem::server

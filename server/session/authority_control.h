@@ -11,6 +11,7 @@
 #include "proto/wire/wire_messages.h"
 #include "server/session/audit_trail.h"
 #include "server/session/checkpoint.h"
+#include "server/session/command_result.h"
 #include "server/session/requester.h"
 #include "server/session/seat_endpoint.h"
 #include "server/session/session_clock.h"
@@ -26,14 +27,6 @@ namespace tandem::server {
 /// stale link then. The timeline of the scene schedules its changes the same way; they are deferred, not cancelled.
 class AuthorityControl {
  public:
-  enum class Result : std::uint8_t {
-    kScheduled,
-    kOutdated,   ///< the request names another version
-    kForbidden,  ///< the role may not make this change
-    kInvalid,    ///< no such tool, wrong number of masters, or not normalisable
-    kStaleLink,  ///< a party to the change has a stale link
-  };
-
   /// Sets the initial authority of the scene, without notice.
   /// @param present  seats whose springs may act on tools
   /// All arguments must outlive this.
@@ -48,7 +41,8 @@ class AuthorityControl {
 
   /// Schedules new authority over a tool. Instructors may set the authority of all seats. Roles with a partial right
   /// may only give up their own, to instructors; all other authorities must stay.
-  Result request(Time now, const Requester& by, const wire::AuthorityMessage& wish) noexcept TANDEM_REALTIME;
+  /// @return kDone: scheduled; kOutdated, kForbidden, kInvalid or kStaleLink
+  CommandResult request(Time now, const Requester& by, const wire::AuthorityMessage& wish) noexcept TANDEM_REALTIME;
   /// Advances by one tick: announces the changes of the timeline and executes the changes that are due.
   /// @param clock_stopped  the timeline does not advance
   void step(Time now, bool clock_stopped) noexcept TANDEM_REALTIME;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <string_view>
 
 #include "common/base/secret.h"
@@ -19,14 +20,19 @@ constexpr std::uint32_t kLayout = 0x33504b43;
 constexpr double kPoseMax = 1000;  // [m] or [rad]: beyond the range of any tool
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
+/// Copies the fields of a checkpoint to bytes. Counts what does not fit.
 class Writer {
  public:
   explicit Writer(std::span<std::byte> out) noexcept : out_(out) {}
   template <class T>
-  void put(const T& value) noexcept {
-    static_assert(std::is_arithmetic_v<T> || std::is_same_v<T, Checkpoint::Hash>);
+  void field(const T& value) noexcept {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Checkpoint::Hash>);
     if (size_ + sizeof value <= out_.size()) std::memcpy(out_.data() + size_, &value, sizeof value);
     size_ += sizeof value;
+  }
+  template <class T>
+  void field(const T& value, T /*least*/, T /*most*/) noexcept {
+    field(value);
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
@@ -35,36 +41,67 @@ class Writer {
   std::size_t size_ = 0;
 };
 
+/// Copies bytes to the fields of a checkpoint, and checks their ranges.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> in) noexcept : in_(in) {}
+  void field(bool& value) noexcept {
+    std::uint8_t flag = 0;
+    field(flag, std::uint8_t{0}, std::uint8_t{1});
+    value = flag == 1;
+  }
   template <class T>
-  T take() noexcept {
-    T value{};
-    if (at_ + sizeof value <= in_.size()) std::memcpy(&value, in_.data() + at_, sizeof value);
-    at_ += sizeof value;
-    return value;
+  void field(T& value) noexcept {
+    value = {};
+    if (size_ + sizeof value <= in_.size()) std::memcpy(&value, in_.data() + size_, sizeof value);
+    size_ += sizeof value;
   }
-  /// A flag or a number of at most `most`; a larger one marks the input as invalid.
+  /// A number outside `least` to `most` marks the input as invalid.
   template <class T>
-  T at_most(T most) noexcept {
-    const T value = take<T>();
-    whole_ = whole_ && value <= most;
-    return value;
+  void field(T& value, T least, T most) noexcept {
+    field(value);
+    in_range_ = in_range_ && value >= least && value <= most;
   }
-  double within(double low, double high) noexcept {
-    const auto value = take<double>();
-    whole_ = whole_ && value >= low && value <= high;
-    return value;
-  }
-  [[nodiscard]] std::size_t at() const noexcept { return at_; }
-  [[nodiscard]] bool whole() const noexcept { return whole_; }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] bool in_range() const noexcept { return in_range_; }
 
  private:
   std::span<const std::byte> in_;
-  std::size_t at_ = 0;
-  bool whole_ = true;
+  std::size_t size_ = 0;
+  bool in_range_ = true;
 };
+
+/// The layout of a checkpoint up to its counts, for both directions.
+template <class Archive, class State>
+void visit_head(Archive& archive, State& c) noexcept {
+  constexpr std::uint8_t kNone = 0;
+  archive.field(c.scene);
+  archive.field(c.epoch);
+  archive.field(c.session_tick);
+  archive.field(c.authority_version);
+  archive.field(c.stops);
+  archive.field(c.stop, StopLatch::Level::kNone, StopLatch::Level::kStopped);
+  archive.field(c.begun);
+  archive.field(c.seats_n, kNone, static_cast<std::uint8_t>(kSeatsMax));
+  archive.field(c.masters_n, kNone, static_cast<std::uint8_t>(kMastersMax));
+  archive.field(c.tools_n, kNone, static_cast<std::uint8_t>(kToolsMax));
+  archive.field(c.dof, kNone, static_cast<std::uint8_t>(kAxesMax));
+}
+
+/// Seats and tools. @pre the counts are in range
+template <class Archive, class State>
+void visit_seats_and_tools(Archive& archive, State& c) noexcept {
+  for (auto& seat : std::span{c.seats}.first(c.seats_n)) {
+    archive.field(seat.taken);
+    archive.field(seat.resume);
+    archive.field(seat.force_scale, 0.0, 1.0);
+  }
+  for (auto& tool : std::span{c.tools}.first(c.tools_n)) {
+    for (auto& alpha : std::span{tool.alpha}.first(c.masters_n)) archive.field(alpha, 0.0, 1.0);
+    for (auto& x : std::span{tool.x}.first(c.dof)) archive.field(x, -kPoseMax, kPoseMax);
+    for (auto& x : tool.slave) archive.field(x, -kPoseMax, kPoseMax);
+  }
+}
 
 }  // namespace
 
@@ -86,25 +123,9 @@ Checkpoint::Hash resume_hash(std::span<const std::byte, 32> secret, const Checkp
 
 std::size_t encode_checkpoint(const Checkpoint& c, std::span<std::byte> out) noexcept {
   Writer w{out};
-  w.put(kLayout);
-  w.put(c.scene);
-  w.put(c.epoch);
-  w.put(c.session_tick);
-  w.put(c.authority_version);
-  w.put(c.stops);
-  for (const std::uint8_t n : {static_cast<std::uint8_t>(c.stop), static_cast<std::uint8_t>(c.begun), c.seats_n,
-                               c.masters_n, c.tools_n, c.dof})
-    w.put(n);
-  for (std::size_t i = 0; i < c.seats_n; ++i) {
-    w.put(static_cast<std::uint8_t>(c.seats[i].taken));
-    w.put(c.seats[i].resume);
-    w.put(c.seats[i].force_scale);
-  }
-  for (std::size_t j = 0; j < c.tools_n; ++j) {
-    for (std::size_t i = 0; i < c.masters_n; ++i) w.put(c.tools[j].alpha[i]);
-    for (std::size_t a = 0; a < c.dof; ++a) w.put(c.tools[j].x[a]);
-    for (const double x : c.tools[j].slave) w.put(x);
-  }
+  w.field(kLayout);
+  visit_head(w, c);
+  visit_seats_and_tools(w, c);
   const std::size_t size = w.size();
   if (size + sizeof(Checkpoint::Hash) > std::min(out.size(), kCheckpointMax)) return 0;
   const Checkpoint::Hash digest = transport::sha256(out.first(size));
@@ -118,38 +139,22 @@ std::expected<Checkpoint, CheckpointError> decode_checkpoint(std::span<const std
     return std::unexpected(CheckpointError::kSize);
   const auto body = bytes.first(bytes.size() - kDigest);
   Reader r{body};
-  if (r.take<std::uint32_t>() != kLayout) return std::unexpected(CheckpointError::kVersion);
+  std::uint32_t layout = 0;
+  r.field(layout);
+  if (layout != kLayout) return std::unexpected(CheckpointError::kVersion);
   const Checkpoint::Hash digest = transport::sha256(body);
   if (!std::equal(digest.begin(), digest.end(), bytes.end() - kDigest))
     return std::unexpected(CheckpointError::kDigest);
   Checkpoint c;
-  c.scene = r.take<Checkpoint::Hash>();
-  c.epoch = r.take<std::uint64_t>();
-  c.session_tick = r.take<std::uint32_t>();
-  c.authority_version = r.take<std::uint32_t>();
-  c.stops = r.take<std::uint32_t>();
-  c.stop = static_cast<StopLatch::Level>(r.at_most(static_cast<std::uint8_t>(StopLatch::Level::kStopped)));
-  c.begun = r.at_most(std::uint8_t{1}) != 0;
-  c.seats_n = r.at_most(static_cast<std::uint8_t>(kSeatsMax));
-  c.masters_n = r.at_most(static_cast<std::uint8_t>(kMastersMax));
-  c.tools_n = r.at_most(static_cast<std::uint8_t>(kToolsMax));
-  c.dof = r.at_most(static_cast<std::uint8_t>(kAxesMax));
-  if (!r.whole()) return std::unexpected(CheckpointError::kRange);
-  for (std::size_t i = 0; i < c.seats_n; ++i) {
-    c.seats[i].taken = r.at_most(std::uint8_t{1}) != 0;
-    c.seats[i].resume = r.take<Checkpoint::Hash>();
-    c.seats[i].force_scale = r.within(0, 1);
-  }
-  bool whole = true;
-  for (std::size_t j = 0; j < c.tools_n; ++j) {
-    double sum = 0;
-    for (std::size_t i = 0; i < c.masters_n; ++i) sum += c.tools[j].alpha[i] = r.within(0, 1);
-    for (std::size_t a = 0; a < c.dof; ++a) c.tools[j].x[a] = r.within(-kPoseMax, kPoseMax);
-    for (double& x : c.tools[j].slave) x = r.within(-kPoseMax, kPoseMax);
-    whole = whole && std::abs(sum - 1) <= 1e-9;
-  }
-  if (r.at() != body.size()) return std::unexpected(CheckpointError::kSize);
-  if (!whole || !r.whole()) return std::unexpected(CheckpointError::kRange);
+  visit_head(r, c);
+  if (!r.in_range()) return std::unexpected(CheckpointError::kRange);
+  visit_seats_and_tools(r, c);
+  if (r.size() != body.size()) return std::unexpected(CheckpointError::kSize);
+  const auto whole = [](const Checkpoint::Tool& tool) {
+    return std::abs(std::accumulate(tool.alpha.begin(), tool.alpha.end(), 0.0) - 1) <= 1e-9;
+  };
+  if (!r.in_range() || !std::ranges::all_of(std::span{c.tools}.first(c.tools_n), whole))
+    return std::unexpected(CheckpointError::kRange);
   return c;
 }
 

@@ -10,7 +10,9 @@ constexpr Duration kSilenceMax = std::chrono::seconds(2);  // after this silence
 constexpr unsigned kCloseRepeats = 20;                     // ticks, because single datagrams may be lost
 }  // namespace
 
-std::optional<std::size_t> LinkTestPeers::admit(Time now, std::unique_ptr<transport::SecureChannel>& link) noexcept {
+JoinResult LinkTestPeers::admit(Time now, std::unique_ptr<transport::SecureChannel>& link,
+                                std::size_t& place) noexcept {
+  if (session_end_->begun()) return JoinResult::kSessionOver;
   for (std::size_t i = 0; i < kMax; ++i) {
     Peer& v = peers_[i];
     if (v.connected && v.connection->silence(now) <= kSilenceMax) continue;
@@ -19,9 +21,10 @@ std::optional<std::size_t> LinkTestPeers::admit(Time now, std::unique_ptr<transp
     v.connected = true;
     v.send_due = false;
     v.closes_left = 0;
-    return i;
+    place = i;
+    return JoinResult::kAccepted;
   }
-  return std::nullopt;
+  return JoinResult::kSeatTaken;
 }
 
 std::size_t LinkTestPeers::places_free(Time now) const noexcept {
@@ -67,7 +70,6 @@ void LinkTestPeers::on_tick(Time now) noexcept {
 }
 
 std::optional<Transmit> LinkTestPeers::poll_transmit(Time now, std::uint32_t tick,
-                                                     std::optional<wire::CloseReason> closing,
                                                      std::span<std::byte> buffer) noexcept {
   for (Peer& v : peers_) {
     if (!v.connected) continue;
@@ -84,8 +86,10 @@ std::optional<Transmit> LinkTestPeers::poll_transmit(Time now, std::uint32_t tic
     const transport::SecureChannelStats& s = v.connection->link().stats();
     const wire::LinkTestReport report{static_cast<std::uint32_t>(s.accepted), static_cast<std::uint32_t>(s.late)};
     const Transmit out =
-        closing ? v.connection->seal(now, tick, wire::Type::kClose, wire::CloseMessage{*closing}, codec_, buffer)
-                : v.connection->seal(now, tick, wire::Type::kForce, wire::to_force_message(report), codec_, buffer);
+        session_end_->sends_close()
+            ? v.connection->seal(now, tick, wire::Type::kClose, wire::CloseMessage{session_end_->reason()}, codec_,
+                                 buffer)
+            : v.connection->seal(now, tick, wire::Type::kForce, wire::to_force_message(report), codec_, buffer);
     if (out.size > 0) return out;
   }
   return std::nullopt;

@@ -7,7 +7,9 @@
 
 #include "proto/wire/link_test_report.h"
 #include "proto/wire/wire_codec.h"
+#include "server/session/close_out.h"
 #include "server/session/connection.h"
+#include "server/session/seat_catalogue.h"
 
 namespace tandem::server {
 
@@ -17,12 +19,16 @@ class LinkTestPeers {
  public:
   static constexpr std::size_t kMax = 4;
 
-  LinkTestPeers(std::size_t dof, PortSpace port, Duration tick) : codec_(dof, port), tick_(tick) {}
+  /// @param session_end  close-out of the session; must outlive this
+  LinkTestPeers(std::size_t dof, PortSpace port, Duration tick, const CloseOut& session_end)
+      : codec_(dof, port), tick_(tick), session_end_(&session_end) {}
 
   /// Admits a peer to a free slot.
   /// @param link  in: the peer's channel; out: the channel that the slot held before
-  /// @return index of the slot; nothing if all slots are in use
-  [[nodiscard]] std::optional<std::size_t> admit(Time now, std::unique_ptr<transport::SecureChannel>& link) noexcept;
+  /// @param place  out: index of the slot
+  /// @return kAccepted, kSeatTaken (all slots are in use) or kSessionOver
+  [[nodiscard]] JoinResult admit(Time now, std::unique_ptr<transport::SecureChannel>& link,
+                                 std::size_t& place) noexcept;
   /// Number of free slots.
   [[nodiscard]] std::size_t places_free(Time now) const noexcept;
   /// Removes a peer: it receives CLOSE, then its slot is free. @return false if the slot does not hold connection
@@ -34,10 +40,8 @@ class LinkTestPeers {
   /// Removes peers that have been silent for more than 2 s, and marks a FORCE as due for the others.
   void on_tick(Time now) noexcept TANDEM_REALTIME;
 
-  /// Writes the next datagram; nullopt if none is due.
-  /// @param closing  reason to send CLOSE instead, because the session ends
+  /// Writes the next datagram, CLOSE at the end of the session; nullopt if none is due.
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::uint32_t tick,
-                                                      std::optional<wire::CloseReason> closing,
                                                       std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
 
  private:
@@ -50,6 +54,7 @@ class LinkTestPeers {
   std::array<Peer, kMax> peers_;
   wire::Codec codec_;
   Duration tick_;
+  const CloseOut* session_end_;
 };
 
 }  // namespace tandem::server

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/base/time.h"
 
 namespace tandem::server {
@@ -12,26 +14,21 @@ class MisbehaviourMonitor {
   static constexpr Duration kQuarantineTime = std::chrono::seconds(1);
   static constexpr Duration kForbiddenEventInterval = std::chrono::seconds(1);
 
-  void report_misbehaviour(Time now) noexcept {
-    last_misbehaviour_ = now;
-    ever_misbehaved_ = true;
-  }
+  void report_misbehaviour(Time now) noexcept { last_misbehaviour_ = now; }
   [[nodiscard]] bool quarantined(Time now) const noexcept {
-    return ever_misbehaved_ && now - last_misbehaviour_ < kQuarantineTime;
+    return last_misbehaviour_ && now - *last_misbehaviour_ < kQuarantineTime;
   }
 
   /// Records a request that the client's role forbids. @return whether to emit an audit event: at most one per
   /// second
   [[nodiscard]] bool forbidden_event_due(Time now) noexcept {
-    if (forbidden_event_sent_ && now - last_forbidden_event_ < kForbiddenEventInterval) return false;
-    forbidden_event_sent_ = true;
+    if (last_forbidden_event_ && now - *last_forbidden_event_ < kForbiddenEventInterval) return false;
     last_forbidden_event_ = now;
     return true;
   }
 
  private:
-  Time last_misbehaviour_{}, last_forbidden_event_{};
-  bool ever_misbehaved_ = false, forbidden_event_sent_ = false;
+  std::optional<Time> last_misbehaviour_, last_forbidden_event_;
 };
 
 }  // namespace tandem::server

@@ -26,13 +26,14 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       masters_(scene.masters()),
       seats_(make_seats(scene, scale)),
       seat_catalogue_(scene, scale),
-      link_test_peers_(scene.dof, scene.port, from_seconds(1.0 / scene.tick_hz)),
       clock_(scene.tick_hz),
       audit_(clock_),
       participants_(seats_, clock_, audit_),
+      link_test_peers_(scene.dof, scene.port, from_seconds(1.0 / scene.tick_hz), participants_.closing().session),
       control_(scene, std::move(slaves), scale, seats_, participants_.present()),
       start_(scene, seats_, participants_.present(), clock_),
       stop_(scene, participants_, start_, audit_),
+      lifecycle_(scene, clock_, participants_, start_, stop_, audit_),
       authority_(scene, clock_, control_.tools(), seats_, participants_.present(), audit_),
       leading_hands_(scene, clock_.dt()),
       send_(scene, seats_),
@@ -91,14 +92,6 @@ JoinResult Session::admit(Time now, std::size_t i, SeatConnection& entry, bool s
   return result;
 }
 
-JoinResult Session::admit_link_test_peer(Time now, std::unique_ptr<transport::SecureChannel>& link,
-                                         std::size_t* place) noexcept {
-  if (ending()) return JoinResult::kSessionOver;
-  const auto taken = link_test_peers_.admit(now, link);
-  if (taken && place != nullptr) *place = *taken;
-  return taken ? JoinResult::kAccepted : JoinResult::kSeatTaken;
-}
-
 void Session::on_datagram(Time now, const PeerAddress& from, std::span<const std::byte> bytes) noexcept {
   const auto header = transport::read_header(bytes);
   if (!header) {
@@ -117,8 +110,7 @@ void Session::handle_message(Time now, std::size_t i, const SeatEndpoint::Receiv
   if (heard.forbidden) participants_.reject_forbidden(now, i);
   if (heard.accepted_state) handle_requests(now, i);
   if (heard.authority != nullptr && !participants_.removing(i) &&
-      authority_.request(now, requester_at(i, seats_[i].role()), *heard.authority) ==
-          AuthorityControl::Result::kForbidden)
+      authority_.request(now, requester_at(i, seats_[i].role()), *heard.authority) == CommandResult::kForbidden)
     participants_.reject_forbidden(now, i);
   if (heard.close) participants_.leave(now, i);
 }
@@ -129,7 +121,7 @@ void Session::handle_requests(Time now, std::size_t i) noexcept {
   const Requester by = requester_at(i, seats_[i].role());
   if (stop_.rising_edge(i, state.stop_all) && !stop_.request(now, by)) participants_.reject_forbidden(now, i);
   if (state.resume_stop != 0 && !participants_.removing(i) &&
-      stop_.resume(now, by, state.resume_stop) == StopLatch::Resume::kForbidden)
+      stop_.resume(now, by, state.resume_stop) == CommandResult::kForbidden)
     participants_.reject_forbidden(now, i);
 }
 
@@ -141,60 +133,25 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   fill_force_messages(now);
   for (SeatEndpoint& seat : seats_)
     if (auto* link = seat.link()) link->tick(now);
-  send_.begin_tick(now, clock_.tick(), load_state_.level, participants_.closing());
+  send_.begin_tick(now, clock_.tick(), lifecycle_.load_state().level, participants_.closing());
   link_test_peers_.on_tick(now);
 }
 
 void Session::run_one_tick(Time now) noexcept {
   const Duration elapsed = clock_.begin_step();
   for (Tool& tool : control_.tools()) tool.advance_slave(elapsed);
-  step_participants(now);
-  step_clock(now);
+  lifecycle_.report_overload(now);
+  participants_.step(now);
+  if (faults_.faulty(now, control_.not_finite())) stop_.stop_for_fault(now);
+  lifecycle_.step(now, control_.tools());
   if (over()) return;
-  authority_.step(now, clock_stopped());
-  control_.step_authority(disengages_all());
+  authority_.step(now, lifecycle_.clock_stopped());
+  control_.step_authority(lifecycle_.disengages_all());
   control_.move_references(now);
   control_.step_tools(clock_.time());
   leading_hands_.step(clock_.tick(), participants_.present(), seats_, control_.tools());
   control_.step_targets(clock_.tick(), leading_hands_);
-  record_tick(*this, record_);
-}
-
-/// Updates the presence of participants, and monitors overload, the seats and the control step.
-void Session::step_participants(Time now) noexcept {
-  if (clock_.begun() && load_state_.overloaded != overloaded_) {
-    overloaded_ = load_state_.overloaded;
-    audit_.emit(now, overloaded_ ? AuditEvent::What::kOverload : AuditEvent::What::kOverloadCleared,
-                AuditEvent::kNoSeat);
-  }
-  participants_.step(now);
-  std::uint64_t not_finite = 0;
-  for (const Tool& tool : control_.tools()) not_finite += tool.not_finite();
-  if (faults_.faulty(now, not_finite)) stop_.stop_for_fault(now);
-}
-
-/// Begins the session, counts its time, or advances its end. In ENDING the clock is stopped, so that a restart resumes
-/// at the time when the end began.
-void Session::step_clock(Time now) noexcept {
-  if (ending()) return participants_.step_end();
-  if (!clock_.begun()) {
-    if (start_.step(now, disengages_all()))
-      start_.recovering() ? stop_.resume_after_restart(now, AuditEvent::kNoSeat, 0) : start_.begin(now);
-  } else {
-    clock_.advance(clock_stopped());
-    held_ = std::ranges::all_of(control_.tools(), [](const Tool& t) { return t.authority.held(); });
-  }
-  if (clock_.begun() && clock_.time() >= scene_->duration) end(wire::CloseReason::kDone);
-}
-
-wire::SessionState Session::state() const noexcept {
-  if (ending()) return wire::SessionState::kEnding;
-  if (stop_.latch().level() == StopLatch::Level::kStopped) return wire::SessionState::kStopped;
-  if (stop_.latch().level() == StopLatch::Level::kPaused) return wire::SessionState::kPaused;
-  return !clock_.begun()          ? wire::SessionState::kWaiting
-         : load_state_.overloaded ? wire::SessionState::kOverloaded
-         : held_                  ? wire::SessionState::kHeld
-                                  : wire::SessionState::kRunning;
+  record_tick(*this, leading_hands_, record_);
 }
 
 void Session::fill_force_messages(Time now) noexcept {
@@ -211,7 +168,7 @@ void Session::fill_force_messages(Time now) noexcept {
       entitled[j] |= slave_ready && control_.tools()[j].authority.requested()[i] > 0 && ready[i];
     touches[j] = control_.touching(now, j);
   }
-  const bool engage = start_.may_engage() && !disengages_all(), timeline_waits = clock_stopped();
+  const bool engage = start_.may_engage() && !lifecycle_.disengages_all(), timeline_waits = lifecycle_.clock_stopped();
   const wire::SessionState state_now = state();
 
   for (std::size_t i = 0; i < seats_.size(); ++i) {
@@ -236,9 +193,7 @@ void Session::fill_force_messages(Time now) noexcept {
 std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
   auto out = send_.poll(now, clock_.tick(), participants_.closing(), buffer);
   if (out) return out;
-  const CloseOut& end = participants_.closing().session;
-  out = link_test_peers_.poll_transmit(now, clock_.tick(),
-                                       end.sends_close() ? std::optional{end.reason()} : std::nullopt, buffer);
+  out = link_test_peers_.poll_transmit(now, clock_.tick(), buffer);
   if (!out) send_.rewind();
   return out;
 }

@@ -8,7 +8,6 @@
 #include "common/base/time.h"
 #include "proto/spec/scene_spec.h"
 #include "proto/wire/wire_codec.h"
-#include "server/policy/load_shedder.h"
 #include "server/report/tick_record.h"
 #include "server/session/audit_trail.h"
 #include "server/session/authority_control.h"
@@ -23,6 +22,7 @@
 #include "server/session/seat_endpoint.h"
 #include "server/session/send_schedule.h"
 #include "server/session/session_clock.h"
+#include "server/session/session_lifecycle.h"
 #include "server/session/shared_control.h"
 #include "server/session/start_condition.h"
 #include "server/session/stop_control.h"
@@ -55,9 +55,6 @@ class Session {
   /// the version of the authority or the number of stops changed.
   [[nodiscard]] Checkpoint checkpoint() const noexcept TANDEM_REALTIME;
   [[nodiscard]] std::uint64_t epoch() const noexcept { return epoch_; }
-  /// True once session time runs, or if it ran before a restart. A session restored from a checkpoint with `begun`
-  /// false requires no seats to come back.
-  [[nodiscard]] bool begun() const noexcept { return start_.begun(); }
 
   /// Sets the source of surfaces near a tool, in addition to the scene's own (server/session/contact_source.h). Call
   /// it before the first tick, or between ticks.
@@ -69,20 +66,12 @@ class Session {
   [[nodiscard]] const SeatCatalogue& seat_catalogue() const noexcept { return seat_catalogue_; }
   /// Attaches a client to a seat, as Participants::admit. Requests of the client before are withdrawn.
   [[nodiscard]] JoinResult admit(Time now, std::size_t seat, SeatConnection& entry, bool same_owner) noexcept;
-  /// Admits a link-test peer (proto/wire/link_test_report.h).
-  /// @param place  out: index of its slot, below LinkTestPeers::kMax
-  /// @return kAccepted, kSeatTaken (all slots are in use) or kSessionOver
-  [[nodiscard]] JoinResult admit_link_test_peer(Time now, std::unique_ptr<transport::SecureChannel>& link,
-                                                std::size_t* place = nullptr) noexcept;
   [[nodiscard]] LinkTestPeers& link_test_peers() noexcept { return link_test_peers_; }
 
   void on_datagram(Time now, const PeerAddress& from, std::span<const std::byte> bytes) noexcept;
   /// Random tokens for path challenges. The thread that runs the session fills the store before the first datagram and
   /// between ticks.
   [[nodiscard]] PathTokens& path_tokens() noexcept { return path_tokens_; }
-  /// Sets the load-shedding level, effective from the next tick. If `overloaded`, all hands are disengaged.
-  void set_load_state(const LoadState& load) noexcept { load_state_ = load; }
-  [[nodiscard]] const LoadState& load_state() const noexcept { return load_state_; }
   /// Advances the session to `now` and marks the datagrams that are due.
   /// @param missed  ticks whose time passed without a call; the session runs at most SessionClock::kCatchUpMax of them
   /// now, without sending, and skips the rest
@@ -90,25 +79,19 @@ class Session {
   /// Writes the next datagram into `buffer`. @return its destination and size; nullopt when nothing is due
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::span<std::byte> buffer) noexcept;
 
-  /// Ends the session: all gates ramp out, then every client receives CLOSE.
-  void end(wire::CloseReason why) noexcept { participants_.end(why); }
   /// All clients have received CLOSE: no tick does anything any more.
   [[nodiscard]] bool over() const noexcept { return participants_.closing().session.over(); }
-  [[nodiscard]] wire::SessionState state() const noexcept;
-  /// Clock and timeline are stopped: the session is ENDING, or it is STOPPED or PAUSED and `clock_runs_while_stopped`
-  /// is false in its scene.
-  [[nodiscard]] bool clock_stopped() const noexcept {
-    return clock_.begun() && (ending() || (stop_.latch().latched() && !scene_->clock_runs_while_stopped));
-  }
+  [[nodiscard]] wire::SessionState state() const noexcept { return lifecycle_.state(); }
 
+  [[nodiscard]] SessionLifecycle& lifecycle() noexcept { return lifecycle_; }
+  [[nodiscard]] const SessionLifecycle& lifecycle() const noexcept { return lifecycle_; }
   [[nodiscard]] Participants& participants() noexcept { return participants_; }
   [[nodiscard]] const Participants& participants() const noexcept { return participants_; }
   [[nodiscard]] const StartCondition& start_condition() const noexcept { return start_; }
   [[nodiscard]] StopControl& stop_control() noexcept { return stop_; }
-  [[nodiscard]] const StopLatch& stop_latch() const noexcept { return stop_.latch(); }
+  [[nodiscard]] const StopControl& stop_control() const noexcept { return stop_; }
   [[nodiscard]] AuthorityControl& authority() noexcept { return authority_; }
   [[nodiscard]] const AuthorityControl& authority() const noexcept { return authority_; }
-  [[nodiscard]] const LeadingHands& leading_hands() const noexcept { return leading_hands_; }
   [[nodiscard]] const SessionClock& clock() const noexcept { return clock_; }
   [[nodiscard]] AuditTrail& audit() noexcept { return audit_; }
   [[nodiscard]] const TickRecord& record() const noexcept { return record_; }
@@ -123,34 +106,25 @@ class Session {
   void handle_message(Time now, std::size_t seat, const SeatEndpoint::Received& heard) noexcept TANDEM_REALTIME;
   void handle_requests(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
   void run_one_tick(Time now) noexcept TANDEM_REALTIME;
-  void step_participants(Time now) noexcept TANDEM_REALTIME;
-  void step_clock(Time now) noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
-  [[nodiscard]] bool ending() const noexcept { return participants_.closing().session.begun(); }
-  /// No seat may be engaged now: the session is ending, stopped, paused or overloaded.
-  [[nodiscard]] bool disengages_all() const noexcept {
-    return ending() || stop_.latch().latched() || load_state_.overloaded;
-  }
 
   const SceneSpec* scene_;
   std::size_t masters_;
   std::vector<SeatEndpoint> seats_;
   SeatCatalogue seat_catalogue_;
-  LinkTestPeers link_test_peers_;
   PathTokens path_tokens_;
   SessionClock clock_;
   AuditTrail audit_;
   Participants participants_;
+  LinkTestPeers link_test_peers_;
   SharedControl control_;
   StartCondition start_;
   StopControl stop_;
+  SessionLifecycle lifecycle_;
   AuthorityControl authority_;
   LeadingHands leading_hands_;
   SendSchedule send_;
   FaultMonitor faults_;
-  LoadState load_state_;
-  bool overloaded_ = false;  ///< as of the last audit event
-  bool held_ = false;        ///< no tool has a present seat with authority over it; false before the session begins
   Checkpoint::Hash scene_hash_;
   std::uint64_t epoch_ = 1;
   std::uint64_t unmatched_datagrams_ = 0;

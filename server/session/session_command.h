@@ -10,6 +10,7 @@
 #include "proto/wire/wire_messages.h"
 #include "server/policy/load_shedder.h"
 #include "server/report/audit_event.h"
+#include "server/session/command_result.h"
 #include "server/session/stop_latch.h"
 
 namespace tandem::server {
@@ -29,17 +30,7 @@ struct SessionCommand {
 
 /// Result of a command, and the state of the session afterwards.
 struct CommandOutcome {
-  enum class Result : std::uint8_t {
-    kDone,
-    kForbidden,     ///< the role may not do this, or not to these seats
-    kSeatLost,      ///< the client does not own the seat any more
-    kOutdated,      ///< the number or version is not the newest
-    kHeldByOthers,  ///< ResumeSession: the client's own pause is withdrawn, other seats' pauses are on
-    kNothingToDo,   ///< nothing to resume, or no client to remove
-    kNoSuchSeat,    ///< RemoveParticipant: the scene has no seat of this name
-    kInvalid,       ///< no such tool, or a different number of masters
-    kStaleLink,     ///< a party to the change has a stale link
-  };
+  using Result = CommandResult;
   struct Seat {
     bool taken = false, heard = false;
   };

@@ -28,7 +28,7 @@ void record_slave(const wire::Telemetry& said, ToolRecord& r) noexcept {
   r.penetration = said.penetration_m;
 }
 
-void record_tick(const Session& session, TickRecord& record) noexcept {
+void record_tick(const Session& session, const LeadingHands& leading, TickRecord& record) noexcept {
   const SceneSpec& scene = session.scene();
   const std::size_t masters = scene.masters();
   record.tick = session.clock().session_tick();
@@ -36,7 +36,7 @@ void record_tick(const Session& session, TickRecord& record) noexcept {
   const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped ||
                        state == wire::SessionState::kOverloaded;
   record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld ||
-                   (stopped && session.clock().begun() && !session.clock_stopped());
+                   (stopped && session.clock().begun() && !session.lifecycle().clock_stopped());
   record.stopped_ticks = session.clock().stopped_ticks();
   record.dropped_ticks = session.clock().dropped_ticks();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
@@ -44,7 +44,7 @@ void record_tick(const Session& session, TickRecord& record) noexcept {
     SeatRecord& r = record.seats[i];
     r.alpha = session.seat(i).tx.alpha;
     if (i < masters) {
-      const wire::Ghost& ghost = session.leading_hands().ghost(i);
+      const wire::Ghost& ghost = leading.ghost(i);
       r.leader = ghost.leader;
       for (std::size_t k = 0; k < 3; ++k) r.ghost[k] = ghost.x[k];
       r.alpha = session.hub().authority(i);

@@ -9,6 +9,6 @@ void record_seat(const wire::StateMessage& said, SeatRecord& record) noexcept;
 void record_slave(const wire::Telemetry& said, ToolRecord& record) noexcept;
 
 /// Fills the record of this tick for traces and reports. Values of seats are those of their newest STATE.
-void record_tick(const Session& session, TickRecord& record) noexcept;
+void record_tick(const Session& session, const LeadingHands& leading, TickRecord& record) noexcept;
 
 }  // namespace tandem::server

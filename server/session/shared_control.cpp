@@ -56,6 +56,12 @@ void SharedControl::rest_tool(std::size_t j, const AxisArray& x) noexcept {
   hub_.set_tool(j, tools_[j].port());
 }
 
+std::uint64_t SharedControl::not_finite() const noexcept {
+  std::uint64_t steps = 0;
+  for (const Tool& tool : tools_) steps += tool.not_finite();
+  return steps;
+}
+
 bool SharedControl::touching(Time now, std::size_t j) const noexcept {
   constexpr double kTouchN = 0.05;  // [N] noise level of a force sensor
   if (const hal::SteppedDevice* const slave = tools_[j].slave())

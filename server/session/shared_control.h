@@ -30,6 +30,8 @@ class SharedControl {
   [[nodiscard]] const control::EscHub& hub() const noexcept { return hub_; }
   /// Whether the slave of a tool is in contact, as far as its device reports contact.
   [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
+  /// Number of steps of all tools whose result was not finite.
+  [[nodiscard]] std::uint64_t not_finite() const noexcept TANDEM_REALTIME;
   /// Places the virtual mass of a tool at `x`, at rest.
   void rest_tool(std::size_t tool, const AxisArray& x) noexcept;
 

@@ -26,14 +26,14 @@ std::optional<StopLatch::Level> StopControl::request(Time now, const Requester& 
   return level;
 }
 
-StopLatch::Resume StopControl::resume(Time now, const Requester& by, std::uint32_t number) noexcept {
+CommandResult StopControl::resume(Time now, const Requester& by, std::uint32_t number) noexcept {
   if (start_->recovering() && !latch_.latched() && number == latch_.stops()) {
-    if (!StopLatch::may_resume(by.role)) return StopLatch::Resume::kForbidden;
+    if (!StopLatch::may_resume(by.role)) return CommandResult::kForbidden;
     resume_after_restart(now, by.audited_as, number);
-    return StopLatch::Resume::kEnded;
+    return CommandResult::kDone;
   }
-  const StopLatch::Resume became = latch_.resume(by.role, by.seat, number, participants_->connected(now));
-  if (became == StopLatch::Resume::kEnded) audit_->emit(now, AuditEvent::What::kResume, by.audited_as, number);
+  const CommandResult became = latch_.resume(by.role, by.seat, number, participants_->connected(now));
+  if (became == CommandResult::kDone) audit_->emit(now, AuditEvent::What::kResume, by.audited_as, number);
   return became;
 }
 

@@ -39,8 +39,8 @@ class StopControl {
                                           StopLatch::Level wanted = StopLatch::Level::kStopped) noexcept;
   /// Ends the stop, or ends the waiting after a restart.
   /// @param number  number of the stop to end, see StopLatch::stops
-  /// @return kEnded also if the session resumed into the stop that was on before a restart
-  StopLatch::Resume resume(Time now, const Requester& by, std::uint32_t number) noexcept;
+  /// @return kDone also if the session resumed into the stop that was on before a restart
+  CommandResult resume(Time now, const Requester& by, std::uint32_t number) noexcept;
   /// Resumes after a restart. Time continues from the checkpoint; a stop that was on then is raised again, under a new
   /// number. @param seat  origin of the audit event, @param number  its version
   void resume_after_restart(Time now, std::uint8_t seat, std::uint32_t number) noexcept;

@@ -7,6 +7,7 @@
 #include "common/base/axes.h"
 #include "common/base/time.h"
 #include "server/policy/roles.h"
+#include "server/session/command_result.h"
 
 namespace tandem::server {
 
@@ -94,24 +95,20 @@ class StopLatch {
            (may_resume(who) || holders(there) == 0 || (holders(there) >> seat & 1U) != 0);
   }
 
-  enum class Resume : std::uint8_t {
-    kEnded,
-    kHeldByOthers,  ///< the participant's own pause is withdrawn, other seats' pauses are on
-    kForbidden,
-    kOutdated,  ///< nothing is stopped, or `number` is not the newest
-  };
-  Resume resume(AccessRole who, std::uint8_t seat, std::uint32_t number, std::uint32_t there) noexcept {
-    if (!latched() || number != stops_) return Resume::kOutdated;
-    if (!may_end(who, seat)) return Resume::kForbidden;
+  /// Ends the stop, or withdraws the participant's own pause.
+  /// @return kDone, kHeldByOthers, kForbidden or kOutdated
+  CommandResult resume(AccessRole who, std::uint8_t seat, std::uint32_t number, std::uint32_t there) noexcept {
+    if (!latched() || number != stops_) return CommandResult::kOutdated;
+    if (!may_end(who, seat)) return CommandResult::kForbidden;
     if (!may_resume(who)) {
       holders_ &= ~(1U << seat);
-      if (holders(there) != 0) return Resume::kHeldByOthers;
+      if (holders(there) != 0) return CommandResult::kHeldByOthers;
     }
     level_ = Level::kNone;
     holders_ = 0;
     ended_ = {number, seat, who};
     requested_.fill(false);  // a seat that still requests a stop must request it again
-    return Resume::kEnded;
+    return CommandResult::kDone;
   }
 
   /// Turns the level in STATE into edges. @return true at a rising edge

@@ -249,7 +249,7 @@ TEST(FailureTable, ATraineePausesAndTheInstructorResumes) {
   ASSERT_TRUE(life.simulation->seat(kTrainee)->requests().stop_all());
   life.until(7s);
   EXPECT_EQ(life.state(), wire::SessionState::kPaused);
-  EXPECT_EQ(life.simulation->session().stop_latch().stops(), 1u) << "repeated, and one stop";
+  EXPECT_EQ(life.simulation->session().stop_control().latch().stops(), 1u) << "repeated, and one stop";
   life.simulation->seat(kTrainer)->requests().resume();
   life.until(8s);
   EXPECT_NE(life.state(), wire::SessionState::kPaused);

@@ -62,8 +62,8 @@ TEST(LiveSessionCheckpoint, ContainsASessionFromItsFirstTickOn) {
       hands[std::to_integer<std::size_t>(out->to.bytes[0]) - 1].seat->on_datagram(now,
                                                                                   std::span{buffer}.first(out->size));
     static_cast<void>(mail->take(kept));
-    if (hosted.session().begun()) began = now;
-    EXPECT_EQ(kept.begun, hosted.session().begun()) << "at " << seconds(now - Time{}) << " s";
+    if (hosted.session().start_condition().begun()) began = now;
+    EXPECT_EQ(kept.begun, hosted.session().start_condition().begun()) << "at " << seconds(now - Time{}) << " s";
   }
   ASSERT_TRUE(began) << "else there is nothing to judge";
   EXPECT_NE((*began - Time{}) % 500ms, 0ms) << "not by chance, with the regular one";
@@ -96,12 +96,12 @@ TEST(LiveSession, ReportsThatItWaitsWhileItIsStopped) {
   const server::SessionStatus stopped = look();
   EXPECT_EQ(stopped.state, wire::SessionState::kStopped);
   EXPECT_TRUE(stopped.waiting) << "it waits for the required seats";
-  ASSERT_EQ(
-      restored.session().stop_control().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
-      server::StopLatch::Resume::kEnded);
-  ASSERT_EQ(
-      restored.session().stop_control().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
-      server::StopLatch::Resume::kEnded);  // resumes without the missing seats
+  ASSERT_EQ(restored.session().stop_control().resume(now, {AccessRole::kOperator},
+                                                     restored.session().stop_control().latch().stops()),
+            server::CommandResult::kDone);
+  ASSERT_EQ(restored.session().stop_control().resume(now, {AccessRole::kOperator},
+                                                     restored.session().stop_control().latch().stops()),
+            server::CommandResult::kDone);  // resumes without the missing seats
   EXPECT_FALSE(look().waiting);
 }
 
@@ -115,9 +115,9 @@ TEST(LiveSession, CountsEventsThatWereNotTakenInTime) {
   const auto stops = [&](int many) {  // each stop and its end are one event each
     for (int n = 0; n < many; ++n) {
       ASSERT_TRUE(hosted.session().stop_control().request(now, {AccessRole::kInstructor}));
-      ASSERT_EQ(
-          hosted.session().stop_control().resume(now, {AccessRole::kInstructor}, hosted.session().stop_latch().stops()),
-          server::StopLatch::Resume::kEnded);
+      ASSERT_EQ(hosted.session().stop_control().resume(now, {AccessRole::kInstructor},
+                                                       hosted.session().stop_control().latch().stops()),
+                server::CommandResult::kDone);
     }
   };
   const auto told = [&] {

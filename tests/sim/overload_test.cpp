@@ -139,7 +139,7 @@ TEST(Overload, ShedsInOrderAndKeepsTheTraineeAtOneKilohertz) {
   std::uint64_t before = forces(life, 0);
   while (life.at() < 13s) {
     life.step();
-    const ShedLevel now = life.simulation->session().load_state().level;
+    const ShedLevel now = life.simulation->session().lifecycle().load_state().level;
     if (order.empty() || order.back() != now) order.push_back(now);
     ASSERT_EQ(forces(life, 0), before + 1) << "the trainee's FORCE of this tick";
     before = forces(life, 0);
@@ -151,7 +151,7 @@ TEST(Overload, ShedsInOrderAndKeepsTheTraineeAtOneKilohertz) {
   if (order.front() != ShedLevel::kNone) order.insert(order.begin(), ShedLevel::kNone);
   EXPECT_EQ(order, expected) << "and no way back while the load lasts";
   life.until(13s + 30s);
-  EXPECT_EQ(life.simulation->session().load_state().level, ShedLevel::kNone) << "five rungs of 5 s";
+  EXPECT_EQ(life.simulation->session().lifecycle().load_state().level, ShedLevel::kNone) << "five rungs of 5 s";
   EXPECT_EQ(rates(life)[1], 1000u);
   life.expect_nothing_broken();
 }
@@ -164,7 +164,7 @@ TEST(Overload, BringsAnOverfullThreadBackToItsPeriodByShedding) {
   life.until(3300ms);
   EXPECT_LT(forces(life, 0) - before, 150u) << "every second tick is missed";
   life.until(10s);
-  EXPECT_EQ(life.simulation->session().load_state().level, ShedLevel::kNewJoins);
+  EXPECT_EQ(life.simulation->session().lifecycle().load_state().level, ShedLevel::kNewJoins);
   const auto heard = rates(life);
   EXPECT_EQ(heard[0], 1000u);
   for (std::size_t i = 1; i < heard.size(); ++i) EXPECT_NEAR(static_cast<double>(heard[i]), 333, 1);
@@ -194,7 +194,7 @@ Felt feel(Duration each) {
   }
   felt.roughness = std::sqrt(square / n);
   for (std::size_t i = 1; i < 8; ++i) felt.trips += life.simulation->seat(i)->gate().trips();
-  EXPECT_EQ(life.simulation->session().load_state().level,
+  EXPECT_EQ(life.simulation->session().lifecycle().load_state().level,
             each > 0us ? ShedLevel::kEvaluatorsEvery3rd : ShedLevel::kNone);
   life.expect_nothing_broken();
   return felt;

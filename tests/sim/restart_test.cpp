@@ -166,13 +166,14 @@ TEST(ServerRestart, PreservesAStop) {
   ASSERT_TRUE(simulation.seat(0)->requests().stop_all());
   simulation.seat(1)->requests().stop_locally();
   until(4900ms);
-  const std::uint32_t stops = simulation.session().stop_latch().stops();
+  const std::uint32_t stops = simulation.session().stop_control().latch().stops();
   EXPECT_EQ(stops, 1u);
   until(6s);
   simulation.seat(1)->requests().resume();  // its own hand; otherwise the session waits for it
   until(8s);
   EXPECT_EQ(simulation.session().state(), wire::SessionState::kStopped);
-  EXPECT_GT(simulation.session().stop_latch().stops(), stops) << "under a new number: an old request to resume is void";
+  EXPECT_GT(simulation.session().stop_control().latch().stops(), stops)
+      << "under a new number: an old request to resume is void";
   for (std::size_t i = 0; i < 2; ++i) EXPECT_FALSE(simulation.seat(i)->gate().active());
   simulation.seat(0)->requests().resume();
   until(11s);

@@ -127,7 +127,7 @@ TEST(Simulation, SeatsAreRefusedWhenTakenOrUnknown) {
   EXPECT_EQ(session.seat_catalogue().seat_names(), "trainer");
   caps.joints = caps.tip_axes = 0;
   EXPECT_EQ(ask("trainer", 3000ms), server::JoinResult::kDeviceUnfit);
-  session.end(wire::CloseReason::kDone);
+  session.participants().end(wire::CloseReason::kDone);
   caps.joints = caps.tip_axes = 1;
   EXPECT_EQ(ask("trainer", 3000ms), server::JoinResult::kSessionOver);
 }

@@ -1,6 +1,10 @@
 #include "server/app/control/control_event.h"
 
+#include "common/base/enumerator_count.h"
+
 namespace tandem::server {
+
+static_assert(kControlEvents == enumerator_count<ControlEvent>());
 
 std::string_view to_text(ControlEvent event) noexcept {
   constexpr std::array<std::string_view, kControlEvents> kNames{

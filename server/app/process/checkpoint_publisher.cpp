@@ -29,7 +29,8 @@ void CheckpointPublisher::attach(std::shared_ptr<CheckpointMailbox> mailbox, std
 void CheckpointPublisher::note(AuditEvent::What event) noexcept { due_ = due_ || triggers_checkpoint(event); }
 
 void CheckpointPublisher::step(const Session& session) noexcept {
-  due_ = due_ || session.begun() != std::exchange(begun_, session.begun());
+  due_ |= session.start_condition().begun() !=
+          std::exchange(begun_, session.start_condition().begun());  // `|=`: `begun_` follows in any case
   if (mailbox_ && (due_ || ++since_ >= interval_)) publish(session);
 }
 

@@ -48,7 +48,7 @@ void LiveSession::draw_path_tokens() noexcept {
 SessionStatus LiveSession::status() const { return published_.read(); }
 
 void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
-  session_.set_load_state(machine.load_state);
+  session_.lifecycle().set_load_state(machine.load_state);
   session_.on_tick(now, missed);
   while (const auto event = session_.audit().poll()) {
     audit_.push(*event);
@@ -112,8 +112,8 @@ void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {
 void LiveSession::publish(Time now, const MachineStatus& machine) noexcept {
   status_.state = session_.state();
   status_.time = session_.clock().time();
-  status_.stop = session_.stop_latch();
-  status_.waiting = !session_.begun() || session_.start_condition().recovering();
+  status_.stop = session_.stop_control().latch();
+  status_.waiting = !session_.start_condition().begun() || session_.start_condition().recovering();
   status_.machine = machine;
   status_.unmatched_datagrams = session_.unmatched_datagrams();
   status_.violations = violations_.passed() ? 0 : 1;

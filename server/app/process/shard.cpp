@@ -68,7 +68,7 @@ void Shard::run() noexcept {
     if (stop_.load(std::memory_order_acquire)) {
       if (!serving()) break;
       for (LiveSession* s : sessions_)
-        if (s != nullptr) s->session().end(stop_reason_.load(std::memory_order_relaxed));
+        if (s != nullptr) s->session().participants().end(stop_reason_.load(std::memory_order_relaxed));
     }
     Time now = io::monotonic_now();
     if (now < due) continue;
@@ -155,7 +155,7 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
       request.result = live->session().admit(now, request.seat, request.connection, request.same_owner);
       break;
     case ShardRequest::What::kAdmitLinkTest:
-      request.result = live->session().admit_link_test_peer(now, request.connection.link, &request.place);
+      request.result = live->session().link_test_peers().admit(now, request.connection.link, request.place);
       break;
     case ShardRequest::What::kCommand:
       request.outcome = execute_command(live->session(), now, request.command);
@@ -175,7 +175,7 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
           live->session().link_test_peers().remove(request.place, request.cid, wire::CloseReason::kRevoked));
       break;
     case ShardRequest::What::kEndSession:
-      live->session().end(wire::CloseReason::kServerStops);
+      live->session().participants().end(wire::CloseReason::kServerStops);
       request.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kAddSession:

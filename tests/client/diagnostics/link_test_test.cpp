@@ -297,7 +297,7 @@ TEST(LinkTestPeers, AreNotifiedWhenTheServerEnds) {
   Rig rig;
   rig.sit();
   rig.run(100ms);
-  rig.session->end(wire::CloseReason::kServerStops);
+  rig.session->participants().end(wire::CloseReason::kServerStops);
   rig.run(500ms);
   EXPECT_TRUE(rig.test->closed());
 }

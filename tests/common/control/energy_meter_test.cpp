@@ -39,5 +39,14 @@ TEST(EnergyMeter, SkipsANonFiniteReadingButNotTheMotion) {
   EXPECT_NEAR(meter.total(), 0.2, 1e-12);
 }
 
+TEST(EnergyMeter, StartsAtTheFirstFiniteReading) {
+  EnergyMeter meter;
+  EXPECT_EQ(meter.advance(2, {0, std::numeric_limits<double>::quiet_NaN()}, {2, 2}), 0);
+  EXPECT_EQ(meter.advance(2, {std::numeric_limits<double>::infinity(), 0}, {2, 2}), 0);
+  EXPECT_EQ(meter.advance(2, {0.1, 0.3}, {2, 2}), 0);
+  EXPECT_NEAR(meter.advance(2, {0.2, 0.3}, {2, 2}), 0.2, 1e-12);
+  EXPECT_NEAR(meter.total(), 0.2, 1e-12);
+}
+
 }  // namespace
 }  // namespace tandem::control

@@ -256,6 +256,46 @@ TEST(EscHub, AsksTheSourcesOfEachToolForItsOwnShare) {
   EXPECT_NEAR(hub.sources(1).granted(), 0.5 * 0.05, 1e-12);
 }
 
+/// The server's end of a spring of 1000 N/m at a tool at 0, whose reference moved from the tool to 10 mm: it paid 50
+/// mJ.
+std::unique_ptr<ChannelEnd> paid_50_mj() {
+  ChannelParams p;
+  p.side = Side::kServer;
+  p.dof = 1;
+  p.schedule.k = 1000;
+  p.v_app = 1e3;
+  p.e0 = 1;
+  auto end = make_channel_end("set_position", p);
+  end->engage({}, 0);
+  EndInput in;
+  in.rx.x[0] = 0.01;
+  EXPECT_NEAR(end->move(in).paid[0], 0.05, 1e-12);
+  return end;
+}
+
+TEST(EscHub, FillsTheTankOfTheToolThatTheSeatFollows) {
+  for (const std::size_t followed : {0U, 1U}) {
+    EscHub hub = hub_of(2, 2, FlowSourceMode::kTank, 1);
+    hub.set_follow(0, followed, 1);
+    hub.set_authority(followed, {0.25, 0.75}, false);
+    hub.settle(0, {}, {}, *paid_50_mj());
+    EXPECT_NEAR(hub.sources(followed).tank(), 1 + 0.75 * 0.05, 1e-12)
+        << "the part that no authority passes to the tool";
+    EXPECT_EQ(hub.sources(1 - followed).tank(), 1);
+  }
+}
+
+TEST(EscHub, FillsTheTankOfEachToolByItsPartOfTheSpring) {
+  EscHub hub = hub_of(2, 2, FlowSourceMode::kTank, 1);
+  hub.set_follow(0, 0, 0.5);
+  hub.set_follow(0, 1, 0.5);
+  hub.set_authority(0, {0.25, 0.75}, false);
+  hub.set_authority(1, {0, 1}, false);
+  hub.settle(0, {}, {}, *paid_50_mj());
+  EXPECT_NEAR(hub.sources(0).tank(), 1 + 0.025 / 2, 1e-12) << "half of its spring drives the tool";
+  EXPECT_NEAR(hub.sources(1).tank(), 1 + 0.025, 1e-12);
+}
+
 TEST(EscHub, PaysTheDecayOfAnOffsetWithoutAuthority) {
   // The reference is 10 mm ahead of the tool and the offset decays by 0.1 mm away from it: 1000 N/m 10 mm 0.1 mm.
   EscHub hub = hub_of(2, 1);

@@ -10,7 +10,7 @@ namespace tandem::server {
 namespace {
 
 using test::SessionParts;
-using Result = AuthorityControl::Result;
+using Result = CommandResult;
 using What = AuditEvent::What;
 
 constexpr Time kNow{std::chrono::hours(1)};
@@ -46,7 +46,7 @@ TEST(AuthorityControl, CountsTheScenesRowsAndEveryDecision) {
   Lesson l;
   EXPECT_EQ(l.control.version(), 2u) << "1, and one row of authority";
   EXPECT_EQ(l.requested()[kTrainer], 1);
-  EXPECT_EQ(l.request(kInstructor, 0.4, 0.6), Result::kScheduled);
+  EXPECT_EQ(l.request(kInstructor, 0.4, 0.6), Result::kDone);
   EXPECT_EQ(l.control.version(), 3u);
   EXPECT_EQ(l.request(kInstructor, 0.5, 0.5, 2), Result::kOutdated);
   EXPECT_EQ(l.request(kInstructor, 0.5, 0.5, 4), Result::kOutdated) << "a version that does not exist yet";
@@ -73,9 +73,9 @@ TEST(AuthorityControl, LetsATraineeGiveUpItsOwnAuthorityToAnInstructorOnly) {
   const Requester trainee = requester_at(kTrainee, AccessRole::kTrainee);
   Lesson l;
   EXPECT_EQ(l.request(trainee, 0.9, 0.1), Result::kForbidden) << "it takes authority";
-  ASSERT_EQ(l.request(kInstructor, 0.4, 0.6), Result::kScheduled);
+  ASSERT_EQ(l.request(kInstructor, 0.4, 0.6), Result::kDone);
   EXPECT_EQ(l.request(trainee, 0.3, 0.7), Result::kForbidden);
-  EXPECT_EQ(l.request(trainee, 0.7, 0.3), Result::kScheduled);
+  EXPECT_EQ(l.request(trainee, 0.7, 0.3), Result::kDone);
   for (const AccessRole role : {AccessRole::kEvaluator, AccessRole::kObserver, AccessRole::kOperator})
     EXPECT_EQ(l.request({role}, 1, 0), Result::kForbidden) << to_text(role);
 }
@@ -90,7 +90,7 @@ TEST(AuthorityControl, GivesNoAuthorityToASeatThatMayNotDrive) {
 TEST(AuthorityControl, NotifiesForFiftyTicksAndThenExecutes) {
   Lesson l;
   l.clock.begin();
-  ASSERT_EQ(l.request(kInstructor, 0.25, 0.75), Result::kScheduled);
+  ASSERT_EQ(l.request(kInstructor, 0.25, 0.75), Result::kDone);
   for (std::uint32_t n = 0; n < 50; ++n) {
     EXPECT_EQ(l.requested()[kTrainer], 1) << n;
     EXPECT_EQ(l.notice(kTrainee).transfer, wire::TransferNotice::kGaining);

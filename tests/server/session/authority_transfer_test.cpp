@@ -253,8 +253,9 @@ TEST(AuthorityTransfer, IsAnnouncedDuringAStopAndActsAfterTheResume) {
   l.ticks(60);
   EXPECT_EQ(l.told(kTrainee).transfer, kNone);
   EXPECT_EQ(l.alpha(kTrainee), 0);
-  ASSERT_EQ(l.session->stop_control().resume(l.now, {AccessRole::kInstructor}, l.session->stop_latch().stops()),
-            StopLatch::Resume::kEnded);
+  ASSERT_EQ(
+      l.session->stop_control().resume(l.now, {AccessRole::kInstructor}, l.session->stop_control().latch().stops()),
+      CommandResult::kDone);
   l.ticks(1000);
   EXPECT_EQ(l.alpha(kTrainee), 1);
 }
@@ -280,8 +281,9 @@ TEST(AuthorityTransfer, MovesNoAuthorityDuringAStop) {
   EXPECT_EQ(l.requested(), kToTrainee) << "on paper";
   EXPECT_EQ(l.alpha(kTrainee), 0);
   EXPECT_TRUE(l.session->tool(0).authority.held());
-  ASSERT_EQ(l.session->stop_control().resume(l.now, {AccessRole::kInstructor}, l.session->stop_latch().stops()),
-            StopLatch::Resume::kEnded);
+  ASSERT_EQ(
+      l.session->stop_control().resume(l.now, {AccessRole::kInstructor}, l.session->stop_control().latch().stops()),
+      CommandResult::kDone);
   l.ticks(1000);
   EXPECT_EQ(l.alpha(kTrainee), 1) << "as it was decided before the stop";
 }

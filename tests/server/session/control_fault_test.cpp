@@ -90,8 +90,9 @@ TEST(ControlFault, StopsTheSessionAtTheSecondFaultWithinASecond) {
   EXPECT_EQ(rig.faults, 1);
   rig.live(3000);
   EXPECT_TRUE(rig.stopped()) << "latched";
-  EXPECT_EQ(rig.session->stop_control().resume(rig.now, {AccessRole::kInstructor}, rig.session->stop_latch().stops()),
-            StopLatch::Resume::kEnded);
+  EXPECT_EQ(rig.session->stop_control().resume(rig.now, {AccessRole::kInstructor},
+                                               rig.session->stop_control().latch().stops()),
+            CommandResult::kDone);
   rig.live(2);
   EXPECT_FALSE(rig.stopped());
   EXPECT_TRUE(rig.slave->finite());

@@ -235,17 +235,17 @@ TEST(StopLatch, TakesARisingEdgeOncePerSeatAndAResumeOfTheNewestStopOnly) {
   rig.live(200ms);
   rig.state.stop_all = true;
   rig.live(50ms);
-  EXPECT_EQ(rig.session->stop_latch().stops(), 1u) << "a level that lasts is one stop";
+  EXPECT_EQ(rig.session->stop_control().latch().stops(), 1u) << "a level that lasts is one stop";
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped);
   EXPECT_EQ(rig.force.stops, 1u);
   rig.state.stop_all = false;
   rig.live(5ms);
   EXPECT_TRUE(rig.session->stop_control().request(rig.now, {AccessRole::kOperator}));
-  EXPECT_EQ(rig.session->stop_latch().stops(), 2u);
+  EXPECT_EQ(rig.session->stop_control().latch().stops(), 2u);
   rig.state.resume_stop = 1;
   rig.live(50ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "an old request never ends a newer stop";
-  EXPECT_EQ(rig.session->stop_control().resume(rig.now, {AccessRole::kOperator}, 1), StopLatch::Resume::kOutdated)
+  EXPECT_EQ(rig.session->stop_control().resume(rig.now, {AccessRole::kOperator}, 1), CommandResult::kOutdated)
       << "the role may, but the named stop is not the newest";
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "nor does a request of a console";
@@ -274,8 +274,9 @@ TEST(StopLatch, LetsAPausingRoleNeitherEndAPauseNorWeakenAStop) {
   rig.state.stop_all = true;
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped);
-  EXPECT_EQ(rig.session->stop_control().resume(rig.now, {AccessRole::kOperator}, rig.session->stop_latch().stops()),
-            StopLatch::Resume::kEnded);
+  EXPECT_EQ(
+      rig.session->stop_control().resume(rig.now, {AccessRole::kOperator}, rig.session->stop_control().latch().stops()),
+      CommandResult::kDone);
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kPaused)
       << "the trainee still requests it: again, which is only a pause";

@@ -27,7 +27,7 @@ struct Eight : SessionFixture {
   }
   /// FORCE datagrams per seat in one second, at a shed level.
   std::map<std::size_t, int> told_on(ShedLevel rung) {
-    session->set_load_state({rung, false});
+    session->lifecycle().set_load_state({rung, false});
     run(10ms);
     forces.clear();
     run(1s);
@@ -61,7 +61,7 @@ TEST(LoadState, ShedsObserversThenEvaluatorsAndNeverSeatsThatHoldATool) {
 /// All in one tick would make that tick as long as before.
 TEST(LoadState, StaggersSendsToEvaluatorsOverTicks) {
   Eight eight;
-  eight.session->set_load_state({ShedLevel::kEvaluatorsEvery2nd, false});
+  eight.session->lifecycle().set_load_state({ShedLevel::kEvaluatorsEvery2nd, false});
   eight.run(10ms);
   for (int n = 0; n < 100; ++n) {
     eight.forces.clear();
@@ -76,7 +76,7 @@ TEST(LoadState, StaggersSendsToEvaluatorsOverTicks) {
 /// A server that is late by one tick each time counts ticks in twos: no seat's turn may always fall between.
 TEST(LoadState, ServesEverySeatWhenTicksAreMissed) {
   Eight eight;
-  eight.session->set_load_state({ShedLevel::kEvaluatorsEvery3rd, false});
+  eight.session->lifecycle().set_load_state({ShedLevel::kEvaluatorsEvery3rd, false});
   for (const std::uint32_t stride : {2u, 3u, 4u, 6u}) {
     eight.forces.clear();
     for (int n = 0; n < 120; ++n) {
@@ -137,7 +137,7 @@ TEST(LoadState, TakesNoHeap) {
   for (const bool passive : {true, false}) {
     std::array<std::byte, transport::kDatagramMax> buffer;
     const tandem::test::AllocGuard guard;
-    rig.session->set_load_state({ShedLevel::kEvaluatorsEvery2nd, passive});
+    rig.session->lifecycle().set_load_state({ShedLevel::kEvaluatorsEvery2nd, passive});
     rig.session->on_tick(rig.now, 0);
     while (rig.session->poll_transmit(rig.now, buffer)) {
     }

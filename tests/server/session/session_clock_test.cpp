@@ -34,8 +34,8 @@ struct Stoppable : SessionFixture {
     for (int i = 0; i < n; ++i) step();
   }
   void resume() {
-    ASSERT_EQ(session->stop_control().resume(now, {AccessRole::kInstructor}, session->stop_latch().stops()),
-              StopLatch::Resume::kEnded);
+    ASSERT_EQ(session->stop_control().resume(now, {AccessRole::kInstructor}, session->stop_control().latch().stops()),
+              CommandResult::kDone);
   }
   [[nodiscard]] bool to_trainee() const { return session->tool(0).authority.requested()[kTrainee] == 1; }
   [[nodiscard]] double time_of(std::size_t i) const { return seats[i].core->clock().server_time(now).value_or(-1); }
@@ -55,7 +55,7 @@ TEST(SessionClock, StopsWithItsTimelineWhileTheSessionIsStopped) {
     const std::uint32_t stood_at = s.session->clock().session_tick();
     s.steps(2000);  // past 3 s, where the timeline moves the authority
     EXPECT_EQ(s.session->clock().session_tick(), stood_at);
-    EXPECT_TRUE(s.session->clock_stopped());
+    EXPECT_TRUE(s.session->lifecycle().clock_stopped());
     EXPECT_FALSE(s.to_trainee());
     EXPECT_EQ(s.session->checkpoint().session_tick, stood_at);
     for (const std::size_t i : {kTrainer, kTrainee}) {
@@ -95,8 +95,7 @@ TEST(SessionClock, DefersAnAnnouncedTimelineChangeButNoParticipantsRequest) {
   EXPECT_FALSE(s.to_trainee());
   wire::AuthorityMessage wish{
       .version = s.session->authority().version(), .tool = 0, .masters = 2, .alpha = {0.5, 0.5}};
-  ASSERT_EQ(s.session->authority().request(s.now, {AccessRole::kInstructor, kTrainer, 0}, wish),
-            AuthorityControl::Result::kScheduled);
+  ASSERT_EQ(s.session->authority().request(s.now, {AccessRole::kInstructor, kTrainer, 0}, wish), CommandResult::kDone);
   s.steps(51);
   EXPECT_EQ(s.session->tool(0).authority.requested()[kTrainee], 0.5) << "the newest decision is the last to act";
 }
@@ -118,19 +117,19 @@ TEST(SessionClock, StopsDuringTheCloseOutSoThatARestartSkipsNothing) {
       s.steps(100);
     }
     const std::uint32_t ended_at = s.session->clock().session_tick();
-    s.session->end(wire::CloseReason::kServerReturns);
+    s.session->participants().end(wire::CloseReason::kServerReturns);
     for (int n = 0; n < 1000 && !s.session->over(); ++n) s.step();
     ASSERT_TRUE(s.session->over());
     const Checkpoint last = s.session->checkpoint();
     EXPECT_EQ(last.session_tick, ended_at);
 
     Session next = restored(s.scene, last);
-    ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
-              StopLatch::Resume::kEnded)
+    ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_control().latch().stops()),
+              CommandResult::kDone)
         << "resumes without participants";
     if (stopped) {
-      ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
-                StopLatch::Resume::kEnded)
+      ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_control().latch().stops()),
+                CommandResult::kDone)
           << "it was stopped, and still is";
     }
     for (int n = 0; n < 200; ++n, s.now += 1ms) next.on_tick(s.now, 0);
@@ -150,10 +149,10 @@ TEST(SessionClock, DoesNotRunInReportsBeforeARestoredSessionResumes) {
   ASSERT_TRUE(next.stop_control().request(s.now, {AccessRole::kInstructor}));
   EXPECT_FALSE(runs()) << "it waits for the required seats, and is stopped";
   ASSERT_TRUE(next.start_condition().recovering());
-  ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
-            StopLatch::Resume::kEnded);  // ends the stop
-  ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
-            StopLatch::Resume::kEnded);  // ends the recovery
+  ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_control().latch().stops()),
+            CommandResult::kDone);  // ends the stop
+  ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_control().latch().stops()),
+            CommandResult::kDone);  // ends the recovery
   EXPECT_TRUE(runs());
   ASSERT_FALSE(next.start_condition().recovering());
 }

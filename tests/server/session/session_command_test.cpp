@@ -80,7 +80,7 @@ TEST(Commands, ReturnTheNewStateBeforeTheNextTick) {
     EXPECT_EQ(stop(*rig, AccessRole::kOperator).state, wire::SessionState::kStopped);
     EXPECT_EQ(resume(*rig, AccessRole::kOperator, 2).state, before);
   }
-  running.session->end(wire::CloseReason::kDone);
+  running.session->participants().end(wire::CloseReason::kDone);
   EXPECT_EQ(stop(running, AccessRole::kOperator).state, wire::SessionState::kEnding);
 }
 
@@ -91,7 +91,7 @@ TEST(Commands, PauseForEveryPermittedRoleWithoutWeakeningAStop) {
   EXPECT_EQ(stop(rig, AccessRole::kOperator).stop_latch.level(), StopLatch::Level::kStopped);
   EXPECT_EQ(pause(rig, AccessRole::kTrainee).stop_latch.level(), StopLatch::Level::kStopped);
   EXPECT_EQ(pause(rig, AccessRole::kObserver).result, Result::kForbidden);
-  EXPECT_EQ(rig.session->stop_latch().stops(), 3U);
+  EXPECT_EQ(rig.session->stop_control().latch().stops(), 3U);
 }
 
 // With real clients: the trainee pauses from its seat. An evaluator cannot end the pause, the trainee can.
@@ -192,7 +192,7 @@ TEST(Commands, RejectASenderThatNoLongerHasItsSeat) {
   c.seat = kTrainer;
   ASSERT_EQ(remove(rig, kTrainer), Result::kDone);
   EXPECT_EQ(execute(rig, c).result, Result::kSeatLost) << "from the moment of the removal on";
-  EXPECT_EQ(rig.session->stop_latch().stops(), 0U);
+  EXPECT_EQ(rig.session->stop_control().latch().stops(), 0U);
 }
 
 // One participant is removed: the hand is released, the other hand on the same tool feels no jump, and the client

@@ -107,7 +107,7 @@ TEST(SilentPeer, ReceivesTheCloseWithinAMinuteOfSilence) {
     SessionFixture rig("one_axis", 3, {}, 0, endless);
     rig.run(1s);
     static_cast<void>(cut_off(rig, silent));
-    rig.session->end(wire::CloseReason::kServerStops);
+    rig.session->participants().end(wire::CloseReason::kServerStops);
     EXPECT_EQ(!cut_off(rig, 300).empty(), said) << silent;
   }
 }

@@ -10,7 +10,7 @@ namespace {
 
 using test::SessionParts;
 using Level = StopLatch::Level;
-using Resume = StopLatch::Resume;
+using Result = CommandResult;
 using What = AuditEvent::What;
 
 constexpr Time kNow{};
@@ -60,14 +60,14 @@ TEST(StopControl, GivesARoleThatMayOnlyPauseAPauseAndOthersNothing) {
 
 TEST(StopControl, EndsOnlyTheNewestStopAndOnlyForPermittedRoles) {
   Stoppable s;
-  EXPECT_EQ(s.stop.resume(kNow, kOperator, 0), Resume::kOutdated) << "nothing is stopped";
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, 0), Result::kOutdated) << "nothing is stopped";
   s.stop.request(kNow, kOperator);
   s.stop.request(kNow, kInstructorSeat);
   static_cast<void>(s.events());
-  EXPECT_EQ(s.stop.resume(kNow, kOperator, 1), Resume::kOutdated);
-  EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 2), Resume::kForbidden);
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, 1), Result::kOutdated);
+  EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 2), Result::kForbidden);
   EXPECT_TRUE(s.events().empty());
-  EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 2), Resume::kEnded);
+  EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 2), Result::kDone);
   const AuditEvent e = s.event();
   EXPECT_TRUE(e.what == What::kResume && e.seat == 0 && e.version == 2);
 }
@@ -97,10 +97,10 @@ TEST(StopControl, ResumesAfterARestartWithoutTheMissingSeatsAndRaisesTheOldStopA
     s.stop.save(again);
     EXPECT_EQ(again.stop, before) << "a second restart restores the same";
     EXPECT_EQ(again.stops, 7u);
-    EXPECT_EQ(s.stop.resume(kNow, kOperator, 6), Resume::kOutdated) << "the number of the time before";
-    EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 7), Resume::kForbidden);
+    EXPECT_EQ(s.stop.resume(kNow, kOperator, 6), Result::kOutdated) << "the number of the time before";
+    EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 7), Result::kForbidden);
     EXPECT_TRUE(s.start.recovering());
-    EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 7), Resume::kEnded);
+    EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 7), Result::kDone);
     const AuditEvent e = s.event();
     EXPECT_TRUE(e.what == What::kAllBack && e.seat == 0 && e.version == 7);
     EXPECT_FALSE(s.start.recovering());
@@ -116,9 +116,9 @@ TEST(StopControl, EndsAStopOfTheRecoveryBeforeTheRecovery) {
   s.start.restore(from);
   s.stop.restore(from);
   s.stop.request(kNow, kOperator);
-  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops()), Resume::kEnded);
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops()), Result::kDone);
   EXPECT_TRUE(s.start.recovering());
-  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops()), Resume::kEnded);
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops()), Result::kDone);
   EXPECT_FALSE(s.start.recovering());
 }
 

@@ -11,7 +11,7 @@ namespace tandem::server {
 namespace {
 
 using Level = StopLatch::Level;
-using Resume = StopLatch::Resume;
+using Result = CommandResult;
 
 constexpr std::uint32_t kAll = ~0U;
 constexpr std::uint8_t kConsole = AuditEvent::kControlPlane;
@@ -19,29 +19,29 @@ constexpr std::uint8_t kConsole = AuditEvent::kControlPlane;
 TEST(StopLatch, LetsASeatEndItsOwnPauseWithoutAnInstructor) {
   StopLatch lane{false};
   ASSERT_EQ(lane.request(Time{}, AccessRole::kTrainee, 0), Level::kPaused);
-  EXPECT_EQ(lane.resume(AccessRole::kEvaluator, 1, 1, kAll), Resume::kHeldByOthers) << "the trainee's is still on";
+  EXPECT_EQ(lane.resume(AccessRole::kEvaluator, 1, 1, kAll), Result::kHeldByOthers) << "the trainee's is still on";
   EXPECT_EQ(lane.level(), Level::kPaused);
-  EXPECT_EQ(lane.resume(AccessRole::kObserver, 2, 1, kAll), Resume::kForbidden);
-  EXPECT_EQ(lane.resume(AccessRole::kRecorder, StopLatch::kNoSeat, 1, kAll), Resume::kForbidden);
-  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 0, kAll), Resume::kOutdated);
-  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 1, kAll), Resume::kEnded);
+  EXPECT_EQ(lane.resume(AccessRole::kObserver, 2, 1, kAll), Result::kForbidden);
+  EXPECT_EQ(lane.resume(AccessRole::kRecorder, StopLatch::kNoSeat, 1, kAll), Result::kForbidden);
+  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 0, kAll), Result::kOutdated);
+  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 1, kAll), Result::kDone);
   EXPECT_FALSE(lane.latched());
-  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 1, kAll), Resume::kOutdated);
+  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 1, kAll), Result::kOutdated);
 }
 
 TEST(StopLatch, DoesNotLetASeatEndAnotherSeatsPause) {
   StopLatch lane{false};
   static_cast<void>(lane.request(Time{}, AccessRole::kTrainee, 0));
   static_cast<void>(lane.request(Time{}, AccessRole::kEvaluator, 1));
-  EXPECT_EQ(lane.resume(AccessRole::kEvaluator, 1, 2, kAll), Resume::kHeldByOthers);
+  EXPECT_EQ(lane.resume(AccessRole::kEvaluator, 1, 2, kAll), Result::kHeldByOthers);
   EXPECT_EQ(lane.holders(kAll), 1U);
-  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 2, kAll), Resume::kEnded);
+  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 2, kAll), Result::kDone);
   // Participants who are not connected hold no pause: their client is silent, or another client has the seat.
   static_cast<void>(lane.request(Time{}, AccessRole::kTrainee, 0));
-  EXPECT_EQ(lane.resume(AccessRole::kEvaluator, 1, 3, 0b10), Resume::kEnded);
+  EXPECT_EQ(lane.resume(AccessRole::kEvaluator, 1, 3, 0b10), Result::kDone);
   static_cast<void>(lane.request(Time{}, AccessRole::kTrainee, 0));
   lane.clear_seat(0);
-  EXPECT_EQ(lane.resume(AccessRole::kEvaluator, 1, 4, kAll), Resume::kEnded);
+  EXPECT_EQ(lane.resume(AccessRole::kEvaluator, 1, 4, kAll), Result::kDone);
 }
 
 TEST(StopLatch, LetsATraineeEndNoOperatorsStopNorAPauseWithAnInstructor) {
@@ -49,26 +49,26 @@ TEST(StopLatch, LetsATraineeEndNoOperatorsStopNorAPauseWithAnInstructor) {
     StopLatch lane{led};
     static_cast<void>(lane.request(Time{}, AccessRole::kTrainee, 0));
     static_cast<void>(lane.request(Time{}, AccessRole::kOperator, kConsole, Level::kPaused));
-    EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 2, kAll), Resume::kForbidden) << "an operator paused too";
-    EXPECT_EQ(lane.resume(AccessRole::kOperator, StopLatch::kNoSeat, 2, kAll), Resume::kEnded);
+    EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 2, kAll), Result::kForbidden) << "an operator paused too";
+    EXPECT_EQ(lane.resume(AccessRole::kOperator, StopLatch::kNoSeat, 2, kAll), Result::kDone);
     static_cast<void>(lane.request(Time{}, AccessRole::kTrainee, 0));
-    EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 3, kAll), led ? Resume::kForbidden : Resume::kEnded);
+    EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 3, kAll), led ? Result::kForbidden : Result::kDone);
   }
   StopLatch lane{false};
   static_cast<void>(lane.request(Time{}, AccessRole::kTrainee, 0));
   lane.raise(Level::kStopped, {Level::kStopped, StopLatch::kNoSeat, AccessRole::kObserver, Time{}});
-  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 2, kAll), Resume::kForbidden) << "the session itself stopped";
-  EXPECT_EQ(lane.resume(AccessRole::kInstructor, StopLatch::kNoSeat, 2, kAll), Resume::kEnded)
+  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 2, kAll), Result::kForbidden) << "the session itself stopped";
+  EXPECT_EQ(lane.resume(AccessRole::kInstructor, StopLatch::kNoSeat, 2, kAll), Result::kDone)
       << "an instructor at a console";
 }
 
 TEST(StopLatch, LetsEveryPausingRoleEndAPauseFromBeforeARestart) {
   StopLatch lane{false};
   lane.restore(Level::kPaused, 4);
-  EXPECT_EQ(lane.resume(AccessRole::kObserver, 2, 4, kAll), Resume::kForbidden);
-  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 4, kAll), Resume::kEnded);
+  EXPECT_EQ(lane.resume(AccessRole::kObserver, 2, 4, kAll), Result::kForbidden);
+  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 4, kAll), Result::kDone);
   lane.restore(Level::kStopped, 5);
-  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 5, kAll), Resume::kForbidden);
+  EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 5, kAll), Result::kForbidden);
 }
 
 TEST(StopText, NamesTheRolesThatMayEndAStopAndTheCommand) {

@@ -53,7 +53,7 @@ TEST(StatusNotices, ReportEachResumeOnceWithItsOrigin) {
   EXPECT_TRUE(completed(notices).events.empty());
   const auto stop_and_resume = [&](std::uint8_t by, std::uint32_t number) {
     static_cast<void>(latch.request(Time{}, AccessRole::kInstructor, by));
-    ASSERT_EQ(latch.resume(AccessRole::kInstructor, by, number, ~0U), StopLatch::Resume::kEnded);
+    ASSERT_EQ(latch.resume(AccessRole::kInstructor, by, number, ~0U), CommandResult::kDone);
   };
   stop_and_resume(0, 1);
   notices.update(latch, scene);
