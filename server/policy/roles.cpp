@@ -15,12 +15,8 @@ constexpr std::array<std::array<Grant, kAccessRoles>, kRights> kTable{{
     /* force         */ {yes, yes, part, no, no, no},
     /* telemetry     */ {yes, part, yes, part, part, yes},
     /* authority     */ {yes, part, no, no, no, no},
-    /* lower limits  */ {yes, part, part, no, no, no},
-    /* raise limits  */ {no, no, no, no, no, no},
-    /* stop own hand */ {yes, yes, yes, no, no, no},
     /* stop session  */ {yes, part, part, no, yes, no},
     /* end a pause   */ {yes, part, part, no, yes, no},
-    /* record        */ {yes, no, no, no, no, part},
     /* manage seats  */ {yes, no, no, no, yes, no},
     /* manage server */ {no, no, no, no, yes, no},
 }};

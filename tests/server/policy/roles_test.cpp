@@ -10,7 +10,8 @@
 namespace tandem::server {
 namespace {
 
-// As in the table of design notes, security 1.5, in its words: yes, no, or a description of a partial right.
+// As in the table of design notes, security 1.5, in its words: yes, no, or a description of a partial right. Rows that
+// no message of a client needs are left out.
 struct Row {
   Right right;
   std::array<std::string_view, kAccessRoles> words;  // instructor, trainee, evaluator, observer, operator, recorder
@@ -20,12 +21,8 @@ constexpr std::array<Row, kRights> kDesign{{
     {Right::kForce, {"yes", "yes", "lower clamp and tank", "no", "no", "no"}},
     {Right::kTelemetry, {"yes", "own and shared", "yes", "60 Hz", "counters only", "yes"}},
     {Right::kAuthority, {"yes", "offer back own", "no", "no", "no", "no"}},
-    {Right::kLowerLimits, {"yes", "own", "own", "no", "no", "no"}},
-    {Right::kRaiseLimits, {"no", "no", "no", "no", "no", "no"}},
-    {Right::kStopOwnHand, {"yes", "yes", "yes", "no", "no", "no"}},
     {Right::kStopSession, {"yes", "pause", "pause", "no", "yes", "no"}},
     {Right::kEndPause, {"yes", "own, without instructor", "own, without instructor", "no", "yes", "no"}},
-    {Right::kRecord, {"yes", "no", "no", "no", "no", "writes"}},
     {Right::kManageSeats, {"yes", "no", "no", "no", "yes", "no"}},
     {Right::kManageServer, {"no", "no", "no", "no", "yes", "no"}},
 }};
