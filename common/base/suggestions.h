@@ -59,4 +59,12 @@ namespace tandem {
   return text + (all.empty() ? "none is available" : "known here: " + all);
 }
 
+/// Returns the same hint, if the known words are the names of `rows`.
+template <class Rows>
+[[nodiscard]] std::string suggest_name(std::string_view word, const Rows& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.emplace_back(row.name);
+  return suggest(word, names);
+}
+
 }  // namespace tandem

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <type_traits>
 
 namespace tandem::io {
@@ -33,6 +34,15 @@ class SpscQueue {
     const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
     return begin == end_.load(std::memory_order_acquire) ? nullptr : &slots_[begin % capacity_];
   }
+  /// For the reading thread: removes the oldest element. @return its value; nullopt if there is none
+  [[nodiscard]] std::optional<T> take() noexcept {
+    const T* const oldest = front();
+    if (oldest == nullptr) return std::nullopt;
+    const T value = *oldest;
+    pop();
+    return value;
+  }
+  /// Removes the oldest element. @pre front() is not null
   void pop() noexcept { begin_.store(begin_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
 
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }

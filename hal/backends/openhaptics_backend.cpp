@@ -39,7 +39,9 @@ std::vector<DeviceFact> OpenHapticsBackend::facts() const {
       {"gravity", "the maker's compensation is on"}};
 }
 
-Result<> OpenHapticsBackend::check(const DeviceSpec& choice) const { return without_value(parse_openhaptics_options(choice)); }
+Result<> OpenHapticsBackend::check(const DeviceSpec& choice) const {
+  return without_value(parse_openhaptics_options(choice));
+}
 
 Result<std::vector<FoundDevice>> OpenHapticsBackend::list() {
   if (auto library = OpenHapticsLibrary::load(); !library) {

@@ -158,8 +158,9 @@ CaptionedFigure figure_11(const TraceData& d, double duration) {
                     "Forces are those that press towards the block: commanded to each device, and delivered (of the "
                     "slave: the load of the block). A Touch delivers 3.3 N at most.",
                     {"Position along x, commanded and delivered force along x, over time", 1, {}}};
-  Panel x{
-      .y_label = "x [mm]", .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMilli, kMilli), .height = 170};
+  Panel x{.y_label = "x [mm]",
+          .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMilli, kMilli),
+          .height = 170};
   x.horizontals = {{0, "wall"}};
   mark_times(x, Task::kContact, duration, kNamed);
   Panel cmd{.y_label = "commanded [N]",

@@ -39,8 +39,8 @@ constexpr std::array<Subject, 3> kFreeMotion{{
      [](const TraceData& d, std::size_t k) { return norm(d.trainer.f_out, k); }},
 }};
 constexpr std::array<Subject, 3> kContact{{
-    {"position of the slave along x", "x [mm]", [](const TraceData& d, std::size_t k) { return kMilli * d.tool.x[0][k]; },
-     0, "wall"},
+    {"position of the slave along x", "x [mm]",
+     [](const TraceData& d, std::size_t k) { return kMilli * d.tool.x[0][k]; }, 0, "wall"},
     {"position of the trainer’s hand along x", "x [mm]",
      [](const TraceData& d, std::size_t k) { return kMilli * d.trainer.x[0][k]; }, 0, "wall"},
     {"force the trainer feels along x", "force [N]",
@@ -130,7 +130,8 @@ OverlaySeries overlay_series(const RunPlan& plan, const TraceData& trace) {
     series.push_back(downsample_extremes(points, kCurvePointsMax));
   }
   if (plan.task == Task::kFreeMotion) {
-    for (std::size_t k = 0; k < trace.rows(); ++k) points[k] = {kMilli * trace.tool.x[0][k], kMilli * trace.tool.x[2][k]};
+    for (std::size_t k = 0; k < trace.rows(); ++k)
+      points[k] = {kMilli * trace.tool.x[0][k], kMilli * trace.tool.x[2][k]};
     series.push_back(downsample_path(points, kPathStep, kCurvePointsMax));
   }
   return series;

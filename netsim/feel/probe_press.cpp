@@ -12,7 +12,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kDepthMin = 0.003, kDepthMax = 0.020, kPressDeep = 0.050;                       // [m]
+constexpr double kDepthMin = 0.003, kDepthMax = 0.020, kPressDeep = 0.050;                  // [m]
 constexpr double kPressed = 8, kSlowly = 16, kSteady = 10, kBoneEnd = 20, kTissueEnd = 14;  // [s]
 constexpr double kReserve = 0.85;                                                           // of the motor's force
 constexpr double kSlopeLow = 0.15,

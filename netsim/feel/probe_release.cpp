@@ -13,8 +13,8 @@ constexpr double kPress = 0.004, kRelease = 4, kPull = 1;  // [m, s, N]
 // The device's damping, minus the effect of the sampled spring, lets the handle settle. On bone, at 0.93 of the
 // stiffness that a Touch renders, the time constant is 9 s.
 constexpr double kReleaseMeasure = 30, kReleaseEnd = 34;  // [s]
-constexpr double kReleaseBand = 0.5;               // [Hz]; below it is the drift of the pose under gravity compensation
-constexpr double kSettled = 1e-4;           // [m] RMS; an encoder step of a Touch is 5.5e-5
+constexpr double kReleaseBand = 0.5;  // [Hz]; below it is the drift of the pose under gravity compensation
+constexpr double kSettled = 1e-4;     // [m] RMS; an encoder step of a Touch is 5.5e-5
 
 }  // namespace
 
@@ -33,7 +33,8 @@ ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed) {
     opens.trajectory.kind = Trajectory::Kind::kWaypoints;
     opens.trajectory.waypoints = {{1, {0, 0, 0}}, {3, {kPress, 0, 0}}};
     const FeelTrace trace = run_part(setup, run, seed, result);
-    const double amplitude = rms_above(trace.part(trace.hands[0].x, kReleaseMeasure, kReleaseEnd), kReleaseBand, trace.tick_hz);
+    const double amplitude =
+        rms_above(trace.part(trace.hands[0].x, kReleaseMeasure, kReleaseEnd), kReleaseBand, trace.tick_hz);
     result.values[format("released_%g_m", k)] = amplitude;
     most = larger(most, amplitude);
   }

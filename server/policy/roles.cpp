@@ -19,12 +19,8 @@ constexpr std::array<std::array<Grant, kAccessRoles>, kRights> kTable{{
     /* force         */ {kYes, kYes, kPart, kNo, kNo, kNo},
     /* telemetry     */ {kYes, kPart, kYes, kPart, kPart, kYes},
     /* authority     */ {kYes, kPart, kNo, kNo, kNo, kNo},
-    /* lower limits  */ {kYes, kPart, kPart, kNo, kNo, kNo},
-    /* raise limits  */ {kNo, kNo, kNo, kNo, kNo, kNo},
-    /* stop own hand */ {kYes, kYes, kYes, kNo, kNo, kNo},
     /* stop session  */ {kYes, kPart, kPart, kNo, kYes, kNo},
     /* end a pause   */ {kYes, kPart, kPart, kNo, kYes, kNo},
-    /* record        */ {kYes, kNo, kNo, kNo, kNo, kPart},
     /* manage seats  */ {kYes, kNo, kNo, kNo, kYes, kNo},
     /* manage server */ {kNo, kNo, kNo, kNo, kYes, kNo},
 }};

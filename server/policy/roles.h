@@ -11,22 +11,19 @@
 
 namespace tandem::server {
 
-/// Rights in a session, one per row of the table in roles.cpp (ARCHITECTURE.md, invariant 34).
+/// Rights in a session that messages of clients need, one per row of the table in roles.cpp (ARCHITECTURE.md, invariant
+/// 34).
 enum class Right : std::uint8_t {
-  kDrive,        ///< have authority over a tool; kPart: if it is given
-  kForce,        ///< be engaged; kPart: with a lower force clamp and energy tank
-  kTelemetry,    ///< kPart: own and shared; at most 60 Hz; counters
-  kAuthority,    ///< set authority; kPart: give back the seat's own
-  kLowerLimits,  ///< kPart: own limits
-  kRaiseLimits,  ///< no role: only the configuration file, read at start
-  kStopOwnHand,
+  kDrive,         ///< have authority over a tool; kPart: if it is given
+  kForce,         ///< be engaged; kPart: with a lower force clamp and energy tank
+  kTelemetry,     ///< kPart: own and shared; at most 60 Hz; counters
+  kAuthority,     ///< set authority; kPart: give back the seat's own
   kStopSession,   ///< also resume it, whatever the origin of the stop; kPart: pause it
   kEndPause,      ///< kPart: the seat's own pauses only, in a scene without an instructor seat (StopLatch)
-  kRecord,        ///< start, stop, export; kPart: write
   kManageSeats,   ///< create seats and tickets, remove a participant
   kManageServer,  ///< enrol and revoke workstations, drain
 };
-inline constexpr std::size_t kRights = 12;
+inline constexpr std::size_t kRights = 8;
 
 enum class Grant : std::uint8_t { kNo, kPart, kYes };
 

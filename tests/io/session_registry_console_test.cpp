@@ -71,8 +71,7 @@ TEST(Consoles, LetTheClientThatPausedResumeWithoutAnInstructor) {
 TEST(MessageQueue, KeepsTheOrderOfMessagesAndIsBounded) {
   MessageQueue notices;
   EXPECT_TRUE(notices.take().empty());
-  for (std::size_t i = 0; i < MessageQueue::kMax + 7; ++i)
-    notices.add(MessageQueue::Severity::kWarning, std::to_string(i));
+  for (std::size_t i = 0; i < MessageQueue::kMax + 7; ++i) notices.add(io::Level::kWarn, std::to_string(i));
   const auto lines = notices.take();
   ASSERT_EQ(lines.size(), MessageQueue::kMax + 1);
   EXPECT_EQ(lines[0].text, "0");

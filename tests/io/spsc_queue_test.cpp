@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <optional>
 #include <thread>
 
 #include "tests/common/base/counts.h"
@@ -23,6 +24,17 @@ TEST(SpscQueue, DropsAndCountsElementsThatDoNotFit) {
   EXPECT_EQ(queue.front(), nullptr);
   EXPECT_TRUE(queue.push(7));
   EXPECT_EQ(*queue.front(), 7);
+}
+
+TEST(SpscQueue, GivesEachElementToOneTake) {
+  SpscQueue<int> queue{3};
+  EXPECT_EQ(queue.take(), std::nullopt);
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(queue.push(i));
+  EXPECT_EQ(queue.take(), 0);
+  EXPECT_EQ(*queue.front(), 1);
+  EXPECT_EQ(queue.take(), 1);
+  EXPECT_EQ(queue.take(), std::nullopt);
+  EXPECT_EQ(queue.front(), nullptr);
 }
 
 TEST(SpscQueue, CarriesEverythingInOrderBetweenTwoThreads) {

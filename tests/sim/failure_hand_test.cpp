@@ -49,7 +49,7 @@ TEST(FailureTable, ReleasesATooFastHandAndLatchesItTheThirdTime) {
   }
   EXPECT_EQ(life.simulation->seat(kTrainee)->sample().gate, wire::GateState::kLatched)
       << "the client asks the participant to press the button";
-  life.simulation->seat(kTrainee)->request_gate_reset();
+  life.simulation->seat(kTrainee)->requests().reset_gate();
   life.until(20s);
   EXPECT_TRUE(life.active(kTrainee));
   EXPECT_EQ(life.simulation->client(kTrainer).program().gate_trips(), 0u);
@@ -77,7 +77,7 @@ TEST(FailureTable, ReleasesAHandWithHotMotorsAndLatchesItTheThirdTime) {
   }
   EXPECT_EQ(life.simulation->seat(kTrainee)->sample().gate, wire::GateState::kLatched)
       << "the client asks the participant to press the button";
-  life.simulation->seat(kTrainee)->request_gate_reset();
+  life.simulation->seat(kTrainee)->requests().reset_gate();
   life.until(20s);
   EXPECT_TRUE(life.active(kTrainee));
   EXPECT_EQ(life.simulation->client(kTrainer).program().gate_trips(), 0u);

@@ -10,11 +10,13 @@ namespace {
 
 const std::filesystem::path kRoot{TANDEM_SOURCE_DIR};
 
-/// Returns the document of that name at the root; if it is missing, the test fails.
-const SourceFile* find_document(const std::vector<SourceFile>& files, const std::string& name) {
-  const auto found = std::ranges::find(files, name, &SourceFile::path);
-  if (found == files.end()) ADD_FAILURE() << name << " is missing at the top level";
-  return found == files.end() ? nullptr : &*found;
+/// Returns the document with this path below the root; if it is missing or empty, the test fails.
+const SourceFile* find_document(const std::vector<SourceFile>& files, const std::string& path) {
+  const auto found = std::ranges::find(files, path, &SourceFile::path);
+  if (found == files.end()) ADD_FAILURE() << path << " is missing";
+  if (found == files.end() || !found->text.empty()) return found == files.end() ? nullptr : &*found;
+  ADD_FAILURE() << path << " is empty";
+  return nullptr;
 }
 
 Known small_world() {
@@ -28,31 +30,35 @@ Known small_world() {
   return known_things(files);
 }
 
+/// Checks that the manual exists, shows commands, and names only commands, files and tests that exist.
+void check_manual(const std::string& path) {
+  const auto files = read_repository(kRoot);
+  const SourceFile* const document = find_document(files, path);
+  ASSERT_NE(document, nullptr);
+  const Known known = known_things(files);
+  EXPECT_FALSE(lines_with(document->text, "```").empty()) << path << " shows no command";
+  EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
+  EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+      << to_string(check_references(*document, known, kRoot));
+}
+
 TEST(Architecture, EveryInvariantNamesItsCodeAndItsTest) {
   const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "ARCHITECTURE.md")) {
-    const auto findings = check_invariants(*document, known_things(files), kRoot);
-    EXPECT_TRUE(findings.empty()) << to_string(findings);
-  }
+  const SourceFile* document = find_document(files, "ARCHITECTURE.md");
+  ASSERT_NE(document, nullptr);
+  const auto findings = check_invariants(*document, known_things(files), kRoot);
+  EXPECT_TRUE(findings.empty()) << to_string(findings);
 }
 
 TEST(Architecture, EveryTestAndFileItNamesExists) {
   const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "ARCHITECTURE.md")) {
-    const auto findings = check_references(*document, known_things(files), kRoot);
-    EXPECT_TRUE(findings.empty()) << to_string(findings);
-  }
+  const SourceFile* document = find_document(files, "ARCHITECTURE.md");
+  ASSERT_NE(document, nullptr);
+  const auto findings = check_references(*document, known_things(files), kRoot);
+  EXPECT_TRUE(findings.empty()) << to_string(findings);
 }
 
-TEST(Readme, EveryCommandFileAndTestItNamesExists) {
-  const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "README.md")) {
-    const Known known = known_things(files);
-    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
-    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
-        << to_string(check_references(*document, known, kRoot));
-  }
-}
+TEST(Readme, EveryCommandFileAndTestItNamesExists) { check_manual("README.md"); }
 
 TEST(Security, EveryClaimNamesATestThatExists) {
   const auto files = read_repository(kRoot);
@@ -64,75 +70,27 @@ TEST(Security, EveryClaimNamesATestThatExists) {
       << to_string(check_references(*document, known, kRoot));
 }
 
-TEST(NetsimManual, EveryCommandFileAndTestItNamesExists) {
-  const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "netsim/README.md")) {
-    const Known known = known_things(files);
-    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
-    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
-        << to_string(check_references(*document, known, kRoot));
-  }
-}
+TEST(NetsimManual, EveryCommandFileAndTestItNamesExists) { check_manual("netsim/README.md"); }
 
-TEST(ClientManual, EveryCommandFileAndTestItNamesExists) {
-  const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "client/README.md")) {
-    const Known known = known_things(files);
-    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
-    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
-        << to_string(check_references(*document, known, kRoot));
-  }
-}
+TEST(ClientManual, EveryCommandFileAndTestItNamesExists) { check_manual("client/README.md"); }
 
-TEST(ServerManual, EveryCommandFileAndTestItNamesExists) {
-  const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "server/README.md")) {
-    const Known known = known_things(files);
-    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
-    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
-        << to_string(check_references(*document, known, kRoot));
-  }
-}
+TEST(ServerManual, EveryCommandFileAndTestItNamesExists) { check_manual("server/README.md"); }
 
-TEST(HalManual, EveryCommandFileAndTestItNamesExists) {
-  const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "hal/README.md")) {
-    const Known known = known_things(files);
-    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
-    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
-        << to_string(check_references(*document, known, kRoot));
-  }
-}
+TEST(HalManual, EveryCommandFileAndTestItNamesExists) { check_manual("hal/README.md"); }
 
-TEST(Contributing, EveryCommandFileAndTestItNamesExists) {
-  const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "CONTRIBUTING.md")) {
-    const Known known = known_things(files);
-    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
-    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
-        << to_string(check_references(*document, known, kRoot));
-  }
-}
+TEST(Contributing, EveryCommandFileAndTestItNamesExists) { check_manual("CONTRIBUTING.md"); }
 
-TEST(Examples, ReadmeNamesCommandsFilesAndTestsThatExist) {
-  const auto files = read_repository(kRoot);
-  const SourceFile* document = find_document(files, "tests/examples/README.md");
-  ASSERT_NE(document, nullptr);
-  const Known known = known_things(files);
-  EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
-  EXPECT_TRUE(check_references(*document, known, kRoot).empty())
-      << to_string(check_references(*document, known, kRoot));
-}
+TEST(Examples, ReadmeNamesCommandsFilesAndTestsThatExist) { check_manual("tests/examples/README.md"); }
 
 TEST(ValidationMatrix, EveryRowNamesTestsThatExist) {
   const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "tests/netsim/validation/MATRIX.md")) {
-    const Known known = known_things(files);
-    EXPECT_GE(lines_with(document->text, "exact").size(), 10u) << "the table is not there";
-    EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
-    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
-        << to_string(check_references(*document, known, kRoot));
-  }
+  const SourceFile* document = find_document(files, "tests/netsim/validation/MATRIX.md");
+  ASSERT_NE(document, nullptr);
+  const Known known = known_things(files);
+  EXPECT_GE(lines_with(document->text, "exact").size(), 10u) << "the table is not there";
+  EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
+  EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+      << to_string(check_references(*document, known, kRoot));
 }
 
 TEST(FailureTable, EveryRowNamesTestsThatExist) {

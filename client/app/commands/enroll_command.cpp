@@ -41,8 +41,8 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
   auto client = auth::ControlClient::connect(server, judge, timeout, signals.get());
   const auto failed = [](const auth::ClientError& fault) {
     return enroll_trouble(fault.kind == auth::ClientError::Kind::kInterrupted
-                       ? "ended by Ctrl-C; the string may still be valid"
-                       : fault.text);
+                              ? "ended by Ctrl-C; the string may still be valid"
+                              : fault.text);
   };
   if (!client) return failed(client.error());
   const auto answer = client->ask(rpc::Enroll{given.code}, timeout);

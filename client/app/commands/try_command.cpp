@@ -75,7 +75,8 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
   const auto address = server->wait_for_line("listening on ", kServerStarts, signals.get());
   if (!address) {
     if (!io::pending_signal().empty()) return 0;
-    return try_trouble("the server did not start" + (server->last_output().empty() ? "" : ": " + server->last_output()));
+    return try_trouble("the server did not start" +
+                       (server->last_output().empty() ? "" : ": " + server->last_output()));
   }
   trial.add(std::move(*server));
   for (const std::string& partner : partners) {

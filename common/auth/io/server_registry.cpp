@@ -83,9 +83,6 @@ std::expected<std::vector<WorkstationRow>, std::string> ServerRegistry::workstat
 }
 
 std::expected<std::size_t, std::string> ServerRegistry::pending_codes(std::int64_t now) const {
-  if (!folder_)
-    return static_cast<std::size_t>(
-        std::ranges::count_if(lists_.codes, [&](const CodeRow& c) { return now <= c.not_after; }));
   const auto lists = read();
   if (!lists) return std::unexpected(lists.error());
   return static_cast<std::size_t>(

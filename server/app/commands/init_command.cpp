@@ -13,36 +13,26 @@ struct InitArguments {
   bool new_ticket_key = false;
 };
 
-int make_state(const std::string& state) {
-  const auto path = auth::server_state_path(state);
+int init_command(const InitArguments& arguments) {
+  const auto path = auth::server_state_path(arguments.state);
   if (!path) return print_usage_error("init", path.error());
   const std::int64_t now = auth::wall_seconds();
-  const auto fingerprint = auth::ServerKeystore::init(*path, now);
-  if (!fingerprint) return print_error("init", fingerprint.error());
-  if (auto made = auth::ServerKeystore::open(*path)) {
-    made->audit(now, "init", "", fingerprint->hex());
-    warn_audit_failure("init", *made);
+  if (arguments.new_ticket_key) {
+    if (const std::string problem = auth::ServerKeystore::rotate_ticket_key(*path, now); !problem.empty())
+      return print_error("init", problem);
+    std::printf(
+        "state folder %s\nnew ticket key: every ticket issued before is void; workstations and codes stay valid\n",
+        path->c_str());
+  } else {
+    const auto fingerprint = auth::ServerKeystore::init(*path, now);
+    if (!fingerprint) return print_error("init", fingerprint.error());
+    if (auto made = auth::ServerKeystore::open(*path))
+      record_command("init", *made, now, "init", "", fingerprint->hex());
+    std::printf("state folder %s\nserver key   %s\n", path->c_str(), fingerprint->hex().c_str());
+    io::print_formatted(stderr, "next, once for each workstation: tandem-server enroll NAME --address HOST:PORT%s\n",
+                        auth::server_state_option(*path).c_str());
   }
-  std::printf("state folder %s\nserver key   %s\n", path->c_str(), fingerprint->hex().c_str());
-  io::print_formatted(stderr, "next, once for each workstation: tandem-server enroll NAME --address HOST:PORT%s\n",
-                      auth::server_state_option(*path).c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
-}
-
-int rotate_ticket_key(const std::string& state) {
-  const auto path = auth::server_state_path(state);
-  if (!path) return print_usage_error("init", path.error());
-  if (const std::string problem = auth::ServerKeystore::rotate_ticket_key(*path, auth::wall_seconds());
-      !problem.empty())
-    return print_error("init", problem);
-  std::printf(
-      "state folder %s\nnew ticket key: every ticket issued before is void; workstations and codes stay valid\n",
-      path->c_str());
-  return std::fflush(stdout) == 0 ? 0 : 1;
-}
-
-int init_command(const InitArguments& arguments) {
-  return arguments.new_ticket_key ? rotate_ticket_key(arguments.state) : make_state(arguments.state);
 }
 
 }  // namespace

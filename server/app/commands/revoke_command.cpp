@@ -21,8 +21,7 @@ int revoke_command(const RevokeArguments& arguments) {
   if (gone->workstations + gone->codes == 0)
     return print_usage_error("revoke",
                              "NAME: " + unknown_workstation_text(arguments.name, *book, state->folder()->path()));
-  state->audit(auth::wall_seconds(), "revoked", arguments.name);
-  warn_audit_failure("revoke", *state);
+  record_command("revoke", *state, auth::wall_seconds(), "revoked", arguments.name);
   std::printf("%s: %s%s\n", arguments.name.c_str(),
               gone->workstations > 0 ? "the server rejects its key from now on" : "was not enrolled",
               gone->codes > 0 ? "; its enrolment string is void" : "");

@@ -21,8 +21,9 @@ struct RunArguments {
 
 /// Converts the arguments; adds all errors.
 ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& errors) {
-  ServerOptions plan;
-  SessionOptions& session = plan.sessions.emplace_back();
+  ServerOptions plan{.control = {.state = arguments.state}, .quiet = arguments.quiet, .no_restore = arguments.fresh};
+  SessionOptions& session =
+      plan.sessions.emplace_back(SessionOptions{.json = arguments.json, .trace = arguments.trace});
   if (auto scene = load_scene(arguments.scene)) {
     session.scene = std::move(*scene);
     session.name = session.scene.name;
@@ -30,7 +31,7 @@ ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& erro
     errors.add(to_text(scene.error()));
   }
   if (const auto listen = io::parse_address(arguments.listen, 0)) {
-    plan.listen = *listen;
+    plan.control.listen = *listen;
     if (const auto keys = open_server_keys(*listen, arguments.state); !keys)
       errors.add("--listen " + arguments.listen, keys.error());
   } else {
@@ -38,7 +39,7 @@ ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& erro
   }
   if (!arguments.metrics.empty()) {
     if (const auto metrics = io::parse_address(arguments.metrics, 0)) {
-      plan.metrics = *metrics;
+      plan.control.metrics = *metrics;
     } else {
       errors.add("--metrics", metrics.error());
     }
@@ -55,11 +56,6 @@ ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& erro
   const std::string problem = io::whole_number()(seed);
   errors.add("--seed", problem);
   if (problem.empty()) session.seed = std::stoull(seed);
-  plan.state = arguments.state;
-  session.json = arguments.json;
-  session.trace = arguments.trace;
-  plan.quiet = arguments.quiet;
-  plan.no_restore = arguments.fresh;
   errors.output_file("--json", session.json);
   if (!session.trace.empty()) errors.add("--trace", io::OutputFile::problem(session.trace));
   if (!session.trace.empty() && session.trace == session.json) errors.add("--trace", "is the same file as --json");
@@ -70,7 +66,7 @@ int run_command(const RunArguments& arguments) {
   io::UsageErrors errors;
   const ServerOptions plan = parse_options(arguments, errors);
   if (!errors.empty()) return errors.report("tandem-server run");
-  if (plan.metrics && !plan.metrics->loopback())
+  if (plan.control.metrics && !plan.control.metrics->loopback())
     io::print_formatted(stderr, "--metrics %s: %s\n", arguments.metrics.c_str(), kUnprotectedMetricsWarning);
   if (!arguments.check) return run_server(plan);
   std::puts(effective_scene_text(plan.sessions.front().scene).c_str());

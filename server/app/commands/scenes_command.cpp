@@ -18,10 +18,8 @@ struct ScenesArguments {
 int print_scene(const std::string& name, bool json) {
   const ShippedScene* scene = find_shipped_scene(name);
   if (scene == nullptr) {
-    std::vector<std::string> names;
-    for (const ShippedScene& s : shipped_scenes()) names.emplace_back(s.name);
     io::print_formatted(stderr, "tandem-server scenes: --print %s: no shipped scene of this name; %s\n", name.c_str(),
-                        suggest(name, names).c_str());
+                        suggest_name(name, shipped_scenes()).c_str());
     return 2;
   }
   if (json) {

@@ -46,11 +46,10 @@ std::string folder_error(const std::string& path) {
 
 SessionOptions session_options_from(const ServerConfigSpec& config, const ConfiguredSessionSpec& in,
                                     InputErrors& errors) {
-  SessionOptions out;
-  out.name = in.name;
-  out.tickets_only = in.tickets_only;
-  out.restart = in.restart;
-  out.reports = path_beside_config(config, config.reports.text);
+  SessionOptions out{.name = in.name,
+                     .reports = path_beside_config(config, config.reports.text),
+                     .tickets_only = in.tickets_only,
+                     .restart = in.restart};
   if (in.scene.text.empty()) return out;  // reported already
   if (auto scene = load_scene(scene_file(config, in.scene.text))) {
     out.scene = std::move(*scene);
@@ -67,23 +66,28 @@ SessionOptions session_options_from(const ServerConfigSpec& config, const Config
 }
 
 ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors) {
-  ServerOptions plan;
-  plan.command = "serve";
-  plan.sessions_resume = true;
-  plan.state = path_beside_config(config, config.state.text);
+  const ConnectionLimitsSpec& limits = config.limits;
+  ServerOptions plan{
+      .command = "serve",
+      .control = {.state = path_beside_config(config, config.state.text),
+                  .load_limits = {limits.load_percent / 100, limits.core_percent / 100},
+                  .metrics_hosts = config.metrics_hosts,
+                  .audit = {static_cast<std::uint64_t>(config.audit.file_mib * (1 << 20)), config.audit.older_files}},
+      .sessions_resume = true};
+  ControlOptions& control = plan.control;
   if (const auto listen = io::parse_address(config.listen.text, 0)) {
-    plan.listen = *listen;
+    control.listen = *listen;
     if (const std::string problem = problem_with_address(*listen); !problem.empty())
       errors.push_back(config.listen.error(config.file, problem));
     const LocatedText& keys = config.state.text.empty() ? config.listen : config.state;
-    for (const std::string& problem : problems_with_keys(*listen, plan.state))
+    for (const std::string& problem : problems_with_keys(*listen, control.state))
       errors.push_back(keys.error(config.file, problem));
   } else if (!config.listen.text.empty()) {
     errors.push_back(config.listen.error(config.file, listen.error()));
   }
   if (!config.metrics.text.empty()) {
     if (const auto metrics = io::parse_address(config.metrics.text, 0)) {
-      plan.metrics = *metrics;
+      control.metrics = *metrics;
       if (const std::string problem = problem_with_address(*metrics); !problem.empty())
         errors.push_back(config.metrics.error(config.file, problem));
     } else {
@@ -95,14 +99,11 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
       errors.push_back(config.reports.error(config.file, problem));
   for (const ConfiguredSessionSpec& session : config.sessions)
     plan.sessions.push_back(session_options_from(config, session, errors));
-  const ConnectionLimitsSpec& limits = config.limits;
-  plan.limits.accept = {limits.accepts_per_s, limits.accepts_burst, limits.accepts_per_s_all, limits.accepts_per_s_all};
-  plan.limits.pending = limits.pending;
-  plan.limits.connections = limits.connections;
-  plan.limits.deadline = std::chrono::milliseconds(static_cast<std::int64_t>(limits.deadline_s * 1000));
-  plan.metrics_hosts = config.metrics_hosts;
-  plan.audit = {static_cast<std::uint64_t>(config.audit.file_mib * (1 << 20)), config.audit.older_files};
-  plan.load_limits = {limits.load_percent / 100, limits.core_percent / 100};
+  control.limits.accept = {limits.accepts_per_s, limits.accepts_burst, limits.accepts_per_s_all,
+                           limits.accepts_per_s_all};
+  control.limits.pending = limits.pending;
+  control.limits.connections = limits.connections;
+  control.limits.deadline = std::chrono::milliseconds(static_cast<std::int64_t>(limits.deadline_s * 1000));
   if (config.log.json) plan.json_log = static_cast<io::Level>(config.log.level);
   return plan;
 }
@@ -124,7 +125,7 @@ int serve_command(const ServeArguments& arguments) {
   errors.insert(errors.end(), more.begin(), more.end());
   if (!errors.empty()) return refuse(errors);
   plan.quiet = arguments.quiet;
-  if (plan.metrics && !plan.metrics->loopback())
+  if (plan.control.metrics && !plan.control.metrics->loopback())
     io::print_formatted(stderr, "%s\n",
                         to_text(config->metrics.error(config->file, kUnprotectedMetricsWarning)).c_str());
   if (!arguments.check) return run_server(plan);

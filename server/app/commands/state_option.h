@@ -42,6 +42,12 @@ inline void warn_audit_failure(const char* command, const auth::ServerKeystore& 
     std::fprintf(stderr, "tandem-server %s: the command is done, but the audit log has no record of it: %s\n", command,
                  what.c_str());
 }
+/// Records a command in the audit log after it has succeeded; warns if that fails.
+inline void record_command(const char* command, auth::ServerKeystore& state, std::int64_t now, std::string_view event,
+                           const std::string& workstation, const std::string& detail = {}) {
+  state.audit(now, event, workstation, detail);
+  warn_audit_failure(command, state);
+}
 
 /// Opens the state directory that `--state` names, or the default one. @return the keystore, or the error and its
 /// remedy
@@ -64,12 +70,10 @@ inline void warn_audit_failure(const char* command, const auth::ServerKeystore& 
 [[nodiscard]] inline std::string unknown_workstation_text(const std::string& name,
                                                           const std::vector<WorkstationRow>& book,
                                                           const std::string& folder) {
-  std::vector<std::string> names;
-  for (const WorkstationRow& row : book) names.push_back(row.name);
   return "no workstation is called \"" + name + "\"; " +
-         (names.empty()
+         (book.empty()
               ? "none is enrolled: run `tandem-server enroll" + auth::server_state_option(folder) + " " + name + "`"
-              : suggest(name, names));
+              : suggest_name(name, book));
 }
 
 }  // namespace tandem::server

@@ -70,8 +70,7 @@ int stop_command(const StopArguments& arguments) {
                                    "`tandem-client control --server HOST:PORT drain`");
   if (const std::string problem = state->serving().request_shutdown(grace_s); !problem.empty())
     return print_error("stop", problem);
-  state->audit(auth::wall_seconds(), "stop_requested", "", format("in %u s", grace_s));
-  warn_audit_failure("stop", *state);
+  record_command("stop", *state, auth::wall_seconds(), "stop_requested", "", format("in %u s", grace_s));
   io::print_formatted(stdout,
                       "server at %s: new joins are rejected; all hands are released in %u s, then the server ends\n",
                       (*serving)->address.c_str(), grace_s);

@@ -24,12 +24,10 @@ std::expected<OpenSession, std::string> find_session(const std::string& typed,
   auth::Id16 id;
   const bool is_id = auth::from_hex(typed, id);
   const auto code = auth::canonical_session_code(typed);
-  std::vector<std::string> names;
   const OpenSession* found = nullptr;
   std::size_t same_name = 0;
-  const std::vector<OpenSession> none;
-  for (const OpenSession& s : serving ? serving->sessions : none) {
-    names.push_back(s.name);
+  const std::vector<OpenSession> sessions = serving ? serving->sessions : std::vector<OpenSession>{};
+  for (const OpenSession& s : sessions) {
     if ((is_id && s.id == id) || (code && s.code == *code)) return s;
     if (s.name == typed && ++same_name == 1) found = &s;
   }
@@ -42,7 +40,7 @@ std::expected<OpenSession, std::string> find_session(const std::string& typed,
     return std::unexpected(
         "--session: no server runs from this state folder, so only an id of 32 hex digits is accepted");
   return std::unexpected("--session: \"" + typed + "\" is neither id, code nor name of a session; " +
-                         (names.empty() ? "the server has none" : suggest(typed, names)));
+                         (sessions.empty() ? "the server has none" : suggest_name(typed, sessions)));
 }
 
 std::optional<AccessRole> find_role(const TicketArguments& arguments, const OpenSession& session,
@@ -70,9 +68,8 @@ std::optional<AccessRole> find_role(const TicketArguments& arguments, const Open
   }
   const auto seat = std::ranges::find(session.seats, arguments.seat, &OpenSeat::name);
   if (seat == session.seats.end()) {
-    std::vector<std::string> names;
-    for (const OpenSeat& s : session.seats) names.push_back(s.name);
-    errors.add("--seat: the session has no seat \"" + arguments.seat + "\"; " + suggest(arguments.seat, names));
+    errors.add("--seat: the session has no seat \"" + arguments.seat + "\"; " +
+               suggest_name(arguments.seat, session.seats));
     return role;
   }
   if (role && *role != seat->role)
@@ -104,21 +101,20 @@ int ticket_command(const TicketArguments& arguments) {
   }
   if (!errors.empty() || !role) return print_usage_errors("ticket", errors);
 
-  auth::Ticket ticket;
-  auth::fill_random(ticket.ticket_id);
-  ticket.session_id = session->id;
-  ticket.seat = arguments.seat;
-  ticket.role = *role;
-  ticket.workstation.sha256 = workstation->spki;
-  ticket.force_scale = static_cast<std::uint16_t>(std::lround(force_percent * 10.0));
-  ticket.not_before = auth::wall_seconds();
-  ticket.not_after = ticket.not_before + static_cast<std::int64_t>(std::stod(hours) * 3600.0);
-  ticket.epoch_min = session->epoch;
+  const std::int64_t now = auth::wall_seconds();
+  const auth::Ticket ticket{.ticket_id = auth::random_bytes<auth::Id16>(),
+                            .session_id = session->id,
+                            .seat = arguments.seat,
+                            .role = *role,
+                            .workstation = {workstation->spki},
+                            .force_scale = static_cast<std::uint16_t>(std::lround(force_percent * 10.0)),
+                            .not_before = now,
+                            .not_after = now + static_cast<std::int64_t>(std::stod(hours) * 3600.0),
+                            .epoch_min = session->epoch};
   const auto bytes = auth::sign_ticket(ticket, state->ticket_key());
   if (!bytes) return print_usage_error("ticket", "the ticket cannot be made: " + bytes.error());
-  state->audit(ticket.not_before, "ticket", workstation->name,
-               auth::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
-  warn_audit_failure("ticket", *state);
+  record_command("ticket", *state, now, "ticket", workstation->name,
+                 auth::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
   std::printf("%s\n", auth::ticket_text(*bytes).c_str());
   const std::string address = *serving ? shell_quote(io::reachable_address((*serving)->address)) : "HOST:PORT";
   const std::string what = arguments.seat.empty()

@@ -1,8 +1,8 @@
 #include "server/app/control/control_acceptor.h"
 
-#include <asio/ip/v6_only.hpp>
-#include <cstring>
 #include <utility>
+
+#include "server/app/control/tcp_listener.h"
 
 namespace tandem::server {
 namespace {
@@ -10,6 +10,7 @@ namespace {
 using asio::ip::tcp;
 
 constexpr auto kFailurePause = std::chrono::milliseconds(100);
+constexpr int kBacklog = 4096;
 constexpr double kAcceptsPerS = 5000, kAcceptsBurst = 1000;
 
 }  // namespace
@@ -18,29 +19,9 @@ ControlAcceptor::ControlAcceptor(asio::io_context& context, std::function<Time()
     : context_(context), clock_(std::move(clock)), handlers_(std::move(handlers)), rate_(kAcceptsPerS, kAcceptsBurst) {}
 
 std::expected<io::SocketAddress, std::string> ControlAcceptor::listen(const io::SocketAddress& at) {
-  tcp::endpoint endpoint;
-  endpoint.resize(at.size);
-  std::memcpy(endpoint.data(), at.get(), at.size);
-  Listener& listener = listeners_.emplace_back(Listener{tcp::acceptor(context_), asio::steady_timer(context_)});
-  tcp::acceptor& acceptor = listener.acceptor;
-  asio::error_code error;
-  const auto tried = [&error](auto&&... call) { return (... && (call(), !error)); };
-  const bool good =
-      tried([&] { acceptor.open(endpoint.protocol(), error); },
-            [&] { acceptor.set_option(tcp::acceptor::reuse_address(true), error); },
-            [&] {
-              if (endpoint.protocol() == tcp::v6()) acceptor.set_option(asio::ip::v6_only(true), error);
-            },
-            [&] { acceptor.bind(endpoint, error); }, [&] { acceptor.listen(4096, error); },
-            [&] { acceptor.non_blocking(true, error); }, [&] { endpoint = acceptor.local_endpoint(error); });
-  if (!good) {
-    listeners_.pop_back();
-    return std::unexpected("cannot listen on " + io::to_text(at) + ": " + error.message());
-  }
-  io::SocketAddress bound;
-  bound.size = static_cast<socklen_t>(endpoint.size());
-  std::memcpy(&bound.storage, endpoint.data(), endpoint.size());
-  accept_next(listener);
+  tcp::acceptor acceptor(context_);
+  auto bound = start_listening(acceptor, at, kBacklog, true);
+  if (bound) accept_next(listeners_.emplace_back(Listener{std::move(acceptor), asio::steady_timer(context_)}));
   return bound;
 }
 

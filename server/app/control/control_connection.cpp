@@ -125,7 +125,7 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
   if (auto* hello = std::get_if<rpc::Hello>(&frame->body)) return on_hello(std::move(*hello));
   if (const auto* ping = std::get_if<rpc::Ping>(&frame->body)) return answer(rpc::Pong{ping->nonce});
   if (std::holds_alternative<rpc::SessionListRequest>(frame->body)) {
-    rpc::SessionList list = services_.join_handler.list(*workstation_);
+    rpc::SessionList list = services_.join_handler.list();
     accepted();
     return answer(std::move(list));
   }
@@ -176,8 +176,7 @@ void ControlConnection::on_enrol(const rpc::Enroll& enrol) {
 }
 
 void ControlConnection::on_hello(rpc::Hello hello) {
-  const auto common = std::ranges::find_if(hello.versions, [](std::uint32_t v) { return v == rpc::kProtocolVersion; });
-  if (common == hello.versions.end())
+  if (std::ranges::find(hello.versions, rpc::kProtocolVersion) == hello.versions.end())
     return refuse(ErrorCode::kVersion,
                   "this server supports version " + std::to_string(rpc::kProtocolVersion) +
                       " of the protocol, this client supports none of it; install the same release on both",
@@ -197,8 +196,7 @@ void ControlConnection::on_hello(rpc::Hello hello) {
     record(ControlEvent::kRefused, full);
     return refuse(ErrorCode::kFull, full, true, 5);
   }
-  const auto request =
-      std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *common, *workstation_, source_, address_});
+  const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *workstation_, address_});
   if (!pending_) set_deadline(services_.limits.frame_deadline);
   // The reply may come from another thread, or after this connection has ended.
   services_.join_handler.admit(*request, [weak = weak_from_this(), request, &context = services_.context,

@@ -6,37 +6,41 @@ namespace tandem::server {
 
 static_assert(kControlEvents == enumerator_count<ControlEvent>());
 
-std::string_view to_text(ControlEvent event) noexcept {
-  constexpr std::array<std::string_view, kControlEvents> kNames{
-      "accepted", "rate_limited", "handshake_failed", "deadline", "too_much_input", "bad_frame", "not_enrolled",
-      "blocked",  "enrolled",     "code_refused",     "welcomed", "refused",        "command",   "command_rate_limited",
-      "error",    "forbidden",    "evicted",          "idle",     "too_many"};
+namespace {
+
+struct ControlEventTexts {
+  std::string_view name = "?", clause = "?";
+};
+
+ControlEventTexts texts_of(ControlEvent event) noexcept {
+  constexpr std::array<ControlEventTexts, kControlEvents> kTexts{{
+      {"accepted", "connected"},
+      {"rate_limited", "connected too often"},
+      {"handshake_failed", "failed in the TLS handshake"},
+      {"deadline", "took too long"},
+      {"too_much_input", "sent too much"},
+      {"bad_frame", "sent an invalid message"},
+      {"not_enrolled", "is not enrolled here"},
+      {"blocked", "is blocked after too many wrong codes"},
+      {"enrolled", "was enrolled"},
+      {"code_refused", "was refused for a wrong code"},
+      {"welcomed", "joined"},
+      {"refused", "was refused"},
+      {"command", "sent a command"},
+      {"command_rate_limited", "sent commands too often"},
+      {"error", "met an error"},
+      {"forbidden", "may not do that"},
+      {"evicted", "was closed for another connection"},
+      {"idle", "was silent for too long"},
+      {"too_many", "had too many connections"},
+  }};
   const auto i = static_cast<std::size_t>(event);
-  return i < kNames.size() ? kNames[i] : "?";
+  return i < kTexts.size() ? kTexts[i] : ControlEventTexts{};
 }
 
-std::string_view control_event_text(ControlEvent event) noexcept {
-  constexpr std::array<std::string_view, kControlEvents> kWords{"connected",
-                                                                "connected too often",
-                                                                "failed in the TLS handshake",
-                                                                "took too long",
-                                                                "sent too much",
-                                                                "sent an invalid message",
-                                                                "is not enrolled here",
-                                                                "is blocked after too many wrong codes",
-                                                                "was enrolled",
-                                                                "was refused for a wrong code",
-                                                                "joined",
-                                                                "was refused",
-                                                                "sent a command",
-                                                                "sent commands too often",
-                                                                "met an error",
-                                                                "may not do that",
-                                                                "was closed for another connection",
-                                                                "was silent for too long",
-                                                                "had too many connections"};
-  const auto i = static_cast<std::size_t>(event);
-  return i < kWords.size() ? kWords[i] : "?";
-}
+}  // namespace
+
+std::string_view to_text(ControlEvent event) noexcept { return texts_of(event).name; }
+std::string_view control_event_text(ControlEvent event) noexcept { return texts_of(event).clause; }
 
 }  // namespace tandem::server

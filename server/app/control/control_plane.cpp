@@ -2,8 +2,9 @@
 
 #include <netinet/tcp.h>
 
-#include <cstring>
 #include <utility>
+
+#include "server/app/control/tcp_listener.h"
 
 namespace tandem::server {
 namespace {
@@ -90,10 +91,7 @@ void ControlPlane::on_accepted(tcp::socket socket) {
   const auto ip = from.address();
   const auth::Origin origin =
       ip.is_v4() ? auth::Origin::v4(ip.to_v4().to_uint()) : auth::Origin::of_v6(ip.to_v6().to_bytes());
-  io::SocketAddress address;
-  address.size = static_cast<socklen_t>(from.size());
-  std::memcpy(&address.storage, from.data(), from.size());
-  std::string text = io::to_text(address);
+  std::string text = io::to_text(socket_address_of(from));
   if (!accept_limiter_.accept(auth::Source::of(origin), now)) {
     reset(socket);
     return services_.events.record(ControlEvent::kTooFast, std::move(text));

@@ -42,13 +42,13 @@ void permit_descriptors(const ControlLimits& limits) {
 
 }  // namespace
 
-ControlServer::ControlServer(auth::ServerKeystore trust, const Options& options)
+ControlServer::ControlServer(auth::ServerKeystore trust, const ControlOptions& options, const Handlers& handlers)
     : trust_(std::move(trust)),
-      on_event_(options.on_event),
-      audit_(thread_.context(), trust_, options.on_event, options.on_message),
+      on_event_(handlers.on_event),
+      audit_(thread_.context(), trust_, handlers.on_event, handlers.on_message),
       registry_(thread_.context()),
-      commands_(registry_, trust_, options.on_message),
-      joins_(registry_, commands_, trust_, options.load_limits, options.on_message),
+      commands_(registry_, trust_, handlers.on_message),
+      joins_(registry_, commands_, trust_, options.load_limits, handlers.on_message),
       plane_(thread_.context(), trust_, joins_, options.limits, {},
              [this](const ControlEventRecord& news) {
                if (audit_.record(news) && on_event_) on_event_(news);
@@ -58,7 +58,9 @@ ControlServer::ControlServer(auth::ServerKeystore trust, const Options& options)
 
 ControlServer::~ControlServer() { stop(); }
 
-std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(const Options& options) {
+std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(const ControlOptions& options,
+                                                                               const io::Steering& steering,
+                                                                               const Handlers& handlers) {
   auto trust = open_server_keys(options.listen, options.state);
   if (!trust) return std::unexpected(trust.error());
   if (trust->on_disk())
@@ -66,10 +68,10 @@ std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(c
       return std::unexpected(std::move(problem));
   trust->enable_audit_rotation(options.audit);
   permit_descriptors(options.limits);
-  std::unique_ptr<ControlServer> server{new ControlServer(std::move(*trust), options)};
+  std::unique_ptr<ControlServer> server{new ControlServer(std::move(*trust), options, handlers)};
   std::string problem;
   for (int attempt = 0; attempt < kPortsTried; ++attempt) {
-    auto sockets = io::bind_udp_steered(options.listen, options.steering);
+    auto sockets = io::bind_udp_steered(options.listen, steering);
     if (!sockets) return std::unexpected("--listen: " + sockets.error());
     auto listening = server->plane_.listen(sockets->front().local);
     if (listening) {

@@ -10,6 +10,7 @@
 #include "common/auth/io/server_keystore.h"
 #include "common/io/udp_socket.h"
 #include "server/app/control/audit_writer.h"
+#include "server/app/control/control_options.h"
 #include "server/app/control/control_plane.h"
 #include "server/app/control/control_thread.h"
 #include "server/app/control/session_joins.h"
@@ -22,23 +23,17 @@ namespace tandem::server {
 /// in the runtime directory; nothing else differs.
 class ControlServer {
  public:
-  struct Options {
-    io::SocketAddress listen;  ///< port 0: a port that is free for UDP and TCP
-    /// State directory as given. Empty: the default directory, or ephemeral keys on loopback.
-    std::string state;
-    std::function<void(const ControlEventRecord&)> on_event;  ///< called on the control thread
-    /// Receives executed commands, one line each, for the operator of the server. Called on the control thread.
-    std::function<void(const std::string&)> on_message{};
-    ControlLimits limits{};
-    LoadLimits load_limits{};  ///< load of a shard above which new joins are rejected
-    io::Steering steering{};   ///< assignment of datagrams to shards
-    /// Address of /metrics, /healthz and /readyz; nullopt: none.
-    std::optional<io::SocketAddress> metrics{};
-    std::vector<std::string> metrics_hosts{};  ///< accepted Host names, in addition to addresses
-    auth::AuditLimits audit{};
+  /// Called on the control thread.
+  struct Handlers {
+    std::function<void(const ControlEventRecord&)> on_event;
+    /// Receives executed commands, one line each, for the operator of the server.
+    std::function<void(const std::string&)> on_message;
   };
+  /// @param steering  assignment of datagrams to shards
   /// @return the control server, listening but not yet replying; or the error and its remedy
-  [[nodiscard]] static std::expected<std::unique_ptr<ControlServer>, std::string> open(const Options& options);
+  [[nodiscard]] static std::expected<std::unique_ptr<ControlServer>, std::string> open(const ControlOptions& options,
+                                                                                       const io::Steering& steering,
+                                                                                       const Handlers& handlers);
   ~ControlServer();
 
   /// The datagram sockets for the shards, all on the port of the control connections. May be called once.
@@ -66,7 +61,7 @@ class ControlServer {
   void stop();
 
  private:
-  ControlServer(auth::ServerKeystore trust, const Options& options);
+  ControlServer(auth::ServerKeystore trust, const ControlOptions& options, const Handlers& handlers);
   /// Writes the list of sessions for the local `tandem-server` commands, if it changed. @return the error
   [[nodiscard]] std::string write_serving_file();
   void schedule_serving_file();

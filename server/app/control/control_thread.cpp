@@ -1,17 +1,14 @@
 #include "server/app/control/control_thread.h"
 
 #include <asio/post.hpp>
-#include <csignal>
+
+#include "common/io/thread_without_signals.h"
 
 namespace tandem::server {
 
 void ControlThread::start() {
   work_.emplace(context_.get_executor());
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { context_.run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = io::thread_without_signals([this] { context_.run(); });
 }
 
 void ControlThread::stop(std::function<void()> last) {

@@ -7,7 +7,6 @@
 
 #include "common/auth/exporter_context.h"
 #include "common/auth/io/server_keystore.h"
-#include "common/auth/limiter.h"
 #include "proto/rpc/rpc_messages.h"
 
 namespace tandem::server {
@@ -15,9 +14,7 @@ namespace tandem::server {
 /// Request to join. The workstation is enrolled at the time of the request and has proved its key.
 struct JoinRequest {
   rpc::Hello hello;
-  std::uint32_t version = 0;  ///< protocol version: the highest that both ends support
   WorkstationRow workstation;
-  auth::Source source;
   std::string address;  ///< of the peer, for logs
 };
 
@@ -40,7 +37,7 @@ class JoinHandler {
   /// A Welcome could not be sent: the seat is free again.
   virtual void on_join_failed(const rpc::Welcome& welcome) = 0;
 
-  [[nodiscard]] virtual rpc::SessionList list(const WorkstationRow& workstation) = 0;
+  [[nodiscard]] virtual rpc::SessionList list() = 0;
 
   /// Executes a command of a joined connection: stop, pause, resume, authority, remove, status, drain. Replies with
   /// Ok, Status, AuthorityReply or ErrorReply.

@@ -113,17 +113,19 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
                                        const CommandOutcome& outcome) const {
   const SceneSpec& scene = entry.scene();
   const DrainSchedule& drain = registry_.drain();
-  rpc::Status status;
-  status.session_id = joined.session_id;
-  status.name = joined.session_name;
-  status.phase = phase_of(outcome.state);
-  status.stops = outcome.stops;
-  status.authority_version = outcome.authority_version;
-  status.time_s = outcome.time;
-  status.draining = drain.active();
-  if (drain.active()) status.drain = registry_.drain_progress();
   static_assert(static_cast<std::uint32_t>(ShedLevel::kNewJoins) == rpc::kShedMax);
-  status.shed = static_cast<std::uint32_t>(outcome.shed_level);
+  rpc::Status status{.session_id = joined.session_id,
+                     .name = joined.session_name,
+                     .phase = phase_of(outcome.state),
+                     .stops = outcome.stops,
+                     .authority_version = outcome.authority_version,
+                     .time_s = outcome.time,
+                     .draining = drain.active(),
+                     .shed = static_cast<std::uint32_t>(outcome.shed_level),
+                     .seats = {},
+                     .tools = {},
+                     .stop = latest_stop(outcome.stop_latch, scene, outcome.stop_age, outcome.connected_seats)};
+  if (drain.active()) status.drain = registry_.drain_progress();
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     status.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), outcome.seats[i].taken,
                             outcome.seats[i].heard, i < outcome.masters});
@@ -132,7 +134,6 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
         {scene.tools[j].name, {outcome.alpha[j].begin(), outcome.alpha[j].begin() + outcome.masters}});
   if (outcome.state == wire::SessionState::kHeld)
     status.held = truncate_utf8(held_reason_text(entry.session().status(), scene), rpc::kTextMax);
-  status.stop = latest_stop(outcome.stop_latch, scene, outcome.stop_age, outcome.connected_seats);
   if (status.stop)
     status.stop->yours = outcome.stop_latch.may_be_ended_by(joined.role, seat_of(joined), outcome.connected_seats);
   entry.notices.complete(status);

@@ -30,22 +30,25 @@ std::string ticket_command(const SessionEntry& entry, const std::string& what, c
          "`";
 }
 
-/// A Welcome with fresh connection id and resume secret, without setup.
-rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes) {
-  rpc::Welcome w;
-  w.session_id = entry.registration.id;
-  w.session_name = entry.registration.name;
-  w.epoch = entry.registration.epoch;
+/// A Welcome with fresh connection id and resume secret.
+rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes,
+                          const std::string& seat = {}, std::vector<std::byte> setup = {}) {
+  const SessionRegistration& session = entry.registration;
   const auto drawn = auth::random_bytes<std::array<std::byte, 2>>();
-  w.server_cid = connection_id(
-      static_cast<std::uint16_t>(std::to_integer<unsigned>(drawn[0]) << 8 | std::to_integer<unsigned>(drawn[1])),
-      entry.session().slot(), place);
   const bool aes = has_aes && transport::fastest_cipher() == transport::Cipher::kAes256Gcm;
-  w.cipher = aes ? rpc::Cipher::kAes256Gcm : rpc::Cipher::kChaCha20Poly1305;
-  w.role = role;
-  w.udp_port = entry.registration.shard->address().port();
-  w.resume_secret = Secret<32>{auth::random_bytes<std::array<std::byte, 32>>()};
-  return w;
+  return {.session_id = session.id,
+          .session_name = session.name,
+          .epoch = session.epoch,
+          .server_cid = connection_id(static_cast<std::uint16_t>(std::to_integer<unsigned>(drawn[0]) << 8 |
+                                                                 std::to_integer<unsigned>(drawn[1])),
+                                      entry.session().slot(), place),
+          .cipher = aes ? rpc::Cipher::kAes256Gcm : rpc::Cipher::kChaCha20Poly1305,
+          .seat = seat,
+          .role = role,
+          .setup = std::move(setup),
+          .udp_port = session.shard->address().port(),
+          .resume_secret = Secret<32>{auth::random_bytes<std::array<std::byte, 32>>()},
+          .limits = {}};
 }
 
 std::vector<std::byte> encoded(const SeatSetup& setup) {
@@ -156,12 +159,10 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
                       0};
   }
   reservation.offer(match, asked.ever_heard, force_scale, used);
-  rpc::Welcome w = make_welcome(entry, static_cast<std::uint8_t>(asked.seat + 1), role, request.hello.has_aes);
-  w.seat = seat.name;
   SeatSetup own = entry.session().seat_catalogue().setup_for(asked.seat, request.hello.device);
   own.gate.force_max *= force_scale;
-  w.setup = encoded(own);
-  return w;
+  return make_welcome(entry, static_cast<std::uint8_t>(asked.seat + 1), role, request.hello.has_aes, seat.name,
+                      encoded(own));
 }
 
 std::optional<ErrorReply> SessionJoins::check_code(const SessionEntry& entry, const JoinRequest& request,
@@ -241,9 +242,8 @@ void SessionJoins::join_link_test(SessionEntry& entry, const JoinRequest& reques
       entry.link_tests.cancel_join();
       return answer(accepted ? full : session_ends());
     }
-    rpc::Welcome w = make_welcome(entry, entry.link_tests.next_place(), AccessRole::kObserver, has_aes);
-    w.setup = encoded(entry.session().seat_catalogue().setup(0));
-    answer(std::move(w));
+    answer(make_welcome(entry, entry.link_tests.next_place(), AccessRole::kObserver, has_aes, "",
+                        encoded(entry.session().seat_catalogue().setup(0))));
   };
   registry_.post(entry, std::move(query));
 }
@@ -266,13 +266,12 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
                                      .text = std::move(text)});
   };
   const SeatCatalogue& catalogue = entry->session().seat_catalogue();
-  transport::SecureChannel::Params params;
-  params.outgoing = transport::Direction::kToClient;
-  params.own_cid = welcome.server_cid;
-  params.peer_cid = request.hello.client_cid;
-  params.secrets = transport::secrets_from_exporter(secrets.bytes, welcome.cipher == rpc::Cipher::kAes256Gcm
-                                                                       ? transport::Cipher::kAes256Gcm
-                                                                       : transport::Cipher::kChaCha20Poly1305);
+  const auto cipher =
+      welcome.cipher == rpc::Cipher::kAes256Gcm ? transport::Cipher::kAes256Gcm : transport::Cipher::kChaCha20Poly1305;
+  transport::SecureChannel::Params params{.outgoing = transport::Direction::kToClient,
+                                          .own_cid = welcome.server_cid,
+                                          .peer_cid = request.hello.client_cid,
+                                          .secrets = transport::secrets_from_exporter(secrets.bytes, cipher)};
   ShardRequest joins;
   if (request.hello.link_test) {
     params.tick = catalogue.tick();
@@ -287,13 +286,13 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
     SeatReservation& reservation = entry->seats[seat];
     const auto secret = resume_hash(welcome.resume_secret.bytes, resume_binding(trust_, request.workstation));
     reservation.admit(request.workstation, welcome.server_cid, secret);
-    joins.what = ShardRequest::What::kAdmit;
-    joins.seat = seat;
-    joins.same_owner = true;  // the query succeeded, and the seat has been reserved since
-    joins.connection = catalogue.make_connection(seat, params, request.hello.device);
+    joins = {.what = ShardRequest::What::kAdmit,
+             .seat = seat,
+             .same_owner = true,  // the query succeeded, and the seat has been reserved since
+             .connection = catalogue.make_connection(seat, params, request.hello.device),
+             .done = [&reservation](ShardRequest&) { reservation.end_join(); }};
     joins.connection.resume = secret;
     joins.connection.force_scale = reservation.force_scale();
-    joins.done = [&reservation](ShardRequest&) { reservation.end_join(); };
     if (std::string softer = catalogue.softened_spring_text(seat, request.hello.device); !softer.empty())
       log("stiffness_reduced", std::move(softer));
   }
@@ -309,7 +308,7 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
   restore_ticket(entry->consoles.take(welcome.resume_secret), *entry);
 }
 
-rpc::SessionList SessionJoins::list(const WorkstationRow&) { return registry_.list(); }
+rpc::SessionList SessionJoins::list() { return registry_.list(); }
 
 void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                            std::function<void(rpc::Body)> answer) {

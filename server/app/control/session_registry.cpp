@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/auth/base32.h"
+#include "common/auth/enrolment.h"
 #include "common/auth/io/state_directory.h"
 #include "common/io/clock.h"
 
@@ -32,9 +33,7 @@ rpc::SessionPhase phase_of(wire::SessionState state) noexcept {
   return rpc::SessionPhase::kEnding;
 }
 
-std::string make_session_code() {
-  return auth::to_base32(auth::random_bytes<std::array<std::byte, 7>>()).substr(0, rpc::kSessionCodeSize);
-}
+std::string make_session_code() { return auth::session_code(auth::random_bytes<std::array<std::byte, 7>>()); }
 
 std::string code_text(const std::string& code) { return auth::grouped(code, 5); }
 

@@ -25,8 +25,9 @@ class LoadEvents {
       if (now == before) continue;
       const auto hz = static_cast<long>(1.0 / seconds(shards[i]->period()) + 0.5);
       std::string what = now == ShedLevel::kNone ? "sheds no load" : "sheds: ";
-      for (auto rung = ShedLevel::kTelemetry; rung <= now; rung = static_cast<ShedLevel>(static_cast<int>(rung) + 1))
-        what += std::string(rung == ShedLevel::kTelemetry ? "" : ", ") + to_text(rung);
+      for (auto level = ShedLevel::kTelemetry; level <= now;
+           level = static_cast<ShedLevel>(static_cast<int>(level) + 1))
+        what += std::string(level == ShedLevel::kTelemetry ? "" : ", ") + to_text(level);
       news.push_back({now > before, format("the %ld Hz thread %s %s (level %d)", hz,
                                            now > before ? "is overloaded or late, and" : "has capacity again, and",
                                            what.c_str(), static_cast<int>(now))});

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/io/log.h"
+
 namespace tandem::server {
 
 /// Terminal messages from other threads. The thread that owns the terminal prints them above the status line. If the
@@ -13,16 +15,15 @@ namespace tandem::server {
 class MessageQueue {
  public:
   static constexpr std::size_t kMax = 256;
-  enum class Severity { kInfo, kWarning, kError };
   struct Line {
-    Severity severity = Severity::kInfo;
+    io::Level level = io::Level::kInfo;
     std::string text;
   };
 
-  void add(Severity weight, std::string text) {
+  void add(io::Level level, std::string text) {
     const std::lock_guard lock{lock_};
     if (lines_.size() < kMax) {
-      lines_.push_back({weight, std::move(text)});
+      lines_.push_back({level, std::move(text)});
     } else {
       ++dropped_;
     }
@@ -30,7 +31,7 @@ class MessageQueue {
   [[nodiscard]] std::vector<Line> take() {
     const std::lock_guard lock{lock_};
     if (const std::size_t dropped = std::exchange(dropped_, 0); dropped > 0)
-      lines_.push_back({Severity::kWarning, std::to_string(dropped) + " more lines arrived at once and are omitted"});
+      lines_.push_back({io::Level::kWarn, std::to_string(dropped) + " more lines arrived at once and are omitted"});
     return std::exchange(lines_, {});
   }
 

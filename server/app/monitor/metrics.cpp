@@ -2,6 +2,7 @@
 
 #include <prometheus/text_serializer.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -41,16 +42,9 @@ class Families {
 
  private:
   ClientMetric& metric(const char* name, const char* help, MetricType type, Labels labels) {
-    for (MetricFamily& family : families_)
-      if (family.name == name) return add(family, std::move(labels));
-    MetricFamily& family = families_.emplace_back();
-    family.name = name;
-    family.help = help;
-    family.type = type;
-    return add(family, std::move(labels));
-  }
-  static ClientMetric& add(MetricFamily& family, Labels labels) {
-    ClientMetric& made = family.metric.emplace_back();
+    auto family = std::ranges::find(families_, name, &MetricFamily::name);
+    if (family == families_.end()) family = families_.insert(family, {name, help, type, {}});
+    ClientMetric& made = family->metric.emplace_back();
     made.label = std::move(labels);
     return made;
   }

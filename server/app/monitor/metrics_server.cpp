@@ -10,7 +10,8 @@
 #include <asio/steady_timer.hpp>
 #include <asio/write.hpp>
 #include <cstddef>
-#include <cstring>
+
+#include "server/app/control/tcp_listener.h"
 
 namespace tandem::server {
 namespace {
@@ -98,7 +99,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
         socket_, asio::dynamic_buffer(request_, kRequestMax), "\r\n\r\n",
         [self = shared_from_this()](const asio::error_code& error, std::size_t size) {
           if (error) return self->end();  // the peer closed, was too slow, or sent more than a monitoring request needs
-          self->took(self->request_.substr(0, size));
+          self->on_request(self->request_.substr(0, size));
         });
   }
 
@@ -118,7 +119,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
   }
 
  private:
-  void took(const std::string& request) {
+  void on_request(const std::string& request) {
     const std::string line = request.substr(0, request.find("\r\n"));
     const auto method_end = line.find(' '), path_end = line.rfind(' ');
     if (method_end == std::string::npos || path_end <= method_end || !line.substr(path_end + 1).starts_with("HTTP/1."))
@@ -166,18 +167,9 @@ MetricsServer::MetricsServer(asio::io_context& context, RequestHandler pages, st
 }
 
 std::string MetricsServer::listen(const io::SocketAddress& at) {
-  tcp::endpoint endpoint;
-  endpoint.resize(at.size);
-  std::memcpy(endpoint.data(), at.get(), at.size);
-  asio::error_code error;
-  acceptor_.open(endpoint.protocol(), error);
-  if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
-  if (!error) acceptor_.bind(endpoint, error);
-  if (!error) acceptor_.listen(static_cast<int>(kConnectionsMax), error);
-  if (!error) endpoint = acceptor_.local_endpoint(error);
-  if (error) return "cannot listen on " + io::to_text(at) + ": " + error.message();
-  address_.size = static_cast<socklen_t>(endpoint.size());
-  std::memcpy(&address_.storage, endpoint.data(), endpoint.size());
+  const auto bound = start_listening(acceptor_, at, static_cast<int>(kConnectionsMax), false);
+  if (!bound) return bound.error();
+  address_ = *bound;
   accept_next();
   return {};
 }
@@ -185,7 +177,7 @@ std::string MetricsServer::listen(const io::SocketAddress& at) {
 void MetricsServer::accept_next() {
   acceptor_.async_accept([this](const asio::error_code& error, tcp::socket socket) {
     if (error == asio::error::operation_aborted || !acceptor_.is_open()) return;
-    connections_.remove_if([](const auto& visit) { return visit.expired(); });
+    connections_.remove_if([](const auto& connection) { return connection.expired(); });
     if (error) {
       accept_pause_.expires_after(kRest);
       accept_pause_.async_wait([this](const asio::error_code& cancelled) {
@@ -197,9 +189,9 @@ void MetricsServer::accept_next() {
       if (const auto oldest = connections_.front().lock()) oldest->drop();
       connections_.pop_front();
     }
-    const auto visit = std::make_shared<Connection>(std::move(socket), *this);
-    connections_.push_back(visit);
-    visit->start();
+    const auto connection = std::make_shared<Connection>(std::move(socket), *this);
+    connections_.push_back(connection);
+    connection->start();
     accept_next();
   });
 }
@@ -208,8 +200,8 @@ void MetricsServer::stop() {
   asio::error_code ignored;
   acceptor_.close(ignored);
   accept_pause_.cancel();
-  for (const auto& visit : connections_)
-    if (const auto alive = visit.lock()) alive->end();
+  for (const auto& connection : connections_)
+    if (const auto alive = connection.lock()) alive->end();
 }
 
 }  // namespace tandem::server

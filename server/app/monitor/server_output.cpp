@@ -42,25 +42,25 @@ void ServerOutput::post_control_event(const ControlEventRecord& news) {
   if (io::logs_json())
     return io::log_event(trouble ? io::Level::kError : io::Level::kWarn,
                          {.event = std::string(to_text(news.event)), .text = who + colon + news.detail});
-  if (trouble) return posted_.add(MessageQueue::Severity::kError, who + colon + sanitize(news.detail));
-  posted_.add(MessageQueue::Severity::kWarning, who + " " + std::string(control_event_text(news.event)) +
-                                                    (news.detail.empty() ? "" : ": ") + sanitize(news.detail));
+  if (trouble) return posted_.add(io::Level::kError, who + colon + sanitize(news.detail));
+  posted_.add(io::Level::kWarn, who + " " + std::string(control_event_text(news.event)) +
+                                    (news.detail.empty() ? "" : ": ") + sanitize(news.detail));
 }
 
 void ServerOutput::post_checkpoint_error(const std::string& what) {
   if (io::logs_json()) return io::log_event(io::Level::kError, {.event = "checkpoint_trouble", .text = what});
-  posted_.add(MessageQueue::Severity::kError, "checkpoint: " + what);
+  posted_.add(io::Level::kError, "checkpoint: " + what);
 }
 
 void ServerOutput::post_message(const std::string& text) {
-  if (!io::logs_json()) posted_.add(MessageQueue::Severity::kInfo, text);
+  if (!io::logs_json()) posted_.add(io::Level::kInfo, text);
 }
 
 void ServerOutput::print_posted() {
   for (const MessageQueue::Line& line : posted_.take()) {
-    if (line.severity == MessageQueue::Severity::kInfo) line_.note(line.text);
-    if (line.severity == MessageQueue::Severity::kWarning) line_.warn(line.text);
-    if (line.severity != MessageQueue::Severity::kError) continue;
+    if (line.level == io::Level::kInfo) line_.note(line.text);
+    if (line.level == io::Level::kWarn) line_.warn(line.text);
+    if (line.level != io::Level::kError) continue;
     line_.clear();
     io::log(io::Level::kError, line.text);
   }

@@ -12,23 +12,9 @@ namespace tandem::server {
 namespace {
 
 const char* gate_text(wire::GateState gate) {
-  switch (gate) {
-    case wire::GateState::kOff:
-      return "joining";
-    case wire::GateState::kZero:
-      return "force off";
-    case wire::GateState::kRampIn:
-      return "force rising";
-    case wire::GateState::kActive:
-      return "force on";
-    case wire::GateState::kReleasing:
-      return "force fades";
-    case wire::GateState::kLatched:
-      return "LATCHED (key b there)";
-    case wire::GateState::kFault:
-      return "DEVICE FAULT";
-  }
-  return "?";
+  constexpr const char* kTexts[] = {
+      "joining", "force off", "force rising", "force on", "force fades", "LATCHED (key b there)", "DEVICE FAULT"};
+  return gate <= wire::GateState::kFault ? kTexts[static_cast<std::size_t>(gate)] : "?";
 }
 
 /// @param brief  omits the values of the link

@@ -20,7 +20,7 @@ std::string client_command() {
 
 }  // namespace
 
-std::string startup_banner(const SessionInstance& run, const io::SocketAddress& at, bool throw_away, bool several,
+std::string startup_banner(const SessionInstance& run, const io::SocketAddress& at, bool ephemeral_keys, bool several,
                            const std::string& folder, const std::string& read_code) {
   const SceneSpec& scene = run.options().scene;
   const std::string &name = run.options().name, dialled = shell_quote(io::reachable_address(at));
@@ -33,17 +33,17 @@ std::string startup_banner(const SessionInstance& run, const io::SocketAddress& 
   if (by_code)
     text += read_code.empty() ? "session code " + code_text(run.code()) + "; "
                               : "`" + read_code + "` shows the session's CODE; ";
-  text += throw_away ? "in other terminals type\n" : "on enrolled workstations type\n";
+  text += ephemeral_keys ? "in other terminals type\n" : "on enrolled workstations type\n";
   for (const SeatSpec& seat : scene.seats) {
-    const bool ticket = !throw_away && (!by_code || seat.role == Role::kInstructor);
+    const bool ticket = !ephemeral_keys && (!by_code || seat.role == Role::kInstructor);
     (seat.required ? text : optional) +=
         format("  %s join --server %s --seat %s --device sim%s\n", client_command().c_str(), dialled.c_str(),
                seat.name.c_str(), ticket ? " --ticket-file FILE" : which.c_str());
   }
   if (!optional.empty()) text += "and for optional seats\n" + optional;
-  return throw_away ? text
-                    : text + "a ticket FILE is written by\n  tandem-server ticket --session " + name +
-                          " --seat SEAT --workstation NAME" + auth::server_state_option(folder) + " > FILE\n";
+  return ephemeral_keys ? text
+                        : text + "a ticket FILE is written by\n  tandem-server ticket --session " + name +
+                              " --seat SEAT --workstation NAME" + auth::server_state_option(folder) + " > FILE\n";
 }
 
 }  // namespace tandem::server

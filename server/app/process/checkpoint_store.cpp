@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cctype>
-#include <csignal>
 #include <filesystem>
 #include <utility>
 #include <vector>
 
 #include "common/auth/io/state_directory.h"
+#include "common/io/thread_without_signals.h"
 
 namespace tandem::server {
 namespace {
@@ -69,11 +69,7 @@ CheckpointStore::Found CheckpointStore::find(const std::string& name, const Scen
 }
 
 void CheckpointStore::start() {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = io::thread_without_signals([this] { run(); });
 }
 
 std::shared_ptr<CheckpointMailbox> CheckpointStore::add(SessionSnapshot kept) {
@@ -84,8 +80,8 @@ std::shared_ptr<CheckpointMailbox> CheckpointStore::add(SessionSnapshot kept) {
 void CheckpointStore::set_removed(const std::string& name, std::vector<std::array<std::byte, 32>> keys) {
   {
     const std::lock_guard lock{lock_};
-    for (const auto& page : entries_)
-      if (page->snapshot.name == name && !page->over) page->removed_workstations = keys;
+    for (const auto& entry : entries_)
+      if (entry->snapshot.name == name && !entry->over) entry->removed_workstations = keys;
   }
   wake_.signal();
 }
@@ -93,8 +89,8 @@ void CheckpointStore::set_removed(const std::string& name, std::vector<std::arra
 void CheckpointStore::remove(const std::string& name) {
   {
     const std::lock_guard lock{lock_};
-    for (const auto& page : entries_)
-      if (page->snapshot.name == name) page->over = true;
+    for (const auto& entry : entries_)
+      if (entry->snapshot.name == name) entry->over = true;
   }
   wake_.signal();
 }
@@ -109,7 +105,7 @@ void CheckpointStore::stop() {
 void CheckpointStore::remove_all() noexcept {
   const std::unique_lock lock{lock_, std::try_to_lock};
   if (!lock) return;  // the thread uses the entries: leave the files
-  for (const auto& page : entries_) static_cast<void>(folder_.remove(file_of(page->snapshot.name)));
+  for (const auto& entry : entries_) static_cast<void>(folder_.remove(file_of(entry->snapshot.name)));
 }
 
 void CheckpointStore::run() {
@@ -118,56 +114,56 @@ void CheckpointStore::run() {
     poll(&wake, 1, -1);
     wake_.clear();
     const bool last = stopping_;  // read before the round, so that the round writes what was published before `stop`
-    std::vector<std::shared_ptr<Entry>> pages;
+    std::vector<std::shared_ptr<Entry>> entries;
     {
       const std::lock_guard lock{lock_};
-      pages.assign(entries_.begin(), entries_.end());
+      entries.assign(entries_.begin(), entries_.end());
     }
     // In order: the entry of a session that is over precedes the entry of its successor with the same name.
-    for (const auto& page : pages) service_entry(*page);
+    for (const auto& entry : entries) service_entry(*entry);
     const std::lock_guard lock{lock_};
-    entries_.remove_if([&](const auto& page) { return page->gone; });
+    entries_.remove_if([&](const auto& entry) { return entry->gone; });
     if (last) return;
     std::this_thread::sleep_for(kRest);
   }
 }
 
-void CheckpointStore::service_entry(Entry& page) {
-  if (page.over) {
-    page.gone = true;
-    static_cast<void>(folder_.remove(file_of(page.snapshot.name)));
+void CheckpointStore::service_entry(Entry& entry) {
+  if (entry.over) {
+    entry.gone = true;
+    static_cast<void>(folder_.remove(file_of(entry.snapshot.name)));
     return;
   }
   bool others = false;
   {
     const std::lock_guard lock{lock_};
-    if (auto newer = std::exchange(page.removed_workstations, std::nullopt)) {
-      page.snapshot.removed_workstations = std::move(*newer);
+    if (auto newer = std::exchange(entry.removed_workstations, std::nullopt)) {
+      entry.snapshot.removed_workstations = std::move(*newer);
       others = true;
     }
   }
-  const bool before = !page.written.empty();
-  if (others) page.written.clear();  // so that the same checkpoint is written again
-  if (Checkpoint newest; page.mailbox->take(newest)) {
-    write(page, newest);
+  const bool before = !entry.written.empty();
+  if (others) entry.written.clear();  // so that the same checkpoint is written again
+  if (Checkpoint newest; entry.mailbox->take(newest)) {
+    write(entry, newest);
   } else if (others && before) {
-    write(page, Checkpoint{page.snapshot.checkpoint});
+    write(entry, Checkpoint{entry.snapshot.checkpoint});
   }
 }
 
-void CheckpointStore::write(Entry& page, const Checkpoint& checkpoint) {
+void CheckpointStore::write(Entry& entry, const Checkpoint& checkpoint) {
   std::vector<std::byte> bytes(kCheckpointMax);
   bytes.resize(encode_checkpoint(checkpoint, bytes));
   const std::int64_t now = auth::wall_seconds();
-  if (bytes == page.written && now - page.snapshot.written_s < kRefreshS && now >= page.snapshot.written_s) return;
-  page.snapshot.checkpoint = checkpoint;
-  page.snapshot.written_s = now;
+  if (bytes == entry.written && now - entry.snapshot.written_s < kRefreshS && now >= entry.snapshot.written_s) return;
+  entry.snapshot.checkpoint = checkpoint;
+  entry.snapshot.written_s = now;
   const std::string problem =
-      folder_.replace(file_of(page.snapshot.name), std::span<const std::byte>(encode_snapshot(page.snapshot)));
-  if (problem.empty()) page.written = std::move(bytes);
-  const bool before = std::exchange(page.failing, !problem.empty());
+      folder_.replace(file_of(entry.snapshot.name), std::span<const std::byte>(encode_snapshot(entry.snapshot)));
+  if (problem.empty()) entry.written = std::move(bytes);
+  const bool before = std::exchange(entry.failing, !problem.empty());
   if (!problem.empty() && !before)
-    on_error_("session " + page.snapshot.name + ": " + problem + "; after a crash it would start from the beginning");
+    on_error_("session " + entry.snapshot.name + ": " + problem + "; after a crash it would start from the beginning");
 }
 
 }  // namespace tandem::server

@@ -71,8 +71,8 @@ class CheckpointStore {
   CheckpointStore(auth::StateDirectory folder, std::string prefix, std::function<void(const std::string&)> trouble);
   [[nodiscard]] std::string file_of(const std::string& name) const;
   void run();
-  void service_entry(Entry& page);
-  void write(Entry& page, const Checkpoint& checkpoint);
+  void service_entry(Entry& entry);
+  void write(Entry& entry, const Checkpoint& checkpoint);
 
   auth::StateDirectory folder_;
   std::string prefix_;

@@ -85,11 +85,7 @@ void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {
   const SeatEndpoint& port = session_.seat(i);
   const wire::StateMessage& heard = port.last_state();
   SeatStatus& seat = status_.seats[i];
-  seat.taken = port.taken();
-  seat.ever_taken = seat.ever_taken || seat.taken;
-  seat.alive = port.alive(now);
-  seat.ready = port.ready(now);
-  seat.gate = heard.gate;
+  seat.ever_taken = seat.ever_taken || port.taken();
   seat.alpha = session_.record().seats[i].alpha;
   seat.margin_j = heard.telemetry.margin_min_j;
   seat.gate_trips = heard.gate_trips;

@@ -68,16 +68,10 @@ class ServerProcess {
   }
 
   int open() {
-    ControlServer::Options options{options_.listen, options_.state,
-                                   [this](const ControlEventRecord& news) { output_.post_control_event(news); }};
-    options.on_message = [this](const std::string& line) { output_.post_message(line); };
-    options.limits = options_.limits;
-    options.load_limits = options_.load_limits;
-    options.steering = shards_.steering();
-    options.metrics = options_.metrics;
-    options.metrics_hosts = options_.metrics_hosts;
-    options.audit = options_.audit;
-    auto opened = ControlServer::open(options);
+    auto opened =
+        ControlServer::open(options_.control, shards_.steering(),
+                            {.on_event = [this](const ControlEventRecord& news) { output_.post_control_event(news); },
+                             .on_message = [this](const std::string& line) { output_.post_message(line); }});
     if (!opened) return trouble(opened.error());
     control_ = std::move(*opened);
     if (const std::string problem = open_checkpoint_store(); !problem.empty()) return trouble(problem);
@@ -100,10 +94,10 @@ class ServerProcess {
   /// With ephemeral keys and a chosen port the next start has another port, so no client could resume: checkpoints are
   /// not stored.
   std::string open_checkpoint_store() {
-    if (control_->ephemeral_keys() && options_.listen.port() == 0) return {};
-    auto opened =
-        CheckpointStore::open(control_->folder(), control_->ephemeral_keys() ? io::to_text(options_.listen) + "-" : "",
-                              [this](const std::string& what) { output_.post_checkpoint_error(what); });
+    if (control_->ephemeral_keys() && options_.control.listen.port() == 0) return {};
+    auto opened = CheckpointStore::open(control_->folder(),
+                                        control_->ephemeral_keys() ? io::to_text(options_.control.listen) + "-" : "",
+                                        [this](const std::string& what) { output_.post_checkpoint_error(what); });
     if (!opened) return opened.error();
     checkpoints_ = std::move(*opened);
     return {};
@@ -159,8 +153,8 @@ class ServerProcess {
       done();
     });
     sessions_->drain();
-    shards_.stop(sessions_->will_resume() && options_.listen.port() != 0 ? wire::CloseReason::kServerReturns
-                                                                         : wire::CloseReason::kServerStops);
+    shards_.stop(sessions_->will_resume() && options_.control.listen.port() != 0 ? wire::CloseReason::kServerReturns
+                                                                                 : wire::CloseReason::kServerStops);
   }
 
   /// Ends the process without a close-out. The clients' own gates release the hands.

@@ -1,13 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "common/io/log.h"
-#include "common/io/socket_address.h"
-#include "server/app/control/control_services.h"
-#include "server/app/control/session_registry.h"
+#include "server/app/control/control_options.h"
 #include "server/app/process/session_instance.h"
 
 namespace tandem::server {
@@ -15,15 +12,8 @@ namespace tandem::server {
 /// Options of a server process, validated: one session (`run`) or several (`serve`).
 struct ServerOptions {
   const char* command = "run";  ///< name of the command, for messages
-  std::vector<SessionOptions> sessions;
-  io::SocketAddress listen;
-  /// State directory as given. Empty: the default directory, or ephemeral keys on loopback.
-  std::string state;
-  ControlLimits limits{};
-  LoadLimits load_limits{};
-  std::optional<io::SocketAddress> metrics{};
-  std::vector<std::string> metrics_hosts{};  ///< accepted Host names of the metrics endpoint, in addition to addresses
-  auth::AuditLimits audit{};
+  std::vector<SessionOptions> sessions{};
+  ControlOptions control{};
   std::optional<io::Level> json_log{};  ///< set: log lines are JSON, of this level and above
   double start_timeout_s = 0;           ///< [s] for the required seats to get ready; 0: no limit
   bool quiet = false;

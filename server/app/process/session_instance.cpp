@@ -35,17 +35,19 @@ std::string report_json(const RunReport& report, EndReason end, std::uint64_t ep
                         const MachineStatus& machine, const TickQueue& queue, std::uint64_t spared,
                         const std::string& waited_for) {
   auto json = nlohmann::ordered_json::parse(to_json(report));
-  json["ended_by"] = to_text(end);
-  json["began"] = report.duration_s > 0;
-  json["waited_for"] = report.duration_s > 0 ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(waited_for);
-  json["epoch"] = epoch;
-  json["resumed_at_tick"] =
-      kept != nullptr ? nlohmann::ordered_json(kept->checkpoint.session_tick) : nlohmann::ordered_json(nullptr);
-  json["machine"] = {{"late_ticks", machine.late_ticks},
-                     {"missed_ticks", machine.missed_ticks},
-                     {"recorder_dropped", queue.dropped()},
-                     {"recorder_spared", spared},
-                     {"realtime", machine.realtime}};
+  json.update(nlohmann::ordered_json{
+      {"ended_by", to_text(end)},
+      {"began", report.duration_s > 0},
+      {"waited_for", report.duration_s > 0 ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(waited_for)},
+      {"epoch", epoch},
+      {"resumed_at_tick",
+       kept != nullptr ? nlohmann::ordered_json(kept->checkpoint.session_tick) : nlohmann::ordered_json(nullptr)},
+      {"machine",
+       {{"late_ticks", machine.late_ticks},
+        {"missed_ticks", machine.missed_ticks},
+        {"recorder_dropped", queue.dropped()},
+        {"recorder_spared", spared},
+        {"realtime", machine.realtime}}}});
   return json.dump(2) + "\n";
 }
 
@@ -123,13 +125,9 @@ SessionInstance::Verdict SessionInstance::finish() {
   }
   for (io::OutputFile* file : {&json_, &trace_, &kept})
     if (const auto problem = file->close(); !problem.empty() && verdict.problem.empty()) verdict.problem = problem;
-  if (!verdict.problem.empty()) {
-    verdict.code = io::kExitTrouble;
-  } else if (why == EndReason::kScene || why == EndReason::kAllLeft) {
-    verdict.code = report.passed ? 0 : io::kExitTrouble;
-  } else {
-    verdict.code = why == EndReason::kSignal ? 0 : io::kExitTrouble;
-  }
+  const bool completed = (why == EndReason::kScene || why == EndReason::kAllLeft) && report.passed;
+  const bool good = verdict.problem.empty() && (completed || why == EndReason::kSignal);
+  verdict.code = good ? io::kExitDone : io::kExitTrouble;
   return verdict;
 }
 

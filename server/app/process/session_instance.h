@@ -17,11 +17,11 @@ namespace tandem::server {
 
 /// Options of one session, validated.
 struct SessionOptions {
-  std::string name;  ///< for users: 1 to 32 characters of A-Z a-z 0-9 _ -
-  SceneSpec scene;
-  std::string json, trace;  ///< file names; `-` (JSON only) is standard output; empty: none
-  std::string reports;      ///< directory for a report of every run; empty: none
-  std::uint64_t seed = 1;   ///< for the report only: a live session draws nothing from it
+  std::string name{};  ///< for users: 1 to 32 characters of A-Z a-z 0-9 _ -
+  SceneSpec scene{};
+  std::string json{}, trace{};  ///< file names; `-` (JSON only) is standard output; empty: none
+  std::string reports{};        ///< directory for a report of every run; empty: none
+  std::uint64_t seed = 1;       ///< for the report only: a live session draws nothing from it
   bool tickets_only = false;
   bool restart = false;  ///< when the session is over, a new one replaces it
 };
@@ -45,7 +45,6 @@ class SessionInstance {
   [[nodiscard]] const auth::Id16& id() const noexcept { return id_; }
   [[nodiscard]] const std::string& code() const noexcept { return code_; }
   [[nodiscard]] std::uint64_t epoch() const noexcept { return epoch_; }
-  [[nodiscard]] bool writes_to_stdout() const noexcept { return json_.on_stdout(); }
 
   /// Snapshot from which the session was restored; null: a new session.
   [[nodiscard]] const SessionSnapshot* snapshot() const noexcept { return snapshot_ ? &*snapshot_ : nullptr; }

@@ -170,12 +170,9 @@ void SessionTable::report(const SessionInstance& session, const SessionStatus& s
 
 /// Joins, leaves, authority changes, stops and resumes. Commands of consoles are logged with names by SessionCommands.
 void SessionTable::write_audit_events(SessionInstance& session) {
-  AuditEventQueue& events = session.live_session().audit();
-  for (const AuditEvent* e = events.front(); e != nullptr; e = events.front()) {
+  while (const auto e = session.live_session().audit().take())
     if (e->seat != AuditEvent::kControlPlane || e->party != AuditEvent::kNoSeat)
       control_.audit().post(to_text(e->what), session.options().name, audit_text(*e, session.options().scene));
-    events.pop();
-  }
 }
 
 void SessionTable::drain() {

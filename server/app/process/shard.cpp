@@ -46,13 +46,7 @@ bool Shard::post(ShardRequest& request) noexcept {
   return true;
 }
 
-ShardRequest* Shard::next_completed() noexcept {
-  ShardRequest* const* const next = completed_.front();
-  if (next == nullptr) return nullptr;
-  ShardRequest* const request = *next;
-  completed_.pop();
-  return request;
-}
+ShardRequest* Shard::next_completed() noexcept { return completed_.take().value_or(nullptr); }
 
 void Shard::clear_completions() noexcept { completions_.clear(); }
 
@@ -122,11 +116,9 @@ void Shard::receive() noexcept {
 
 void Shard::execute_requests(Time now) noexcept {
   bool any = false;
-  for (ShardRequest* const* next = requests_.front(); next != nullptr; next = requests_.front()) {
-    ShardRequest* const request = *next;
-    requests_.pop();
-    execute(now, *request);
-    any = completed_.push(request) || any;
+  while (const auto request = requests_.take()) {
+    execute(now, **request);
+    any = completed_.push(*request) || any;
   }
   if (any) completions_.signal();
 }
@@ -140,7 +132,7 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
     if (request.result == JoinResult::kAccepted) place = live;
     return;
   }
-  request.result = JoinResult::kSessionOver;
+  request.result = place == live ? JoinResult::kAccepted : JoinResult::kSessionOver;
   if (place != live) return;
   switch (request.what) {
     case ShardRequest::What::kQuerySeat:
@@ -159,16 +151,13 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
       break;
     case ShardRequest::What::kCommand:
       request.outcome = execute_command(live->session(), now, request.command);
-      request.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kRevokeSeat:
       request.outcome.result = remove_client(live->session(), request.seat, request.cid, wire::CloseReason::kRevoked);
       request.outcome.tick = live->session().clock().session_tick();
-      request.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kQueryLinkTest:
       request.place = live->session().link_test_peers().places_free(now);
-      request.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kRemoveLinkTest:
       static_cast<void>(
@@ -176,7 +165,6 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
       break;
     case ShardRequest::What::kEndSession:
       live->session().participants().end(wire::CloseReason::kServerStops);
-      request.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kAddSession:
       break;

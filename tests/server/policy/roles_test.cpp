@@ -20,12 +20,8 @@ constexpr std::array<Row, kRights> kDesign{{
     {Right::kForce, {"yes", "yes", "lower clamp and tank", "no", "no", "no"}},
     {Right::kTelemetry, {"yes", "own and shared", "yes", "60 Hz", "counters only", "yes"}},
     {Right::kAuthority, {"yes", "offer back own", "no", "no", "no", "no"}},
-    {Right::kLowerLimits, {"yes", "own", "own", "no", "no", "no"}},
-    {Right::kRaiseLimits, {"no", "no", "no", "no", "no", "no"}},
-    {Right::kStopOwnHand, {"yes", "yes", "yes", "no", "no", "no"}},
     {Right::kStopSession, {"yes", "pause", "pause", "no", "yes", "no"}},
     {Right::kEndPause, {"yes", "own, without instructor", "own, without instructor", "no", "yes", "no"}},
-    {Right::kRecord, {"yes", "no", "no", "no", "no", "writes"}},
     {Right::kManageSeats, {"yes", "no", "no", "no", "yes", "no"}},
     {Right::kManageServer, {"no", "no", "no", "no", "yes", "no"}},
 }};

@@ -69,10 +69,21 @@ TEST(CheckpointPublisher, PublishesTheLastCheckpointWhenTheSessionEnds) {
 
 TEST(CheckpointPublisher, DoesNothingWithoutAMailbox) {
   SessionFixture fixture("free_motion");
-  CheckpointPublisher publisher;
+  CheckpointPublisher publisher, finished;
   publisher.note(AuditEvent::What::kStop);
   publisher.step(*fixture.session);
-  publisher.finish(*fixture.session);
+  finished.finish(*fixture.session);
+
+  const io::EventFd wake;
+  for (CheckpointPublisher* const late : {&publisher, &finished}) {
+    const auto mailbox = std::make_shared<CheckpointMailbox>(wake);
+    Checkpoint found;
+    late->attach(mailbox, 7, 1000);
+    EXPECT_FALSE(mailbox->take(found)) << "nothing was stored for a later mailbox";
+    late->step(*fixture.session);
+    EXPECT_TRUE(mailbox->take(found)) << "the checkpoint stayed due, because none was published";
+    EXPECT_EQ(found.epoch, 7U);
+  }
 }
 
 }  // namespace

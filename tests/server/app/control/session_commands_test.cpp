@@ -1,0 +1,145 @@
+// Commands of joined connections, from the request to the reply, the notices and the message for the operator.
+#include "server/app/control/session_commands.h"
+
+#include "common/io/clock.h"
+#include "server/session/connection_id.h"
+#include "tests/server/app/control/registry_fixture.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+using rpc::ErrorCode;
+
+/// A session "lesson" and an operator's console at the workstation "office".
+struct Commanding : RegistryFixture {
+  Commanding() {
+    joined.session_id = id_of(1);
+    joined.session_name = "lesson";
+    joined.role = AccessRole::kOperator;
+    joined.server_cid = connection_id(1, 0, 0);
+    EXPECT_EQ(keys.registry().enroll_without_code(office), "");
+  }
+  /// Executes a command. @return its reply, once it is there
+  rpc::Body ask(rpc::Body command) {
+    std::optional<rpc::Body> reply;
+    commands.execute(joined, office, std::move(command), [&](rpc::Body body) { reply = std::move(body); });
+    wait_until([&] { return reply.has_value(); });
+    return reply.value_or(rpc::Body{});
+  }
+  /// Texts of the notices for all participants.
+  [[nodiscard]] std::vector<std::string> notices() const {
+    rpc::Status status;
+    lesson.notices.complete(status);
+    std::vector<std::string> texts;
+    for (const rpc::StatusEvent& event : status.events) texts.push_back(event.text);
+    return texts;
+  }
+
+  SessionEntry& lesson = add("lesson", 1);
+  const WorkstationRow office{"office", {std::byte{7}}, 0};
+  auth::ServerKeystore keys = auth::ServerKeystore::ephemeral(auth::wall_seconds());
+  std::vector<std::string> messages;
+  SessionCommands commands{registry, keys, [this](const std::string& line) { messages.push_back(line); }};
+  rpc::Welcome joined;
+};
+
+TEST(SessionCommands, RejectACommandForAnotherSession) {
+  Commanding c;
+  EXPECT_EQ(error_of(c.ask(rpc::StopSession{id_of(2), ""})),
+            (rpc::ErrorReply{ErrorCode::kNotAllowed,
+                             "this connection joined the session lesson and cannot act for another one", 0}));
+  EXPECT_TRUE(c.messages.empty());
+}
+
+TEST(SessionCommands, ReplyThatARemovedSessionIsOver) {
+  Commanding c;
+  c.lesson.closing = true;
+  EXPECT_EQ(error_of(c.ask(rpc::StopSession{id_of(1), ""})),
+            (rpc::ErrorReply{ErrorCode::kSessionOver, "this session is over", 0}));
+}
+
+TEST(SessionCommands, ReplyThatASessionIsOverThatTheShardDoesNotServe) {
+  Commanding c;
+  const SessionEntry& over = c.add("over", 2, "", false);
+  c.joined.session_id = id_of(2);
+  c.serve();
+  EXPECT_EQ(error_of(c.ask(rpc::StopSession{id_of(2), ""})),
+            (rpc::ErrorReply{ErrorCode::kSessionOver, "this session is over", 0}));
+  rpc::Status status;
+  over.notices.complete(status);
+  EXPECT_TRUE(status.events.empty());
+  EXPECT_TRUE(c.messages.empty());
+}
+
+TEST(SessionCommands, DrainAtOnceAndNotifyParticipantsAndOperator) {
+  Commanding c;
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::Drain{30})));
+  EXPECT_TRUE(c.registry.drain().active());
+  ASSERT_TRUE(c.registry.drain().due());
+  EXPECT_LE(*c.registry.drain().due(), io::monotonic_now() + 30s);
+  EXPECT_EQ(
+      c.notices(),
+      (std::vector<std::string>{"the server DRAINS: all hands are released in 30 s; requested by office (operator)"}));
+  EXPECT_EQ(c.messages, (std::vector<std::string>{"DRAINING: new joins are rejected, and all hands are released in "
+                                                  "30 s; requested by office (operator)"}));
+}
+
+TEST(SessionCommands, StopAndResumeWithNameAndReason) {
+  Commanding c;
+  c.serve();
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::StopSession{id_of(1), "fire drill"})));
+  EXPECT_EQ(c.messages, (std::vector<std::string>{"STOPPED by office (operator): fire drill"}));
+  const rpc::Body reply = c.ask(rpc::StatusRequest{id_of(1)});
+  const auto* const status = std::get_if<rpc::Status>(&reply);
+  ASSERT_NE(status, nullptr);
+  EXPECT_EQ(status->name, "lesson");
+  EXPECT_EQ(status->phase, rpc::SessionPhase::kStopped);
+  EXPECT_EQ(status->stops, 1U);
+  EXPECT_FALSE(status->draining);
+  EXPECT_FALSE(status->drain);
+  ASSERT_EQ(status->seats.size(), 2U);
+  EXPECT_EQ(status->seats[1].name, "trainee");
+  ASSERT_EQ(status->tools.size(), 1U);
+  EXPECT_EQ(status->tools[0].name, "tool");
+  ASSERT_TRUE(status->stop);
+  EXPECT_EQ(status->stop->number, 1U);
+  EXPECT_EQ(status->stop->workstation, "office");
+  EXPECT_EQ(status->stop->why, "fire drill");
+  EXPECT_TRUE(status->stop->yours) << "an operator may end it";
+
+  EXPECT_EQ(error_of(c.ask(rpc::ResumeSession{id_of(1), 2})).code, ErrorCode::kOutdated) << "there is no stop 2";
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::ResumeSession{id_of(1), 1})));
+  ASSERT_EQ(c.notices().size(), 1U);
+  EXPECT_EQ(c.notices()[0].find("stop 1 is over: RESUMED by office (operator); force returns over "), 0U)
+      << c.notices()[0];
+  EXPECT_EQ(c.messages.back(), "RESUMED by office (operator)");
+  EXPECT_EQ(error_of(c.ask(rpc::RemoveParticipant{id_of(1), "trainee", ""})),
+            (rpc::ErrorReply{ErrorCode::kNoSeat, "no client is on seat trainee", 0}));
+}
+
+TEST(SessionCommands, NameTheSessionInMessagesOfAServerWithSeveral) {
+  Commanding c;
+  c.add("exam", 2);
+  c.serve();
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::StopSession{id_of(1), ""})));
+  EXPECT_EQ(c.messages, (std::vector<std::string>{"lesson: STOPPED by office (operator)"}));
+}
+
+TEST(SessionCommands, ReleaseTheSeatsOfRevokedWorkstationsOnly) {
+  Commanding c;
+  const SeatReservation::Hash secret{std::byte{1}};
+  c.lesson.seats[0].admit(c.office, 11, secret);
+  c.lesson.seats[1].admit({"gone", {std::byte{8}}, 0}, 12, secret);
+  ASSERT_TRUE(c.lesson.link_tests.begin_join());
+  c.lesson.link_tests.admit(0, {"gone", {std::byte{8}}, 0}, 13);
+  c.serve();
+  c.commands.disconnect_revoked();
+  EXPECT_FALSE(c.lesson.link_tests.contains(13));
+  c.wait_until([&] { return !c.lesson.seats[1].owner(); });
+  EXPECT_TRUE(c.lesson.seats[0].owned_by(11)) << "office is enrolled";
+  EXPECT_FALSE(c.lesson.seats[1].owned_by(12));
+}
+
+}  // namespace
+}  // namespace tandem::server

@@ -1,0 +1,154 @@
+// Joins of seats, consoles and link tests, from the request to the Welcome or its error.
+#include "server/app/control/session_joins.h"
+
+#include "tests/server/app/control/registry_fixture.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+using rpc::ErrorCode;
+
+constexpr const char* kCode = "ABCDE12345";
+
+/// A session "lesson" with a code, and a workstation "touch-07".
+struct Joining : RegistryFixture {
+  [[nodiscard]] static JoinRequest request(const std::string& seat, const rpc::Credential& credential = {}) {
+    JoinRequest join;
+    join.hello.seat = seat;
+    join.hello.credential = credential;
+    join.hello.client_cid = 7;
+    join.hello.device = {3, 3, true, false, 0, 0, 0};
+    join.workstation = {"touch-07", {std::byte{7}}, 0};
+    return join;
+  }
+  /// Requests a join. @return its reply, once it is there
+  JoinReply join(const JoinRequest& request) {
+    std::optional<JoinReply> reply;
+    joins.admit(request, [&](JoinReply decided) { reply = std::move(decided); });
+    wait_until([&] { return reply.has_value(); });
+    return reply.value_or(rpc::ErrorReply{});
+  }
+
+  SessionEntry& lesson = add("lesson", 1, kCode);
+  auth::ServerKeystore keys = auth::ServerKeystore::ephemeral(auth::wall_seconds());
+  SessionCommands commands{registry, keys};
+  SessionJoins joins{registry, commands, keys};
+};
+
+TEST(SessionJoins, RejectSeatsWhileTheServerDrainsButCheckConsolesFurther) {
+  Joining j;
+  j.registry.drain().begin();
+  EXPECT_EQ(error_of(j.join(Joining::request("trainee", rpc::CodeCredential{kCode}))).code, ErrorCode::kDraining);
+  const rpc::ErrorReply console = error_of(j.join(Joining::request("")));
+  EXPECT_EQ(console.code, ErrorCode::kNoSeat);
+  EXPECT_EQ(console.text,
+            "a join without a seat needs a ticket, such as from `tandem-server ticket --session lesson --role operator "
+            "--workstation touch-07`; seats: trainer trainee");
+}
+
+TEST(SessionJoins, RejectUnknownSeatsAndDevicesWithTooFewAxes) {
+  Joining j;
+  EXPECT_EQ(error_of(j.join(Joining::request("pilot", rpc::CodeCredential{kCode}))),
+            (rpc::ErrorReply{ErrorCode::kNoSeat, "no seat of this name; seats: trainer trainee", 0}));
+  JoinRequest flat = Joining::request("trainee", rpc::CodeCredential{kCode});
+  flat.hello.device.tip_axes = 2;
+  EXPECT_EQ(error_of(j.join(flat)),
+            (rpc::ErrorReply{ErrorCode::kDeviceUnfit, "the scene needs 3 axes, the device has 2", 0}));
+  EXPECT_FALSE(j.lesson.seats[1].joining());
+}
+
+TEST(SessionJoins, AdmitASeatByTheSessionsCode) {
+  Joining j;
+  j.serve();
+  const JoinRequest request = Joining::request("trainee", rpc::CodeCredential{kCode});
+  const JoinReply reply = j.join(request);
+  const auto* const welcome = std::get_if<rpc::Welcome>(&reply);
+  ASSERT_NE(welcome, nullptr) << error_of(reply).text;
+  EXPECT_EQ(welcome->session_id, id_of(1));
+  EXPECT_EQ(welcome->session_name, "lesson");
+  EXPECT_EQ(welcome->epoch, 3U);
+  EXPECT_EQ(welcome->seat, "trainee");
+  EXPECT_EQ(welcome->role, AccessRole::kTrainee);
+  EXPECT_EQ(welcome->cipher, rpc::Cipher::kChaCha20Poly1305) << "the client has no AES";
+  EXPECT_EQ(welcome->udp_port, j.shard.address().port());
+  EXPECT_FALSE(welcome->setup.empty());
+  EXPECT_EQ(error_of(j.join(request)), (rpc::ErrorReply{ErrorCode::kSeatTaken, "this seat is taken already", 2}));
+  EXPECT_FALSE(j.joins.is_current(*welcome)) << "the Welcome is not sent yet";
+
+  j.joins.on_joined(request, *welcome, {});
+  EXPECT_TRUE(j.joins.is_current(*welcome));
+  EXPECT_EQ(j.lesson.seats[1].owner()->name, "touch-07");
+  j.wait_until([&] { return !j.lesson.seats[1].joining(); });
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kSeatTaken) << "its client is in the session now";
+
+  JoinRequest again = Joining::request("trainee", rpc::ResumeCredential{welcome->resume_secret});
+  const JoinReply resumed = j.join(again);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(resumed)) << error_of(resumed).text;
+  again.hello.credential = rpc::ResumeCredential{};
+  EXPECT_EQ(error_of(j.join(again)).code, ErrorCode::kResume) << "a wrong secret";
+}
+
+TEST(SessionJoins, FreeASeatWhoseWelcomeCouldNotBeSent) {
+  Joining j;
+  j.serve();
+  const JoinRequest request = Joining::request("trainee", rpc::CodeCredential{kCode});
+  const JoinReply first = j.join(request);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(first)) << error_of(first).text;
+  j.joins.on_join_failed(std::get<rpc::Welcome>(first));
+  EXPECT_FALSE(j.lesson.seats[1].joining());
+  EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(j.join(request)));
+}
+
+TEST(SessionJoins, RejectWrongCredentialsWithoutReservingTheSeat) {
+  Joining j;
+  j.serve();
+  EXPECT_EQ(error_of(j.join(Joining::request("trainee", rpc::CodeCredential{"ZZZZZ00000"}))).code, ErrorCode::kCode);
+  EXPECT_EQ(error_of(j.join(Joining::request("trainee"))).code, ErrorCode::kTicket);
+  EXPECT_EQ(error_of(j.join(Joining::request("trainer", rpc::CodeCredential{kCode}))),
+            (rpc::ErrorReply{ErrorCode::kNotAllowed,
+                             "the instructor's seat needs a ticket: on the server, `tandem-server ticket --session "
+                             "lesson --seat trainer --workstation touch-07`",
+                             0}));
+  j.lesson.removed.add({std::byte{7}});
+  EXPECT_EQ(error_of(j.join(Joining::request("trainee", rpc::CodeCredential{kCode}))).code, ErrorCode::kNotAllowed)
+      << "its participant was removed";
+  EXPECT_FALSE(j.lesson.seats[0].joining());
+  EXPECT_FALSE(j.lesson.seats[1].joining());
+}
+
+TEST(SessionJoins, ReplyThatASessionIsEndingThatTheShardDoesNotServe) {
+  Joining j;
+  const SessionEntry& over = j.add("over", 2, kCode, false);
+  j.serve();
+  JoinRequest request = Joining::request("trainee", rpc::CodeCredential{kCode});
+  request.hello.session = id_of(2);
+  EXPECT_EQ(error_of(j.join(request)), (rpc::ErrorReply{ErrorCode::kSessionOver, "the session is ending", 0}));
+  EXPECT_FALSE(over.seats[1].joining());
+}
+
+TEST(SessionJoins, ServeNoMoreLinkTestsThanThereAreSlots) {
+  Joining j;
+  JoinRequest request = Joining::request("");
+  request.hello.link_test = true;
+  std::vector<JoinReply> replies;
+  const auto add = [&](JoinReply reply) { replies.push_back(std::move(reply)); };
+  for (std::size_t i = 0; i < LinkTestSlots::kMax; ++i) j.joins.admit(request, add);
+  EXPECT_TRUE(replies.empty()) << "the shard has not replied";
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kFull);
+  j.serve();
+  j.wait_until([&] { return replies.size() == LinkTestSlots::kMax; });
+  for (const JoinReply& reply : replies) {
+    const auto* const welcome = std::get_if<rpc::Welcome>(&reply);
+    ASSERT_NE(welcome, nullptr) << error_of(reply).text;
+    EXPECT_EQ(welcome->seat, "");
+    EXPECT_EQ(welcome->role, AccessRole::kObserver);
+    EXPECT_FALSE(welcome->setup.empty());
+  }
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kFull);
+  j.joins.on_join_failed(std::get<rpc::Welcome>(replies[0]));
+  EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(j.join(request))) << "one slot is free again";
+}
+
+}  // namespace
+}  // namespace tandem::server
