@@ -37,12 +37,12 @@ std::optional<std::string> AuditThrottle::last_summary() {
   std::string text = std::to_string(unreported_) +
                      (unreported_ == 1 ? " line about a refused peer was" : " lines about refused peers were") +
                      " left out:";
-  std::uint64_t told = 0;
+  std::uint64_t listed = 0;
   for (std::size_t i = 0; i < named; ++i) {
     text += (i == 0 ? " " : ", ") + std::to_string(most[i].first) + " of " + most[i].second;
-    told += most[i].first;
+    listed += most[i].first;
   }
-  if (told < unreported_) text += (told > 0 ? ", " : " ") + std::to_string(unreported_ - told) + " of others";
+  if (listed < unreported_) text += (listed > 0 ? ", " : " ") + std::to_string(unreported_ - listed) + " of others";
   unreported_ = 0;
   return text;
 }

@@ -15,6 +15,7 @@ namespace tandem {
   return reinterpret_cast<const unsigned char*>(p);
 }
 [[nodiscard]] inline const std::byte* as_bytes(const char* p) noexcept { return reinterpret_cast<const std::byte*>(p); }
+[[nodiscard]] inline const char* as_text(const unsigned char* p) noexcept { return reinterpret_cast<const char*>(p); }
 [[nodiscard]] inline const char* as_text(const std::byte* p) noexcept { return reinterpret_cast<const char*>(p); }
 
 [[nodiscard]] inline std::span<const std::byte> bytes_of(std::string_view text) noexcept {

@@ -62,9 +62,9 @@ bool VirtualTool::step(double dt, const Pulls& pulls) noexcept {
   return true;
 }
 
-void VirtualTool::set_received_contacts(const ContactSet& told) noexcept {
+void VirtualTool::set_received_contacts(const ContactSet& received) noexcept {
   contacts_.keep(own_contacts_);
-  for (std::size_t c = 0; c < told.size(); ++c) contacts_.add(told[c]);
+  for (std::size_t c = 0; c < received.size(); ++c) contacts_.add(received[c]);
 }
 
 /// Determines the touched surfaces by rounds: a surface that the step would enter is added; one that would have to pull

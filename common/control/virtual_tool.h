@@ -31,7 +31,7 @@ class VirtualTool {
 
   /// Replaces the surfaces received from the server; those of the constructor stay. Surfaces beyond the capacity are
   /// omitted.
-  void set_received_contacts(const ContactSet& told) noexcept TANDEM_REALTIME;
+  void set_received_contacts(const ContactSet& received) noexcept TANDEM_REALTIME;
 
   /// Places the tool at `x` [m], at rest.
   void rest_at(const AxisArray& x) noexcept;

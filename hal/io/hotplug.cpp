@@ -45,9 +45,9 @@ struct HotplugMonitor::Impl {
   }
 
   /// @return whether udev sent an event
-  bool drain(Duration patience) {
+  bool drain(Duration timeout) {
     pollfd one{udev_monitor_get_fd(monitor), POLLIN, 0};
-    const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(patience, Duration::zero())).count();
+    const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(timeout, Duration::zero())).count();
     if (poll(&one, 1, static_cast<int>(ms)) <= 0) return false;
     while (udev_device* event = udev_monitor_receive_device(monitor)) udev_device_unref(event);
     return true;
@@ -83,8 +83,8 @@ Result<std::unique_ptr<HotplugMonitor>> HotplugMonitor::open() {
 
 const std::vector<AttachedDevice>& HotplugMonitor::present() const noexcept { return impl_->present; }
 
-std::vector<HotplugEvent> HotplugMonitor::wait(Duration patience) {
-  const Time until = io::monotonic_now() + patience;
+std::vector<HotplugEvent> HotplugMonitor::wait(Duration timeout) {
+  const Time until = io::monotonic_now() + timeout;
   for (;;) {
     const Time next = std::min(until, impl_->looked_at + kLookAnyway);
     const bool woken = impl_->drain(next - io::monotonic_now());

@@ -30,7 +30,7 @@ class HotplugMonitor {
   [[nodiscard]] const std::vector<AttachedDevice>& present() const noexcept;
   /// Waits until a device changed, or until the timeout. Removals come before arrivals.
   /// A device that was unplugged and plugged in again between two listings appears in both.
-  [[nodiscard]] std::vector<HotplugEvent> wait(Duration patience);
+  [[nodiscard]] std::vector<HotplugEvent> wait(Duration timeout);
 
  private:
   struct Impl;

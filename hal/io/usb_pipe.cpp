@@ -201,7 +201,7 @@ struct LibusbPipe::Impl {
   /// Cancels a transfer. @return false: it did not end, and its buffer must not be used again
   bool cancel(Slot& slot) noexcept {
     libusb_cancel_transfer(slot.transfer);
-    return wait(slot, kPatience);
+    return wait(slot, kTimeout);
   }
 
   std::unexpected<Errc> fail(Errc code) noexcept {
@@ -249,7 +249,7 @@ std::expected<void, Errc> LibusbPipe::control(std::uint8_t request, std::uint16_
   if (i.request.under_way && !i.cancel(i.request)) return std::unexpected(Errc::kInternal);
   libusb_fill_control_setup(raw(i.request_bytes.data()), kVendorOut, request, value, index, 0);
   libusb_fill_control_transfer(i.request.transfer, i.handle, raw(i.request_bytes.data()), on_done, &i.request, 0);
-  if (const Moved moved = i.run(i.request, kPatience); !moved) return std::unexpected(moved.error());
+  if (const Moved moved = i.run(i.request, kTimeout); !moved) return std::unexpected(moved.error());
   return {};
 }
 

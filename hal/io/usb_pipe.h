@@ -23,8 +23,8 @@ struct UsbInterface {
 /// unplugged, every call returns kUnplugged at once.
 class LibusbPipe final : public UsbPipe {
  public:
-  static constexpr std::size_t kWriteMax = 4096;                  ///< longer writes: kInternal
-  static constexpr Duration kPatience = std::chrono::seconds(1);  ///< time-out of control requests and cancellations
+  static constexpr std::size_t kWriteMax = 4096;                 ///< longer writes: kInternal
+  static constexpr Duration kTimeout = std::chrono::seconds(1);  ///< time-out of control requests and cancellations
 
   /// Opens and claims the interface. A kernel driver that holds it is detached while the pipe exists.
   /// Error: kPermission with the udev rule, kBusy with the possible holders, kUnplugged, kUnsupported (other

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/format.h"
 #include "common/base/time.h"
 #include "netsim/models/loss_spec.h"
 
@@ -21,8 +20,8 @@ struct SpecError {
 class SpecErrors {
  public:
   /// Formats a duration in the unit of profiles and options: "1.5 ms".
-  [[nodiscard]] static std::string text(Duration d) { return format("%g ms", static_cast<double>(d.count()) / 1e6); }
-  [[nodiscard]] static std::string text(double value) { return format("%g", value); }
+  [[nodiscard]] static std::string text(Duration d);
+  [[nodiscard]] static std::string text(double value);
 
   template <typename T>
   void range(std::string_view key, T value, T lo, T hi) {

@@ -43,6 +43,7 @@ struct SimulationConfig {
   /// Makes the source of contacts of a tool (server/session/contact_source.h) when a session is made, law REPLICA.
   /// Null: the tool has only the scene's surfaces.
   std::function<std::unique_ptr<server::ContactSource>(std::size_t tool)> contact_source = {};
+  /// Returns `heap_count()`, and 0 if it is null.
   [[nodiscard]] std::uint64_t heap_taken() const noexcept { return heap_count != nullptr ? heap_count() : 0; }
   bool keep_record = true;  ///< false: Simulation::record() stays empty; for runs that only judge invariants
 };

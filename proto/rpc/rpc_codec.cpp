@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "common/base/raw_bytes.h"
 #include "proto/rpc/rpc_convert.h"
 
 namespace tandem::rpc {
@@ -82,8 +83,7 @@ std::expected<Head, FrameError> peek(std::span<const std::byte> in) noexcept {
 std::expected<Frame, FrameError> decode(std::span<const std::byte> in) {
   if (const auto head = peek(in); !head) return std::unexpected(head.error());
   WipedFrame read;
-  google::protobuf::io::CodedInputStream stream(reinterpret_cast<const std::uint8_t*>(in.data()),
-                                                static_cast<int>(in.size()));
+  google::protobuf::io::CodedInputStream stream(raw(in.data()), static_cast<int>(in.size()));
   stream.SetRecursionLimit(kRecursionMax);
   if (!read.frame.ParseFromCodedStream(&stream) || !stream.ConsumedEntireMessage())
     return std::unexpected(FrameError::kMalformed);

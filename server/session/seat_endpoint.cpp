@@ -20,7 +20,7 @@ constexpr Duration kEchoStallMax = std::chrono::milliseconds(200);
 constexpr double kJumpMaxM = 1, kJumpMaxRad = 5;
 
 /// Longest silence for which the client's gate still lets it apply force [s].
-double patience(const SceneSpec& scene, std::size_t seat) {
+double silence_limit(const SceneSpec& scene, std::size_t seat) {
   return scene.seats[seat].kind == SeatKind::kMaster ? silence_limits(scene.gate, scene.channel.law, 1).most
                                                      : scene.gate.silence_limit;
 }
@@ -42,7 +42,7 @@ SeatEndpoint::SeatEndpoint(const SceneSpec& scene, std::size_t seat, const AxisA
       receives_force_(allowed(role_, Right::kForce) != Grant::kNo),
       hold_time_min_(from_seconds(hold_limits(scene, seat).least)),
       hold_time_max_(from_seconds(hold_limits(scene, seat).most)),
-      one_way_after_(from_seconds(patience(scene, seat)) + kDeafMargin),
+      one_way_after_(from_seconds(silence_limit(scene, seat)) + kDeafMargin),
       ends_(make_channel_ends(scene, seat, scale)),
       end_mask_(ends_.size() == 1 ? 0 : ~std::size_t{0}) {
   const SeatSetup setup = seat_setup(scene, seat);

@@ -4,15 +4,15 @@
 
 namespace tandem::server {
 
-std::string may_end_text(const StopLatch& lane, const SceneSpec& scene, std::uint32_t there) {
-  if (!lane.latched()) return {};
+std::string may_end_text(const StopLatch& latch, const SceneSpec& scene, std::uint32_t there) {
+  if (!latch.latched()) return {};
   const std::string operators = "an operator (`tandem-client control resume`)";
-  if (!lane.pause_ends_by_its_makers())
-    return lane.has_instructor() ? "an instructor (key r) or " + operators : operators;
+  if (!latch.pause_ends_by_its_makers())
+    return latch.has_instructor() ? "an instructor (key r) or " + operators : operators;
   std::string names;
   std::size_t count = 0;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
-    if ((lane.holders(there) >> i & 1U) == 0) continue;
+    if ((latch.holders(there) >> i & 1U) == 0) continue;
     names += (names.empty() ? "" : " and ") + scene.seats[i].name;
     ++count;
   }
@@ -20,21 +20,21 @@ std::string may_end_text(const StopLatch& lane, const SceneSpec& scene, std::uin
   return names + (count == 1 ? " (key r), which paused, or " : " (key r each), which paused, or ") + operators;
 }
 
-std::optional<tandem::rpc::StatusStop> latest_stop(const StopLatch& lane, const SceneSpec& scene, double ago_s,
+std::optional<tandem::rpc::StatusStop> latest_stop(const StopLatch& latch, const SceneSpec& scene, double ago_s,
                                                    std::uint32_t there) {
-  const StopLatch::Latest& newest = lane.latest();
+  const StopLatch::Latest& newest = latch.latest();
   const bool known = newest.level != StopLatch::Level::kNone;
-  if (lane.stops() == 0 || (!known && !lane.latched())) return std::nullopt;
+  if (latch.stops() == 0 || (!known && !latch.latched())) return std::nullopt;
   tandem::rpc::StatusStop stop;
-  stop.number = lane.stops();
-  stop.kind = (known ? newest.level : lane.level()) == StopLatch::Level::kPaused ? tandem::rpc::StopKind::kPause
-                                                                                 : tandem::rpc::StopKind::kStop;
+  stop.number = latch.stops();
+  stop.kind = (known ? newest.level : latch.level()) == StopLatch::Level::kPaused ? tandem::rpc::StopKind::kPause
+                                                                                  : tandem::rpc::StopKind::kStop;
   if (newest.by < scene.seats.size()) stop.seat = scene.seats[newest.by].name;
   if (known && newest.by == StopLatch::kNoSeat) stop.kind = tandem::rpc::StopKind::kFault;
   if (!known) stop.why = "it was on before the server was restarted";
   stop.role = newest.role;
   stop.ago_s = std::max(0.0, ago_s);
-  stop.ends = may_end_text(lane, scene, there);
+  stop.ends = may_end_text(latch, scene, there);
   return stop;
 }
 

@@ -13,13 +13,13 @@ namespace tandem::server {
 /// Names of those that can end the stop, and their keys, such as `trainee (key r) or an operator`. Empty if nothing is
 /// stopped.
 /// @param there  connected seats, bit i for seat i
-[[nodiscard]] std::string may_end_text(const StopLatch& lane, const SceneSpec& scene, std::uint32_t there);
+[[nodiscard]] std::string may_end_text(const StopLatch& latch, const SceneSpec& scene, std::uint32_t there);
 
 /// The newest stop, with seat and role as far as the session knows them; the control plane adds the names of consoles.
 /// @param ago_s  age of the stop [s]
 /// @param there  connected seats, bit i for seat i
 /// @return nothing if there was no stop since this server began and none is latched
-[[nodiscard]] std::optional<tandem::rpc::StatusStop> latest_stop(const StopLatch& lane, const SceneSpec& scene,
+[[nodiscard]] std::optional<tandem::rpc::StatusStop> latest_stop(const StopLatch& latch, const SceneSpec& scene,
                                                                  double ago_s, std::uint32_t there);
 
 }  // namespace tandem::server

@@ -13,7 +13,7 @@ struct Done {
   std::string text;  ///< stdout and stderr
 };
 
-/// Runs a shell command. The time-out is 20 times Process::kPatience, because commands may compress packages or install
+/// Runs a shell command. The time-out is 20 times Process::kTimeout, because commands may compress packages or install
 /// a system.
 inline Done shell(const std::string& command) {
   constexpr int kPatienceTimes = 20;

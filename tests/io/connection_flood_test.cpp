@@ -77,7 +77,7 @@ Verdict join_under_siege(bool same_network, std::size_t joins) {
     for (std::size_t i = 0; i < joins; ++i) {
       const auto begin = std::chrono::steady_clock::now();
       auto client = door.connect(people[i % people.size()]);
-      const auto answer = client ? client->ask(hello_with(tickets[i]), kPatience) : std::unexpected(client.error());
+      const auto answer = client ? client->ask(hello_with(tickets[i]), kTimeout) : std::unexpected(client.error());
       const auto end = std::chrono::steady_clock::now();
       if (answer && std::holds_alternative<rpc::Welcome>(*answer)) {
         ++verdict.joined;

@@ -148,8 +148,8 @@ class Reader {
         fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     const int small = 4096;
     setsockopt(fd_.get(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
-    const timeval patience{30, 0};
-    setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    const timeval timeout{30, 0};
+    setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &timeout, sizeof timeout);
     if (::connect(fd_.get(), to.get(), to.size) != 0) return;
     const unsigned char alpn[] = "\x08tandem/1";
     SSL_set_alpn_protos(tls_, alpn, sizeof alpn - 1);

@@ -72,8 +72,8 @@ class Joiner {
   /// @return whether it received a Welcome; otherwise `why` is the reason
   bool join(unsigned last_byte, std::uint32_t number) {
     io::Fd fd{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
-    const timeval patience{30, 0};
-    setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const timeval timeout{30, 0};
+    setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     const int at_once = 1;  // otherwise the Hello waits 40 ms for an acknowledgement of the handshake's last segment
     setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
     const auto from = *io::parse_address("127.0.0." + std::to_string(last_byte) + ":0", 0);
@@ -258,8 +258,8 @@ TEST(HostileLive, QuarantinesOnlyTheMisbehavingClient) {
   Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")});
   Insider insider{udp_of(host), "free_motion", "trainee"};
   if (HasFailure()) return;
-  const Time patience = io::monotonic_now() + 20s;
-  while (!insider.runs() && io::monotonic_now() < patience) {
+  const Time timeout = io::monotonic_now() + 20s;
+  while (!insider.runs() && io::monotonic_now() < timeout) {
     insider.tick();
     std::this_thread::sleep_for(1ms);
   }

@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kPatience = 30s;
+constexpr Duration kTimeout = 30s;
 
 /// A handle of 0.1 kg on a line, at rest until its motor moves it.
 class Handle final : public hal::SteppedDevice {
@@ -57,7 +57,7 @@ struct Joined {
   /// Waits until the status satisfies `condition`. @return false: the seat closed, or the time is over
   template <class Condition>
   [[nodiscard]] bool reaches(Condition condition) const {
-    for (Duration t{}; t < kPatience; t += 10ms) {
+    for (Duration t{}; t < kTimeout; t += 10ms) {
       if (condition(seat->status())) return true;
       if (seat->wait_until_closed(10ms)) return condition(seat->status());
     }
@@ -76,7 +76,7 @@ TEST(LiveSeat, RunsUntilTheServerEndsTheSession) {
   EXPECT_EQ(own.seat->setup().seat.name, "trainer");
   EXPECT_EQ(own.seat->setup().dof, 1U);
   ASSERT_TRUE(own.reaches(runs)) << server.err();
-  ASSERT_TRUE(own.seat->wait_until_closed(kPatience));
+  ASSERT_TRUE(own.seat->wait_until_closed(kTimeout));
   EXPECT_EQ(own.seat->status().close_reason, wire::CloseReason::kDone);
   EXPECT_GT(own.seat->status().link.datagrams.accepted, 100U);
   EXPECT_EQ(server.wait(), 0) << server.err();
@@ -97,7 +97,7 @@ TEST(LiveSeat, StopsResumesAndLeavesByRequest) {
   own.seat->resume();
   EXPECT_TRUE(own.reaches(runs));
   own.seat->leave();
-  ASSERT_TRUE(own.seat->wait_until_closed(kPatience));
+  ASSERT_TRUE(own.seat->wait_until_closed(kTimeout));
   EXPECT_TRUE(own.seat->status().closed);
 }
 
@@ -106,7 +106,7 @@ TEST(LiveSeat, CountsAsClosedWhenItsDeviceIsLost) {
   const Joined own{test::address_of(server)};
   ASSERT_TRUE(own.seat);
   own.device->unplug();
-  EXPECT_TRUE(own.seat->wait_until_closed(kPatience));
+  EXPECT_TRUE(own.seat->wait_until_closed(kTimeout));
 }
 
 TEST(LiveSeat, ReportsWhyAJoinFailed) {

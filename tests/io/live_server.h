@@ -27,7 +27,7 @@ namespace tandem::server::test {
 using namespace std::chrono_literals;
 
 /// Limit against hanging; durations are never judged.
-inline constexpr auto kPatience = 30s;
+inline constexpr auto kTimeout = 30s;
 
 /// A whole server: a session on its own tick thread, the session registry, the control plane with TLS, a state
 /// directory. Every client has its own workstation.
@@ -110,7 +110,7 @@ class LiveServer {
   [[nodiscard]] auth::ControlClient connect(const auth::Identity& as) const {
     auto client = auth::ControlClient::connect(
         address, [&](const auth::KeyFingerprint&) -> std::expected<const auth::Identity*, std::string> { return &as; },
-        kPatience, -1);
+        kTimeout, -1);
     EXPECT_TRUE(client) << client.error().text;
     return std::move(*client);
   }
@@ -186,7 +186,7 @@ struct JoinedClient {
 
   [[nodiscard]] const rpc::Welcome& in() const { return std::get<rpc::Welcome>(*welcome); }
   [[nodiscard]] bool welcomed() const { return welcome && std::holds_alternative<rpc::Welcome>(*welcome); }
-  std::expected<rpc::Body, auth::ClientError> ask(const rpc::Body& body) { return connection.ask(body, kPatience); }
+  std::expected<rpc::Body, auth::ClientError> ask(const rpc::Body& body) { return connection.ask(body, kTimeout); }
 };
 
 /// Joins by a ticket.
@@ -194,7 +194,7 @@ inline JoinedClient joined(const LiveServer& live_server, const std::string& nam
                            const std::string& seat = {}) {
   auth::Identity key = live_server.enrolled(name);
   auto connection = live_server.connect(key);
-  auto welcome = connection.ask(LiveServer::hello(live_server.ticket(key, role, seat), seat), kPatience);
+  auto welcome = connection.ask(LiveServer::hello(live_server.ticket(key, role, seat), seat), kTimeout);
   return {std::move(key), std::move(connection), std::move(welcome)};
 }
 

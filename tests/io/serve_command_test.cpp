@@ -335,8 +335,8 @@ TEST(Monitoring, NotifiesASupervisorOfReadinessLivenessAndEnd) {
   setenv("NOTIFY_SOCKET", path.c_str(), 1);
   Process host = hosting("one_axis");
   unsetenv("NOTIFY_SOCKET");
-  const timeval patience{30, 0};
-  ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const timeval timeout{30, 0};
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
   const auto next = [&] {
     std::array<char, 64> text;
     const ssize_t size = ::recv(socket.get(), text.data(), text.size(), 0);

@@ -32,7 +32,7 @@ TEST(Codes, AdmitEightClientsAtOnce) {
       rpc::Hello hello = LiveServer::hello(kRight, kSeats[i]);
       if (i % 2 == 0) hello.session = std::string(LiveServer::kCode);  // as clients send it
       all.arrive_and_wait();
-      const auto answer = client.ask(hello, kPatience);
+      const auto answer = client.ask(hello, kTimeout);
       if (!answer || !std::holds_alternative<rpc::Welcome>(*answer)) trouble[i] = kSeats[i] + (": " + text_of(answer));
     });
   for (std::thread& t : people) t.join();
@@ -43,7 +43,7 @@ TEST(Codes, BlockKeyAndSourceAfterWrongCodesButNoResumeOrTicket) {
   LiveServer live_server("eight_seats", {}, strict());
   const auto neighbour = live_server.enrolled("neighbour"), guesser = live_server.enrolled("guesser");
   const auto ask = [&](const auth::Identity& key, const rpc::Hello& hello) {
-    return live_server.connect(key).ask(hello, kPatience);
+    return live_server.connect(key).ask(hello, kTimeout);
   };
   const auto seated = ask(neighbour, LiveServer::hello(kRight, "trainee"));
   ASSERT_TRUE(seated && std::holds_alternative<rpc::Welcome>(*seated)) << text_of(seated);
@@ -71,12 +71,12 @@ TEST(Codes, BlockOnlyTheKeyOnLoopback) {
   LiveServer live_server("eight_seats");
   const auto neighbour = live_server.enrolled("neighbour"), guesser = live_server.enrolled("guesser");
   for (int i = 0; i < 10; ++i)
-    EXPECT_EQ(reason_of(live_server.connect(guesser).ask(LiveServer::hello(kWrong, "evaluator1"), kPatience)),
+    EXPECT_EQ(reason_of(live_server.connect(guesser).ask(LiveServer::hello(kWrong, "evaluator1"), kTimeout)),
               ErrorCode::kCode);
-  EXPECT_EQ(reason_of(live_server.connect(guesser).ask(LiveServer::hello(kRight, "evaluator1"), kPatience)),
+  EXPECT_EQ(reason_of(live_server.connect(guesser).ask(LiveServer::hello(kRight, "evaluator1"), kTimeout)),
             ErrorCode::kBlocked);
   EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(
-      *live_server.connect(neighbour).ask(LiveServer::hello(kRight, "evaluator1"), kPatience)));
+      *live_server.connect(neighbour).ask(LiveServer::hello(kRight, "evaluator1"), kTimeout)));
 }
 
 // A session may be named by its code: this is an attempt at the code too, whatever other credential is sent.
@@ -86,10 +86,10 @@ TEST(Codes, NamingASessionByAWrongCodeCostsAnAttempt) {
   rpc::Hello hello = LiveServer::hello(rpc::ResumeCredential{}, "trainee");
   hello.session = std::string("ABCDE12346");
   for (int i = 0; i < 10; ++i)
-    EXPECT_EQ(reason_of(live_server.connect(guesser).ask(hello, kPatience)), ErrorCode::kCode) << i;
+    EXPECT_EQ(reason_of(live_server.connect(guesser).ask(hello, kTimeout)), ErrorCode::kCode) << i;
   hello.session = std::string(LiveServer::kCode);
-  EXPECT_EQ(reason_of(live_server.connect(guesser).ask(hello, kPatience)), ErrorCode::kBlocked) << "its key";
-  EXPECT_EQ(reason_of(live_server.connect(neighbour).ask(hello, kPatience)), ErrorCode::kResume)
+  EXPECT_EQ(reason_of(live_server.connect(guesser).ask(hello, kTimeout)), ErrorCode::kBlocked) << "its key";
+  EXPECT_EQ(reason_of(live_server.connect(neighbour).ask(hello, kTimeout)), ErrorCode::kResume)
       << "a resume of another key is not blocked";
 }
 
@@ -101,15 +101,14 @@ TEST(Seats, CloseTheEarlierConnectionAfterAResume) {
   JoinedClient first = joined(live_server, "desk-1", AccessRole::kInstructor, "trainer");
   ASSERT_TRUE(first.welcomed()) << text_of(first.welcome);
   auth::ControlClient second = live_server.connect(first.key);
-  const auto back =
-      second.ask(LiveServer::hello(rpc::ResumeCredential{first.in().resume_secret}, "trainer"), kPatience);
+  const auto back = second.ask(LiveServer::hello(rpc::ResumeCredential{first.in().resume_secret}, "trainer"), kTimeout);
   ASSERT_TRUE(back && std::holds_alternative<rpc::Welcome>(*back)) << text_of(back);
-  for (const auto until = std::chrono::steady_clock::now() + kPatience;
+  for (const auto until = std::chrono::steady_clock::now() + kTimeout;
        live_server.count(ControlEvent::kIdle) == 0 && std::chrono::steady_clock::now() < until;)
     std::this_thread::sleep_for(20ms);
   EXPECT_EQ(live_server.count(ControlEvent::kIdle), 1u);
   EXPECT_FALSE(first.ask(rpc::StatusRequest{LiveServer::kId}));
-  EXPECT_TRUE(second.ask(rpc::StatusRequest{LiveServer::kId}, kPatience));
+  EXPECT_TRUE(second.ask(rpc::StatusRequest{LiveServer::kId}, kTimeout));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ const rpc::Id kId = LiveServer::kId;
 
 /// Polls until the condition holds; fails the test at the time limit instead of hanging it.
 bool comes_true(const std::function<bool()>& so) {
-  for (const auto until = std::chrono::steady_clock::now() + kPatience; std::chrono::steady_clock::now() < until;) {
+  for (const auto until = std::chrono::steady_clock::now() + kTimeout; std::chrono::steady_clock::now() < until;) {
     if (so()) return true;
     std::this_thread::sleep_for(50ms);
   }
@@ -40,7 +40,7 @@ TEST(Consoles, ShowTheStoppingRoleAndReasonToAllClients) {
     EXPECT_EQ(stop->yours, who == &office || who == &trainer);
   }
   // Bounded and printable: text with control characters is rejected.
-  EXPECT_FALSE(office.connection.ask(rpc::StopSession{kId, "\x1b[2J"}, kPatience)) << "not even sent";
+  EXPECT_FALSE(office.connection.ask(rpc::StopSession{kId, "\x1b[2J"}, kTimeout)) << "not even sent";
   EXPECT_TRUE(done(trainee.ask(rpc::PauseSession{kId, "my hand"})));
   auto second = status_of(archive).stop;
   ASSERT_TRUE(second);
@@ -124,7 +124,7 @@ TEST(Consoles, ConsumeATicketOnlyByAnAcceptedCommandOrJoin) {
   EXPECT_EQ(reason_of(come(seat, "trainer").welcome), ErrorCode::kTicket) << "another seat than it is for";
   rpc::Hello unfit = LiveServer::hello(seat, "trainee");
   unfit.device.tip_axes = 1;
-  EXPECT_EQ(reason_of(live_server.connect(key).ask(unfit, kPatience)), ErrorCode::kDeviceUnfit);
+  EXPECT_EQ(reason_of(live_server.connect(key).ask(unfit, kTimeout)), ErrorCode::kDeviceUnfit);
   {
     JoinedClient other = joined(live_server, "desk-2", AccessRole::kTrainee, "trainee");
     ASSERT_TRUE(other.welcomed());
@@ -145,9 +145,9 @@ TEST(Resume, AcceptsASecretOnlyFromItsWorkstation) {
   ASSERT_TRUE(owner.welcomed()) << text_of(owner.welcome);
   const rpc::Credential secret = rpc::ResumeCredential{owner.in().resume_secret};
   const auth::Identity other = live_server.enrolled("desk-2");
-  EXPECT_EQ(reason_of(live_server.connect(other).ask(LiveServer::hello(secret, "trainee"), kPatience)),
+  EXPECT_EQ(reason_of(live_server.connect(other).ask(LiveServer::hello(secret, "trainee"), kTimeout)),
             rpc::ErrorCode::kResume);
-  const auto back = live_server.connect(owner.key).ask(LiveServer::hello(secret, "trainee"), kPatience);
+  const auto back = live_server.connect(owner.key).ask(LiveServer::hello(secret, "trainee"), kTimeout);
   EXPECT_TRUE(back && std::holds_alternative<rpc::Welcome>(*back)) << text_of(back);
 }
 
@@ -165,9 +165,9 @@ TEST(Resume, AcceptsASecretOnlyFromItsWorkstationAfterARestart) {
   });
   const rpc::Credential credential = rpc::ResumeCredential{secret};
   const auth::Identity other = live_server.enrolled("desk-2");
-  EXPECT_EQ(reason_of(live_server.connect(other).ask(LiveServer::hello(credential, "trainee"), kPatience)),
+  EXPECT_EQ(reason_of(live_server.connect(other).ask(LiveServer::hello(credential, "trainee"), kTimeout)),
             rpc::ErrorCode::kResume);
-  const auto back = live_server.connect(*owner).ask(LiveServer::hello(credential, "trainee"), kPatience);
+  const auto back = live_server.connect(*owner).ask(LiveServer::hello(credential, "trainee"), kTimeout);
   EXPECT_TRUE(back && std::holds_alternative<rpc::Welcome>(*back)) << text_of(back);
 }
 

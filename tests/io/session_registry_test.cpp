@@ -23,7 +23,7 @@ std::vector<rpc::Body> every_command() {
 
 /// Polls until the condition holds; fails the test at the time limit instead of hanging it.
 bool comes_true(const std::function<bool()>& so) {
-  for (const auto until = std::chrono::steady_clock::now() + kPatience; std::chrono::steady_clock::now() < until;) {
+  for (const auto until = std::chrono::steady_clock::now() + kTimeout; std::chrono::steady_clock::now() < until;) {
     if (so()) return true;
     std::this_thread::sleep_for(20ms);
   }
@@ -81,7 +81,7 @@ TEST(Consoles, NeedASingleUseTicketForTheirSessionAndWorkstation) {
   LiveServer live_server;
   const auto key = live_server.enrolled("office");
   const auto ask = [&](const rpc::Credential& credential, const std::string& seat = {}) {
-    return live_server.connect(key).ask(LiveServer::hello(credential, seat), kPatience);
+    return live_server.connect(key).ask(LiveServer::hello(credential, seat), kTimeout);
   };
   EXPECT_EQ(reason_of(ask({})), ErrorCode::kNoSeat);
   EXPECT_EQ(reason_of(ask(rpc::CodeCredential{LiveServer::kCode})), ErrorCode::kNoSeat)
@@ -92,7 +92,7 @@ TEST(Consoles, NeedASingleUseTicketForTheirSessionAndWorkstation) {
   EXPECT_NE(text_of(ask(ticket)).find("used already"), std::string::npos);
   const auto thief = live_server.enrolled("thief");
   EXPECT_EQ(reason_of(live_server.connect(thief).ask(LiveServer::hello(live_server.ticket(key, AccessRole::kOperator)),
-                                                     kPatience)),
+                                                     kTimeout)),
             ErrorCode::kTicket);
   auto raised = std::get<rpc::TicketCredential>(live_server.ticket(key, AccessRole::kRecorder));
   raised.bytes[1] = static_cast<std::byte>(AccessRole::kOperator);
@@ -164,7 +164,7 @@ TEST(ConsoleCommands, RemoveSeatRightsAndSecretOfAParticipantUntilANewTicket) {
       << text_of(gone);
   EXPECT_TRUE(comes_true([&] { return !status_of(trainer).seats[1].taken; }));
   const auto again = [&](const rpc::Credential& by) {
-    return live_server.connect(key).ask(LiveServer::hello(by, "trainee"), kPatience);
+    return live_server.connect(key).ask(LiveServer::hello(by, "trainee"), kTimeout);
   };
   EXPECT_EQ(reason_of(again(rpc::ResumeCredential{trainee.in().resume_secret})), ErrorCode::kResume);
   const auto code = again(rpc::CodeCredential{LiveServer::kCode});
@@ -307,7 +307,7 @@ TEST(LinkTestAdmission, WelcomesNoMorePeersThanItServes) {
       connections.push_back(live_server.connect(i % 2 == 0 ? key : other));
     std::vector<std::expected<rpc::Body, auth::ClientError>> answers;
     const auto began = std::chrono::steady_clock::now();
-    for (auth::ControlClient& c : connections) answers.push_back(c.ask(visiting(), kPatience));
+    for (auth::ControlClient& c : connections) answers.push_back(c.ask(visiting(), kTimeout));
     const bool quick = std::chrono::steady_clock::now() - began < kQuick;
     if (quick) {
       for (std::size_t i = 0; i < LinkTestPeers::kMax; ++i)
@@ -318,7 +318,7 @@ TEST(LinkTestAdmission, WelcomesNoMorePeersThanItServes) {
     }
     // None of the peers sends anything: their slots become free after 2 s.
     EXPECT_TRUE(comes_true(
-        [&] { return std::holds_alternative<rpc::Welcome>(*live_server.connect(key).ask(visiting(), kPatience)); }));
+        [&] { return std::holds_alternative<rpc::Welcome>(*live_server.connect(key).ask(visiting(), kTimeout)); }));
     if (quick) return;
     std::this_thread::sleep_for(3s);
   }
@@ -336,7 +336,7 @@ TEST(LinkTestAdmission, WelcomesNoMoreConcurrentPeersThanItHasSlots) {
   const auto began = std::chrono::steady_clock::now();
   for (auth::ControlClient& c : connections)
     crowd.emplace_back([&] {
-      const auto answer = c.ask(visiting(), kPatience);
+      const auto answer = c.ask(visiting(), kTimeout);
       if (answer && std::holds_alternative<rpc::Welcome>(*answer)) ++welcomed;
       if (reason_of(answer) == ErrorCode::kFull) ++full;
     });

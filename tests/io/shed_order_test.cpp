@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 using server::ShedLevel;
 
 constexpr std::size_t kTrainee = 0, kEvaluator = 1, kObserver = 7;
-constexpr Duration kPatience = 60s;  // limit against hanging, never judged
+constexpr Duration kTimeout = 60s;  // limit against hanging, never judged
 constexpr double kTickHz = 8000;
 
 /// A trainee, six evaluators and an observer.
@@ -116,7 +116,7 @@ struct Heard {
 TEST(ShedOrderLive, RaisesTheLevelInOrderAndServesTheTraineeEveryTick) {
   Crowded crowd;
   const Time begin = io::monotonic_now();
-  while (!crowd.engaged() && io::monotonic_now() - begin < kPatience) {
+  while (!crowd.engaged() && io::monotonic_now() - begin < kTimeout) {
     crowd.exchange();
     std::this_thread::sleep_for(500us);
   }
@@ -133,7 +133,7 @@ TEST(ShedOrderLive, RaisesTheLevelInOrderAndServesTheTraineeEveryTick) {
   std::array<std::size_t, server::kShedLevels> sessions{};
   Time grown = io::monotonic_now(), reached = grown;
   // The last level runs for half a second, so that its shares are measured too.
-  while (io::monotonic_now() - begin < kPatience &&
+  while (io::monotonic_now() - begin < kTimeout &&
          !(order.back() == ShedLevel::kNewJoins && io::monotonic_now() - reached > 500ms)) {
     crowd.exchange();
     const ShedLevel now = crowd.rung();

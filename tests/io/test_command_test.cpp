@@ -29,7 +29,7 @@ TEST(NetsimTest, ShippedScenariosPassWithinTheirLimits) {
   const Folder folder;
   auto run = netsim_test({"shipped", "--json", folder.file("v.json"), "--junit", folder.file("v.xml")});
   std::optional<int> code;
-  for (int patience = 0; patience < 10 && !(code = run.wait()); ++patience) {
+  for (int attempt = 0; attempt < 10 && !(code = run.wait()); ++attempt) {
   }
   ASSERT_EQ(code, 0) << run.out() << run.err();
   const Json json = folder.json("v.json");

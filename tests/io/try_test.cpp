@@ -23,7 +23,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-constexpr auto kPatience = 40s;
+constexpr auto kTimeout = 40s;
 
 struct Stat {
   pid_t parent = 0, group = 0;
@@ -53,7 +53,7 @@ std::vector<pid_t> children_of(pid_t parent) {
   return found;
 }
 bool all_gone_soon(const std::vector<pid_t>& all) {
-  for (const auto end = Clock::now() + kPatience; Clock::now() < end; std::this_thread::sleep_for(50ms))
+  for (const auto end = Clock::now() + kTimeout; Clock::now() < end; std::this_thread::sleep_for(50ms))
     if (std::ranges::all_of(all, gone)) return true;
   return false;
 }
@@ -81,7 +81,7 @@ class OnTerminal {
     }
   }
   bool wait_for(const std::string& text) {
-    for (const auto end = Clock::now() + kPatience; said_.find(text) == std::string::npos;)
+    for (const auto end = Clock::now() + kTimeout; said_.find(text) == std::string::npos;)
       if (Clock::now() > end || !read_some()) return said_.find(text) != std::string::npos;
     return true;
   }
@@ -90,7 +90,7 @@ class OnTerminal {
   }
   /// Exit code, or minus the signal; nullopt if it does not end.
   std::optional<int> wait() {
-    for (const auto end = Clock::now() + kPatience; Clock::now() < end && !code_;) {
+    for (const auto end = Clock::now() + kTimeout; Clock::now() < end && !code_;) {
       read_some();
       int status = 0;
       if (waitpid(pid_, &status, WNOHANG) == pid_) code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);

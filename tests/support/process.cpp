@@ -94,7 +94,7 @@ bool Process::read_some(std::chrono::milliseconds slice) {
 
 bool Process::wait_for(std::string_view text) {
   const auto found = [&] { return out_.find(text) != std::string::npos || err_.find(text) != std::string::npos; };
-  const auto limit = std::chrono::steady_clock::now() + kTimesSlower * kPatience;
+  const auto limit = std::chrono::steady_clock::now() + kTimesSlower * kTimeout;
   while (!found()) {
     if (std::chrono::steady_clock::now() > limit || !read_some(50ms)) return found();
   }
@@ -102,7 +102,7 @@ bool Process::wait_for(std::string_view text) {
 }
 
 std::optional<int> Process::wait() {
-  const auto limit = std::chrono::steady_clock::now() + kTimesSlower * kPatience;
+  const auto limit = std::chrono::steady_clock::now() + kTimesSlower * kTimeout;
   while (read_some(50ms)) {
     if (std::chrono::steady_clock::now() > limit) return std::nullopt;
   }

@@ -16,7 +16,7 @@ namespace tandem::test {
 /// of hanging it. No test may assert durations.
 class Process {
  public:
-  static constexpr std::chrono::seconds kPatience{30};
+  static constexpr std::chrono::seconds kTimeout{30};
 
   /// @param command  program and arguments; standard input is /dev/null
   explicit Process(std::vector<std::string> command);

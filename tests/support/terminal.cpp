@@ -205,8 +205,8 @@ bool TerminalProcess::read_some(std::chrono::milliseconds slice) {
 }
 
 bool TerminalProcess::wait_until(const std::function<bool(const Terminal&)>& wanted,
-                                 std::chrono::milliseconds patience) {
-  const auto until = std::chrono::steady_clock::now() + patience;
+                                 std::chrono::milliseconds timeout) {
+  const auto until = std::chrono::steady_clock::now() + timeout;
   while (!wanted(terminal_)) {
     if (std::chrono::steady_clock::now() > until) return false;
     if (!read_some(50ms)) return wanted(terminal_);

@@ -65,7 +65,7 @@ class TerminalProcess {
 
   /// Waits until `wanted` accepts the screen. @return whether it did before the end or the limit
   bool wait_until(const std::function<bool(const Terminal&)>& wanted,
-                  std::chrono::milliseconds patience = std::chrono::seconds(30));
+                  std::chrono::milliseconds timeout = std::chrono::seconds(30));
   /// Waits until `text` is on the screen or has scrolled off it; line breaks count as spaces.
   bool wait_for(std::string_view text);
   /// Reads the output that arrives within this time.

@@ -8,7 +8,7 @@
 namespace tandem::tidy {
 namespace {
 
-constexpr std::array<std::string_view, 7> kRooms{"client", "common", "hal", "netsim", "proto", "server", "tests"};
+constexpr std::array<std::string_view, 7> kFolders{"client", "common", "hal", "netsim", "proto", "server", "tests"};
 constexpr std::string_view kSpace = " \t\r\n";
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -62,10 +62,10 @@ bool looks_like_test(std::string_view s) {
   return dot != std::string_view::npos && is_name(s.substr(0, dot)) && is_name(s.substr(dot + 1));
 }
 
-/// Returns whether `s` is a path into a folder of kRooms, without wildcards or placeholders.
+/// Returns whether `s` is a path into a folder of kFolders, without wildcards or placeholders.
 bool looks_like_path(std::string_view s) {
   const std::size_t slash = s.find('/');
-  return slash != std::string_view::npos && std::ranges::find(kRooms, s.substr(0, slash)) != kRooms.end() &&
+  return slash != std::string_view::npos && std::ranges::find(kFolders, s.substr(0, slash)) != kFolders.end() &&
          std::ranges::all_of(s, [](char c) { return is_word(c) || c == '/' || c == '.' || c == '-'; });
 }
 

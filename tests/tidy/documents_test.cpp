@@ -19,7 +19,7 @@ const SourceFile* find_document(const std::vector<SourceFile>& files, const std:
   return nullptr;
 }
 
-Known small_world() {
+Known small_project() {
   const std::vector<SourceFile> files{
       make_source("tests/common/transport/secure_channel_test.cpp",
                   "TEST(Link, Works) {}\nTEST_P(Gate,\n       Ramps) {}\n// TEST(Not, This)\n"),
@@ -105,7 +105,7 @@ TEST(FailureTable, EveryRowNamesTestsThatExist) {
 }
 
 TEST(Documents, KnowsTestsAndPrograms) {
-  const Known known = small_world();
+  const Known known = small_project();
   EXPECT_EQ(known.tests, (std::set<std::string, std::less<>>{"Link.Works", "Gate.Ramps"}));
   EXPECT_EQ(known.programs, (std::set<std::string, std::less<>>{"tandem-server", "./demo"}));
 }
@@ -115,7 +115,7 @@ TEST(Documents, InvariantsWithoutTestCodeOrOrderAreReported) {
   for (int i = 1; i <= 9; ++i) good += std::to_string(i) + ". holds: `tests/tidy/documents.h`,\n   test `Link.Works`\n";
   const std::string row = "| 10 | holds | `tests/tidy/documents.h` | `Gate.Ramps` |\n";
   const auto trouble = [&](const std::string& text) {
-    return check_invariants(make_source("ARCHITECTURE.md", text), small_world(), kRoot).size();
+    return check_invariants(make_source("ARCHITECTURE.md", text), small_project(), kRoot).size();
   };
   EXPECT_EQ(trouble(good + row + "## More\n5. something else\n"), 0u);
   EXPECT_EQ(trouble(good), 1u) << "one too few";
@@ -126,7 +126,7 @@ TEST(Documents, InvariantsWithoutTestCodeOrOrderAreReported) {
 
 TEST(Documents, ReportNamesThatDoNotExist) {
   const auto trouble = [](const std::string& text) {
-    return check_references(make_source("README.md", text), small_world(), kRoot).size();
+    return check_references(make_source("README.md", text), small_project(), kRoot).size();
   };
   EXPECT_EQ(trouble("`Link.Works` `README.md` `tests/tidy` `server/<name>` `a.b`\n```\n`Not.Here`\n```\n"), 0u);
   EXPECT_EQ(trouble("text `Link.Breaks`\n`tests/tidy/nothing.h`\n"), 2u);
@@ -134,7 +134,7 @@ TEST(Documents, ReportNamesThatDoNotExist) {
 
 TEST(Documents, RowsWithoutATestAreReported) {
   const auto trouble = [](const std::string& rows) {
-    return check_rows(make_source("M.md", "| a | b |\n|---|---|\n" + rows), small_world()).size();
+    return check_rows(make_source("M.md", "| a | b |\n|---|---|\n" + rows), small_project()).size();
   };
   EXPECT_EQ(trouble("| x | `Link.Works`, more |\n| y | `Gate.Ramps` |\ntext\n| no table |\n"), 0u);
   EXPECT_EQ(trouble("| x | `Link.Breaks` |\n| y | nothing |\n| z | `Link.Works` |\n"), 2u);
@@ -142,7 +142,7 @@ TEST(Documents, RowsWithoutATestAreReported) {
 
 TEST(Documents, CommandsThatDoNotExistAreReported) {
   const auto trouble = [](const std::string& lines) {
-    return check_commands(make_source("README.md", "text\n```sh\n" + lines + "```\n./none\n"), small_world()).size();
+    return check_commands(make_source("README.md", "text\n```sh\n" + lines + "```\n./none\n"), small_project()).size();
   };
   EXPECT_EQ(trouble("./demo --quick\n$ A=1 tandem-server run --listen=x --help  # --not here\n"), 0u);
   EXPECT_EQ(trouble("build/release/bin/tandem-server run \\\n  --listen x\ngit clone --depth 1 x\n"), 0u);

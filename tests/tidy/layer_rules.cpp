@@ -54,10 +54,10 @@ bool is_free(std::string_view path, std::span<const std::string_view> folders) {
   });
 }
 
-const Room* room_of(std::string_view path) {
-  const Room* best = nullptr;
-  for (const Room& room : rooms()) {
-    if (path.starts_with(room.folder) && (best == nullptr || room.folder.size() > best->folder.size())) best = &room;
+const Layer* layer_of(std::string_view path) {
+  const Layer* best = nullptr;
+  for (const Layer& layer : layers()) {
+    if (path.starts_with(layer.folder) && (best == nullptr || layer.folder.size() > best->folder.size())) best = &layer;
   }
   return best;
 }
@@ -81,7 +81,7 @@ bool may_see_protobuf(std::string_view path) { return is_within(path, "proto") |
 /// Returns the first folder: "server" for server/session/session.h, server/app/main.cpp, ...
 std::string_view top_folder(std::string_view path) { return path.substr(0, path.find('/')); }
 
-std::optional<std::string> trouble_with_ours(const SourceFile& file, const Room& room, const Include& include) {
+std::optional<std::string> error_in_own_include(const SourceFile& file, const Layer& layer, const Include& include) {
   const std::string& path = include.path;
   const bool test = is_within(file.path, "tests");
   if (test && is_within(path, "tandem")) return std::nullopt;  // as other projects do, with <>
@@ -99,33 +99,34 @@ std::optional<std::string> trouble_with_ours(const SourceFile& file, const Room&
     return "only the client opens hardware; hal/io/open_sim_device.h opens simulated devices";
   }
   if (has_folder(file.path, "app")) return std::nullopt;
-  const bool may = std::ranges::any_of(room.may_include, [&](std::string_view f) { return is_within(path, f); });
-  return may ? std::nullopt : std::optional<std::string>(room.reason);
+  const bool may = std::ranges::any_of(layer.may_include, [&](std::string_view f) { return is_within(path, f); });
+  return may ? std::nullopt : std::optional<std::string>(layer.reason);
 }
 
-std::optional<std::string> trouble_with_library(const SourceFile& file, const Room& room, std::string_view library) {
+std::optional<std::string> error_in_library_include(const SourceFile& file, const Layer& layer,
+                                                    std::string_view library) {
   if (library.empty() || is_within(file.path, "tests") || has_folder(file.path, "app")) return std::nullopt;
-  if (std::ranges::find(room.libraries, library) != room.libraries.end()) return std::nullopt;
+  if (std::ranges::find(layer.libraries, library) != layer.libraries.end()) return std::nullopt;
   constexpr std::array<std::string_view, 4> kInIo{"asio", "libusb", "hidapi", kSystem};
   if (has_folder(file.path, "io") && std::ranges::find(kInIo, library) != kInIo.end()) return std::nullopt;
   return (library == kSystem ? "a header of the operating system, for app and io folders only; " : "") +
-         std::string(room.reason);
+         std::string(layer.reason);
 }
 
 void check_includes(const SourceFile& file, std::vector<Finding>& findings) {
-  const Room* room = room_of(file.path);
+  const Layer* layer = layer_of(file.path);
   for (const Include& include : includes_of(file)) {
     std::optional<std::string> trouble;
-    if (room == nullptr) {
+    if (layer == nullptr) {
       trouble = "this folder is in no row of the table (tests/tidy/layer_table.cpp)";
     } else if (is_ours(include.path)) {
-      trouble = trouble_with_ours(file, *room, include);
+      trouble = error_in_own_include(file, *layer, include);
     } else if (include.quoted && include.path.ends_with(".inc")) {
       continue;  // data generated into the build folder
     } else if (include.quoted) {
       trouble = "includes name the path from the root, \"common/base/time.h\"; others' headers take <>";
     } else {
-      trouble = trouble_with_library(file, *room, library_of(include.path));
+      trouble = error_in_library_include(file, *layer, library_of(include.path));
     }
     if (trouble) findings.push_back({file.path, include.line, "includes " + include.path + ": " + *trouble});
   }
@@ -175,7 +176,7 @@ std::vector<Finding> check_layers(const SourceFile& file) {
   if (is_cpp(file.path)) {
     check_includes(file, findings);
     const auto lines = static_cast<std::size_t>(std::ranges::count(file.text, '\n'));
-    if (lines > kLinesMax && std::ranges::find(longer_files(), file.path) == longer_files().end()) {
+    if (lines > kLinesMax) {
       findings.push_back({file.path, 0,
                           std::to_string(lines) + " lines, more than " + std::to_string(kLinesMax) +
                               ": a mechanism wants its own pair of files"});

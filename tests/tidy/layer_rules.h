@@ -15,7 +15,7 @@ namespace tandem::tidy {
 /// libraries. The longest `folder` that a path begins with decides. It may also be the beginning of a file name, such
 /// as "netsim/quality/quality_json". Folders called app may include everything except another program's app. Folders
 /// called io may include what their layer may, and the operating system.
-struct Room {
+struct Layer {
   std::string_view folder;
   std::vector<std::string_view> may_include;  ///< our folders or files
   std::vector<std::string_view> libraries;    ///< "Eigen", "asio", ...
@@ -33,13 +33,11 @@ struct Ban {
   std::string_view reason;
 };
 
-[[nodiscard]] std::span<const Room> rooms();
+[[nodiscard]] std::span<const Layer> layers();
 [[nodiscard]] std::span<const Ban> bans();
 
 /// Largest number of lines of a .h or .cpp file.
 inline constexpr std::size_t kLinesMax = 400;
-/// Returns the files that may be longer; the test prints them.
-[[nodiscard]] std::span<const std::string_view> longer_files();
 
 /// Checks all rules for one file.
 [[nodiscard]] std::vector<Finding> check_layers(const SourceFile& file);

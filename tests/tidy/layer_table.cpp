@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Room, 41> kRooms{{
+const std::array<Layer, 41> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -255,8 +255,7 @@ const std::array<Ban, 10> kBans{{
 
 }  // namespace
 
-std::span<const Room> rooms() { return kRooms; }
+std::span<const Layer> layers() { return kLayers; }
 std::span<const Ban> bans() { return kBans; }
-std::span<const std::string_view> longer_files() { return {}; }
 
 }  // namespace tandem::tidy

@@ -9,7 +9,7 @@
 namespace tandem::tidy {
 namespace {
 
-constexpr std::array<std::string_view, 7> kRooms{"client", "common", "hal", "netsim", "proto", "server", "tests"};
+constexpr std::array<std::string_view, 7> kFolders{"client", "common", "hal", "netsim", "proto", "server", "tests"};
 constexpr std::array<std::string_view, 10> kTextEndings{".h",    ".cpp",       ".proto", ".txt", ".cmake",
                                                         ".json", ".textproto", ".md",    ".sh",  ".csv"};
 
@@ -159,9 +159,9 @@ std::vector<SourceFile> read_repository(const std::filesystem::path& root) {
   const auto is_text = [](const std::string& name) {
     return std::ranges::any_of(kTextEndings, [&](std::string_view end) { return name.ends_with(end); });
   };
-  for (const std::string_view room : kRooms) {
-    if (!fs::is_directory(root / room)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+  for (const std::string_view folder : kFolders) {
+    if (!fs::is_directory(root / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.is_regular_file() && is_text(entry.path().filename().string())) add(entry.path());
     }
   }

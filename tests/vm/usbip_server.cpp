@@ -89,8 +89,8 @@ void UsbipServer::serve(std::stop_token stop) {
     pollfd one{ours_.get(), POLLIN, 0};
     // While a transfer is pending, the model advances at every step of its raster.
     const Duration until_next = on_raster(io::monotonic_now()) + raster_ - io::monotonic_now();
-    const timespec patience = io::to_timespec(pending_.empty() ? Duration(std::chrono::milliseconds(5)) : until_next);
-    const int ready = ppoll(&one, 1, &patience, nullptr);
+    const timespec timeout = io::to_timespec(pending_.empty() ? Duration(std::chrono::milliseconds(5)) : until_next);
+    const int ready = ppoll(&one, 1, &timeout, nullptr);
     const std::lock_guard hold(mutex_);
     if (ready > 0 && !take_request()) return;
     finish_pending();

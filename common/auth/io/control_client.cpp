@@ -64,17 +64,17 @@ std::expected<Secret<kExportSize>, std::string> ControlClient::export_secrets(co
 }
 
 std::expected<ControlClient, ClientError> ControlClient::connect(const io::SocketAddress& server,
-                                                                 ClientTls::IdentityCallback judge, Duration patience,
+                                                                 ClientTls::IdentityCallback judge, Duration timeout,
                                                                  int signals) {
   auto state = std::make_unique<State>(std::move(judge), signals);
   asio::ip::tcp::endpoint to;
   to.resize(server.size);
   std::memcpy(to.data(), server.get(), server.size);
   asio::ip::tcp::socket socket(state->context);
-  asio::steady_timer patient(state->context, patience);
+  asio::steady_timer deadline(state->context, timeout);
   bool done = false, late = false;
   asio::error_code failed;
-  patient.async_wait([&](const asio::error_code& error) {
+  deadline.async_wait([&](const asio::error_code& error) {
     if (error) return;
     late = true;
     asio::error_code ignored;
@@ -85,7 +85,7 @@ std::expected<ControlClient, ClientError> ControlClient::connect(const io::Socke
     done = true;
   });
   const bool undisturbed = state->run(done);
-  patient.cancel();
+  deadline.cancel();
   if (!undisturbed) {
     asio::error_code ignored;
     socket.close(ignored);
@@ -104,7 +104,7 @@ std::expected<ControlClient, ClientError> ControlClient::connect(const io::Socke
   asio::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   state->stream = ControlStream::make(std::move(socket), state->tls.context(), ControlStream::Side::kClient);
-  state->stream->set_deadline(patience);
+  state->stream->set_deadline(timeout);
   done = false;
   ControlStream::Peer peer = std::unexpected(StreamError{});
   state->stream->handshake([&](ControlStream::Peer got) {
@@ -123,7 +123,7 @@ std::expected<ControlClient, ClientError> ControlClient::connect(const io::Socke
   return ControlClient(std::move(state));
 }
 
-std::expected<rpc::Body, ClientError> ControlClient::ask(const rpc::Body& body, Duration patience) {
+std::expected<rpc::Body, ClientError> ControlClient::ask(const rpc::Body& body, Duration timeout) {
   State& s = *state_;
   auto frame = rpc::encode({++s.request, body});
   if (!frame)
@@ -138,7 +138,7 @@ std::expected<rpc::Body, ClientError> ControlClient::ask(const rpc::Body& body, 
     exchange->answer = std::move(answer);
     exchange->done = true;
   };
-  s.stream->set_deadline(patience);
+  s.stream->set_deadline(timeout);
   s.stream->write(std::move(*frame), [&s, finish](std::expected<void, StreamError> written) {
     // A server that rejects writes its reason and closes. The reply is read even if the write failed.
     (void)written;

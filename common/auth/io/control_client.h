@@ -30,13 +30,13 @@ class ControlClient {
   /// (ClientTls).
   [[nodiscard]] static std::expected<ControlClient, ClientError> connect(const io::SocketAddress& server,
                                                                          ClientTls::IdentityCallback judge,
-                                                                         Duration patience, int signals);
+                                                                         Duration timeout, int signals);
   ~ControlClient();
   ControlClient(ControlClient&&) noexcept;
   ControlClient& operator=(ControlClient&&) noexcept;
 
   /// Sends a frame under the next request number and waits for its reply.
-  [[nodiscard]] std::expected<rpc::Body, ClientError> ask(const rpc::Body& body, Duration patience);
+  [[nodiscard]] std::expected<rpc::Body, ClientError> ask(const rpc::Body& body, Duration timeout);
 
   /// Descriptor for poll: readable without a pending request means that the server has ended the connection.
   [[nodiscard]] int fd() const noexcept;

@@ -28,8 +28,8 @@ std::expected<io::Fd, std::string> open_lock(const StateDirectory& folder, const
 
 }  // namespace
 
-bool DirectoryLock::wait_for(int fd, std::chrono::milliseconds patience) noexcept {
-  const Time end = io::monotonic_now() + patience;
+bool DirectoryLock::wait_for(int fd, std::chrono::milliseconds timeout) noexcept {
+  const Time end = io::monotonic_now() + timeout;
   while (flock(fd, LOCK_EX | LOCK_NB) != 0) {
     if ((errno != EWOULDBLOCK && errno != EINTR) || io::monotonic_now() >= end) return false;
     std::this_thread::sleep_for(kLookEvery);
@@ -38,15 +38,15 @@ bool DirectoryLock::wait_for(int fd, std::chrono::milliseconds patience) noexcep
 }
 
 std::expected<DirectoryLock, std::string> DirectoryLock::wait(const StateDirectory& folder, const std::string& name,
-                                                              std::chrono::milliseconds patience) {
+                                                              std::chrono::milliseconds timeout) {
   auto file = open_lock(folder, name);
   if (!file) return std::unexpected(std::move(file.error()));
-  if (wait_for(file->get(), patience)) return DirectoryLock(std::move(*file));
+  if (wait_for(file->get(), timeout)) return DirectoryLock(std::move(*file));
   if (errno != EWOULDBLOCK && errno != EINTR) return std::unexpected(folder.call_error(name, "locked"));
   return std::unexpected(format(
       "%s was not free within %g s: %s holds it; wait until that has finished, or end it, "
       "then try again",
-      folder.path_of(name).c_str(), 1e-3 * static_cast<double>(patience.count()), holder_of(folder, name).c_str()));
+      folder.path_of(name).c_str(), 1e-3 * static_cast<double>(timeout.count()), holder_of(folder, name).c_str()));
 }
 
 std::expected<std::optional<DirectoryLock>, std::string> DirectoryLock::attempt(const StateDirectory& folder,

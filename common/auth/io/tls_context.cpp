@@ -146,7 +146,7 @@ std::expected<KeyFingerprint, std::string> authenticated_peer(SSL* connection) {
   const unsigned char* protocol = nullptr;
   unsigned int size = 0;
   SSL_get0_alpn_selected(connection, &protocol, &size);
-  if (std::string_view(reinterpret_cast<const char*>(protocol), size) != kAlpn)
+  if (std::string_view(as_text(protocol), size) != kAlpn)
     return std::unexpected("the other side does not speak " + std::string(kAlpn));
   if (SSL_version(connection) != TLS1_3_VERSION) return std::unexpected("the other side does not use TLS 1.3");
   const X509* const certificate = SSL_get0_peer_certificate(connection);

@@ -24,7 +24,7 @@ constexpr auto kChildPoll = 20ms;
 /// connections.
 struct Step {
   int signal;
-  std::chrono::milliseconds patience;
+  std::chrono::milliseconds timeout;
 };
 constexpr Step kSteps[] = {{SIGINT, 4000ms}, {SIGTERM, 2000ms}, {SIGKILL, 2000ms}};
 
@@ -125,7 +125,7 @@ void end_all(std::span<ChildProcess> children) noexcept {
   for (const Step& step : kSteps) {
     if (!any()) return;
     for (ChildProcess& c : children) c.signal(step.signal);
-    for (auto waited = 0ms; waited < step.patience && any(); waited += kChildPoll)
+    for (auto waited = 0ms; waited < step.timeout && any(); waited += kChildPoll)
       std::this_thread::sleep_for(kChildPoll);
   }
 }

@@ -35,17 +35,17 @@ std::string participants_text(const ServingSpec& serving) {
 /// Waits until the server has ended. Prints the progress every ten seconds, and every second in the last five.
 int wait_for_drain(const auth::ServerKeystore& state, std::uint32_t grace_s) {
   const auto due = Clock::now() + std::chrono::seconds(grace_s);
-  long told = static_cast<long>(grace_s) + 10;
+  long shown = static_cast<long>(grace_s) + 10;
   while (true) {
     const auto serving = state.serving().read();
     if (!serving) return print_error("stop", serving.error());
     if (!*serving) break;
     const auto now = Clock::now();
     const long left = std::max(0L, static_cast<long>(std::chrono::ceil<std::chrono::seconds>(due - now).count()));
-    if (told / 10 != left / 10 || (left <= 5 && left != told))
+    if (shown / 10 != left / 10 || (left <= 5 && left != shown))
       io::print_formatted(stdout, "DRAINING: %ld s left, %s\n", left, participants_text(**serving).c_str());
     std::fflush(stdout);
-    told = left;
+    shown = left;
     if (now > due + kLate)
       return print_error("stop",
                          "the server still runs 10 s after it should have ended: is it suspended (SIGSTOP, a "

@@ -16,7 +16,7 @@ using server::test::ControlServerFixture;
 std::shared_ptr<auth::ControlClient> joined(const ControlServerFixture& door, const auth::Identity& me) {
   auto client = door.connect(me);
   if (!client) return nullptr;
-  const auto welcome = client->ask(server::test::hello_with(door.ticket(me)), server::test::kPatience);
+  const auto welcome = client->ask(server::test::hello_with(door.ticket(me)), server::test::kTimeout);
   if (!welcome || !std::holds_alternative<rpc::Welcome>(*welcome)) return nullptr;
   return std::make_shared<auth::ControlClient>(std::move(*client));
 }
@@ -24,7 +24,7 @@ std::shared_ptr<auth::ControlClient> joined(const ControlServerFixture& door, co
 /// Waits until the server has received a request that it does not answer. @return false after a timeout
 bool asked(ControlServerFixture& door) {
   std::unique_lock lock(door.sessions->mutex);
-  return door.sessions->changed.wait_for(lock, server::test::kPatience,
+  return door.sessions->changed.wait_for(lock, server::test::kTimeout,
                                          [&] { return !door.sessions->unanswered.empty(); });
 }
 
@@ -38,7 +38,7 @@ TEST(SessionStatusPoller, DoesNotWaitForAReplyAfterCancel) {
   ASSERT_TRUE(asked(door));
   words->cancel();
   const auto gone = std::async(std::launch::async, [&] { words.reset(); });
-  EXPECT_EQ(gone.wait_for(server::test::kPatience), std::future_status::ready)
+  EXPECT_EQ(gone.wait_for(server::test::kTimeout), std::future_status::ready)
       << "a caller that waits for it receives no key meanwhile";
   const std::lock_guard lock(door.sessions->mutex);
   for (const auto& answer : door.sessions->unanswered) answer(rpc::Ok{});  // so that a failing test still ends
@@ -50,7 +50,7 @@ TEST(SessionStatusPoller, LeavesTheConnectionUsableWhenItEnds) {
   const auto connection = joined(door, me);
   ASSERT_NE(connection, nullptr);
   std::make_unique<SessionStatusPoller>(connection, door.sessions->session_id).reset();
-  EXPECT_TRUE(connection->ask(rpc::Ping{1}, server::test::kPatience));
+  EXPECT_TRUE(connection->ask(rpc::Ping{1}, server::test::kTimeout));
 }
 
 }  // namespace

@@ -176,8 +176,8 @@ TEST_F(UsbPipe, KeepsDataThatArrivesAfterAReadTimeout) {
   auto pipe = open();
   std::array<std::byte, UsbEcho::kPacket> packet{};
   node.with_model([&] { model.silent = true; });
-  for (const Duration patience : {Duration{0}, Duration{300us}, Duration{2ms}}) {
-    EXPECT_EQ(pipe->read(packet, patience).value_or(9), 0u);
+  for (const Duration timeout : {Duration{0}, Duration{300us}, Duration{2ms}}) {
+    EXPECT_EQ(pipe->read(packet, timeout).value_or(9), 0u);
   }
   node.with_model([&] { model.silent = false; });
   ASSERT_TRUE(pipe->write(frame(5, 40), kPatient));

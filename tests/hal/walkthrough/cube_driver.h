@@ -58,7 +58,7 @@ class CubeDriver final : public Driver {
     }
     out[6] = std::byte{orders.homing ? std::uint8_t{1} : std::uint8_t{0}};
     if (const auto written = pipe_.write(out); !written) return std::unexpected(written.error());
-    const auto got = pipe_.read(in, kPatience);
+    const auto got = pipe_.read(in, kTimeout);
     if (!got) return std::unexpected(got.error());
     if (*got == 0) return Exchange::kNothing;
     if (*got != kReport) return std::unexpected(Errc::kFraming);
@@ -100,7 +100,7 @@ class CubeDriver final : public Driver {
  private:
   static constexpr std::size_t kReport = 8;
   static constexpr double kMetresPerCount = 1e-5, kCountsPerNewton = 1000, kCountsMax = 32000;
-  static constexpr Duration kPatience = std::chrono::milliseconds(1);
+  static constexpr Duration kTimeout = std::chrono::milliseconds(1);
   static constexpr int kAttempts = 10;
 
   static void put(std::span<std::byte, kReport> report, std::size_t at, std::int16_t value) noexcept {

@@ -21,7 +21,7 @@ struct Done {
 Done shell(const std::string& command) {
   Process process{{"/bin/sh", "-c", command}};
   std::optional<int> code;
-  for (int i = 0; i < 20 && !code; ++i) code = process.wait();  // times Process::kPatience: cold caches, busy machine
+  for (int i = 0; i < 20 && !code; ++i) code = process.wait();  // times Process::kTimeout: cold caches, busy machine
   return {code.value_or(-1), process.out(), process.err()};
 }
 

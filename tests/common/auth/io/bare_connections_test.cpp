@@ -18,12 +18,12 @@ std::vector<auth::ControlClient> connections_of(ControlServerFixture& door, cons
   }
   return made;
 }
-bool answers(auth::ControlClient& client) { return client.ask(rpc::Ping{1}, kPatience).has_value(); }
+bool answers(auth::ControlClient& client) { return client.ask(rpc::Ping{1}, kTimeout).has_value(); }
 long answering(std::vector<auth::ControlClient>& clients) { return std::ranges::count_if(clients, answers); }
 std::optional<auth::ControlClient> joined(ControlServerFixture& door, const auth::Identity& key, unsigned ticket) {
   auto client = door.connect(key);
   if (!client) return std::nullopt;
-  const auto welcome = client->ask(hello_with(door.ticket(key, ticket)), kPatience);
+  const auto welcome = client->ask(hello_with(door.ticket(key, ticket)), kTimeout);
   EXPECT_TRUE(welcome && std::holds_alternative<rpc::Welcome>(*welcome));
   return std::move(*client);
 }
@@ -37,7 +37,7 @@ TEST(UnjoinedConnections, EndWhenIdleWhileJoinedOnesStay) {
   auto seated = joined(door, me, 1);
   ASSERT_TRUE(seated);
   auto bare = connections_of(door, me, 1);
-  (void)bare[0].ask(rpc::SessionListRequest{}, kPatience);
+  (void)bare[0].ask(rpc::SessionListRequest{}, kTimeout);
   ASSERT_TRUE(door.told(ControlEvent::kIdle));
   EXPECT_FALSE(answers(bare[0]));
   EXPECT_TRUE(answers(*seated));
@@ -88,7 +88,7 @@ TEST(UnjoinedConnections, AreEvictedFirstAndJoinedOnesNever) {
   EXPECT_TRUE(answers(*third));
   auto fourth = door.connect(me);
   ASSERT_TRUE(fourth) << "a place beyond them is kept for who comes back";
-  const auto refused = fourth->ask(hello_with(door.ticket(me, 4)), kPatience);
+  const auto refused = fourth->ask(hello_with(door.ticket(me, 4)), kTimeout);
   EXPECT_EQ(reason_of(refused), ErrorCode::kFull);
   EXPECT_TRUE(door.told(ControlEvent::kRefused, 1)) << "the operator reads that places are short";
   EXPECT_NE(std::get<rpc::ErrorReply>(*refused).text.find("all 3 control connections"), std::string::npos);
@@ -96,7 +96,7 @@ TEST(UnjoinedConnections, AreEvictedFirstAndJoinedOnesNever) {
   ASSERT_TRUE(back);
   rpc::Hello resume = hello_with(door.ticket(me, 5));
   resume.credential = rpc::ResumeCredential{auth::test::secret_from<32>(9)};
-  EXPECT_EQ(reason_of(back->ask(resume, kPatience)), ErrorCode::kTicket)
+  EXPECT_EQ(reason_of(back->ask(resume, kTimeout)), ErrorCode::kTicket)
       << "it is heard: whether its secret is right is the session's to say";
 }
 

@@ -54,7 +54,7 @@ TEST(AuthCommands, SetUpAServerTwoWorkstationsAndATicket) {
     const auto own = auth::ClientKeystore::open(door.folder.path(name));
     EXPECT_TRUE(own && *own);
     auto connected = door.connect((*own)->identity());
-    return connected ? connected->ask(hello_with(*ticket), kPatience) : std::unexpected(connected.error());
+    return connected ? connected->ask(hello_with(*ticket), kTimeout) : std::unexpected(connected.error());
   };
   EXPECT_EQ(reason_of(join("touch-08")), rpc::ErrorCode::kTicket);
   const auto joined = join("touch-07");

@@ -28,7 +28,7 @@ using auth::test::Folder;
 using auth::test::kNow;
 
 /// Limit for every wait, so that a hanging test fails. No test judges durations.
-inline constexpr auto kPatience = 30s;
+inline constexpr auto kTimeout = 30s;
 
 /// One session with any requested seat. It redeems tickets as a real server does.
 class OneSession : public JoinHandler {
@@ -145,10 +145,10 @@ class ControlServerFixture {
     return limits;
   }
 
-  /// Waits until `event` was reported `times` times. @return false after kPatience
+  /// Waits until `event` was reported `times` times. @return false after kTimeout
   bool told(ControlEvent event, std::size_t times = 1) {
     std::unique_lock lock(mutex_);
-    return told_.wait_for(lock, kPatience, [&] {
+    return told_.wait_for(lock, kTimeout, [&] {
       return static_cast<std::size_t>(std::ranges::count(news_, event, &ControlEventRecord::event)) >= times;
     });
   }
@@ -173,7 +173,7 @@ class ControlServerFixture {
           if (fingerprint == server_fingerprint) return &as;
           return std::unexpected("another key");
         },
-        kPatience, signals);
+        kTimeout, signals);
   }
   [[nodiscard]] auth::TicketBytes ticket(const auth::Identity& workstation, unsigned number = 1) const {
     auth::Ticket t = auth::test::sample_ticket();

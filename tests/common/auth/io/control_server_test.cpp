@@ -18,18 +18,18 @@ TEST(ControlPlane, EnrolsAWorkstationByCodeAndRecognisesItAfterwards) {
   auto client = door.connect(me);
   ASSERT_TRUE(client) << client.error().text;
   EXPECT_EQ(client->server(), door.server_fingerprint);
-  const auto answer = client->ask(rpc::Enroll{code}, kPatience);
+  const auto answer = client->ask(rpc::Enroll{code}, kTimeout);
   ASSERT_TRUE(answer) << answer.error().text;
   const auto* ack = std::get_if<rpc::EnrollAck>(&*answer);
   ASSERT_NE(ack, nullptr);
   EXPECT_EQ(ack->workstation, "touch-07");
   EXPECT_EQ(door.beside().registry().find(me.fingerprint())->value().name, "touch-07");
-  const auto list = client->ask(rpc::SessionListRequest{}, kPatience);
+  const auto list = client->ask(rpc::SessionListRequest{}, kTimeout);
   ASSERT_TRUE(list);
   EXPECT_EQ(std::get<rpc::SessionList>(*list).sessions.at(0).name, "contact");
   auto other = door.connect(auth::Identity::make("x", auth::test::counting<16>(), kNow));
   ASSERT_TRUE(other);
-  EXPECT_EQ(reason_of(other->ask(rpc::Enroll{code}, kPatience)), ErrorCode::kCode) << "a code is good once";
+  EXPECT_EQ(reason_of(other->ask(rpc::Enroll{code}, kTimeout)), ErrorCode::kCode) << "a code is good once";
 }
 
 TEST(ControlPlane, RejectsCodesOneBitOffOrOneSecondTooOld) {
@@ -39,7 +39,7 @@ TEST(ControlPlane, RejectsCodesOneBitOffOrOneSecondTooOld) {
   const auto me = auth::Identity::make("me", auth::test::counting<16>(), kNow);
   const auto try_code = [&](const auth::EnrolmentCode& c) {
     auto client = door.connect(me);
-    return client ? client->ask(rpc::Enroll{c}, kPatience) : std::unexpected(client.error());
+    return client ? client->ask(rpc::Enroll{c}, kTimeout) : std::unexpected(client.error());
   };
   for (const std::size_t bit : {0u, 64u, 127u}) {
     auto wrong = code;
@@ -61,8 +61,8 @@ TEST(ControlPlane, AllowsUnenrolledClientsOnlyToEnrol) {
   for (const rpc::Body& body : all) {
     auto client = door.connect(stranger);
     ASSERT_TRUE(client);
-    EXPECT_EQ(reason_of(client->ask(body, kPatience)), ErrorCode::kNotEnrolled) << body.index();
-    EXPECT_FALSE(client->ask(rpc::Ping{1}, kPatience)) << "and the connection is over";
+    EXPECT_EQ(reason_of(client->ask(body, kTimeout)), ErrorCode::kNotEnrolled) << body.index();
+    EXPECT_FALSE(client->ask(rpc::Ping{1}, kTimeout)) << "and the connection is over";
   }
 }
 
@@ -71,12 +71,12 @@ TEST(ControlPlane, RejectsTheNextRequestOfARevokedWorkstation) {
   const auto me = door.enrolled("me");
   auto open = door.connect(me);
   ASSERT_TRUE(open);
-  ASSERT_FALSE(reason_of(open->ask(rpc::SessionListRequest{}, kPatience)));
+  ASSERT_FALSE(reason_of(open->ask(rpc::SessionListRequest{}, kTimeout)));
   ASSERT_TRUE(door.beside().registry().revoke("me"));
-  EXPECT_EQ(reason_of(open->ask(rpc::SessionListRequest{}, kPatience)), ErrorCode::kNotEnrolled);
+  EXPECT_EQ(reason_of(open->ask(rpc::SessionListRequest{}, kTimeout)), ErrorCode::kNotEnrolled);
   auto again = door.connect(me);
   ASSERT_TRUE(again);
-  EXPECT_EQ(reason_of(again->ask(hello_with(door.ticket(me)), kPatience)), ErrorCode::kNotEnrolled);
+  EXPECT_EQ(reason_of(again->ask(hello_with(door.ticket(me)), kTimeout)), ErrorCode::kNotEnrolled);
 }
 
 TEST(ControlPlane, AcceptsATicketOnceAndOnlyFromItsWorkstation) {
@@ -85,7 +85,7 @@ TEST(ControlPlane, AcceptsATicketOnceAndOnlyFromItsWorkstation) {
   const auto ticket = door.ticket(me);
   const auto join = [&](const auth::Identity& who, const rpc::Hello& hello) {
     auto client = door.connect(who);
-    return client ? client->ask(hello, kPatience) : std::unexpected(client.error());
+    return client ? client->ask(hello, kTimeout) : std::unexpected(client.error());
   };
   const auto text_of = [](const auto& answer) {
     return answer ? std::get<rpc::ErrorReply>(*answer).text : std::string();
@@ -114,10 +114,10 @@ TEST(ControlPlane, RejectsUnsupportedVersions) {
   ASSERT_TRUE(client);
   rpc::Hello hello = hello_with(door.ticket(me));
   hello.versions = {2, 3};
-  EXPECT_EQ(reason_of(client->ask(hello, kPatience)), ErrorCode::kVersion);
+  EXPECT_EQ(reason_of(client->ask(hello, kTimeout)), ErrorCode::kVersion);
   auto again = door.connect(me);
   hello.versions = {1, 2};
-  EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(*again->ask(hello, kPatience)));
+  EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(*again->ask(hello, kTimeout)));
 }
 
 TEST(ControlPlane, AcceptsRepliesFromAnotherThread) {
@@ -127,7 +127,7 @@ TEST(ControlPlane, AcceptsRepliesFromAnotherThread) {
   for (unsigned i = 1; i < 6; ++i) {
     auto client = door.connect(me);
     ASSERT_TRUE(client);
-    const auto answer = client->ask(hello_with(door.ticket(me, i)), kPatience);
+    const auto answer = client->ask(hello_with(door.ticket(me, i)), kTimeout);
     ASSERT_TRUE(answer) << answer.error().text;
     EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(*answer));
   }
@@ -141,17 +141,17 @@ TEST(ControlPlane, DiscardsAJoinReplyThatComesTooLate) {
   const auto me = door.enrolled("me");
   auto client = door.connect(me);
   ASSERT_TRUE(client) << client.error().text;
-  EXPECT_FALSE(client->ask(hello_with(door.ticket(me)), kPatience)) << "the server gives up first";
+  EXPECT_FALSE(client->ask(hello_with(door.ticket(me)), kTimeout)) << "the server gives up first";
   ASSERT_TRUE(door.told(ControlEvent::kDeadline));
   // The control server was not blocked, and the slot is free again.
   auto other = door.connect(me);
   ASSERT_TRUE(other) << other.error().text;
-  EXPECT_FALSE(reason_of(other->ask(rpc::SessionListRequest{}, kPatience)));
+  EXPECT_FALSE(reason_of(other->ask(rpc::SessionListRequest{}, kTimeout)));
   const auto answer = std::exchange(door.sessions->held, nullptr);
   ASSERT_TRUE(answer);
   std::thread([&] { answer(door.sessions->welcome("trainee")); }).join();
   std::unique_lock lock(door.sessions->mutex);
-  EXPECT_TRUE(door.sessions->changed.wait_for(lock, kPatience, [&] { return door.sessions->abandoned_count == 1; }));
+  EXPECT_TRUE(door.sessions->changed.wait_for(lock, kTimeout, [&] { return door.sessions->abandoned_count == 1; }));
   EXPECT_TRUE(door.sessions->seats_secrets.empty());
 }
 
@@ -161,13 +161,13 @@ TEST(ControlPlane, RequiresAJoinBeforeCommandsAndLimitsTheirRate) {
   const auto me = door.enrolled("me");
   auto client = door.connect(me);
   ASSERT_TRUE(client);
-  ASSERT_FALSE(reason_of(client->ask(rpc::SessionListRequest{}, kPatience)));
-  EXPECT_EQ(reason_of(client->ask(rpc::StopSession{}, kPatience)), ErrorCode::kNotAllowed);
-  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(*client->ask(hello_with(door.ticket(me)), kPatience)));
+  ASSERT_FALSE(reason_of(client->ask(rpc::SessionListRequest{}, kTimeout)));
+  EXPECT_EQ(reason_of(client->ask(rpc::StopSession{}, kTimeout)), ErrorCode::kNotAllowed);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(*client->ask(hello_with(door.ticket(me)), kTimeout)));
   const auto let_through = [&](const rpc::Body& command, int times) {
     int done = 0, fast = 0;
     for (int i = 0; i < times; ++i) {
-      const auto answer = client->ask(command, kPatience);
+      const auto answer = client->ask(command, kTimeout);
       EXPECT_TRUE(answer) << answer.error().text;
       done += answer && std::holds_alternative<rpc::Ok>(*answer) ? 1 : 0;
       fast += reason_of(answer) == ErrorCode::kTooFast ? 1 : 0;
@@ -187,13 +187,13 @@ TEST(ControlPlane, RejectsForbiddenCommandsAndKeepsTheConnection) {
   const auto me = door.enrolled("me");
   auto client = door.connect(me);
   ASSERT_TRUE(client);
-  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(*client->ask(hello_with(door.ticket(me)), kPatience)));  // a trainee
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(*client->ask(hello_with(door.ticket(me)), kTimeout)));  // a trainee
   for (const rpc::Body& body :
        {rpc::Body{rpc::StopSession{}}, rpc::Body{rpc::RemoveParticipant{{}, "a", ""}}, rpc::Body{rpc::Drain{}},
         rpc::Body{hello_with(door.ticket(me, 2))}, rpc::Body{rpc::Enroll{}}})
-    EXPECT_EQ(reason_of(client->ask(body, kPatience)), ErrorCode::kNotAllowed) << body.index();
+    EXPECT_EQ(reason_of(client->ask(body, kTimeout)), ErrorCode::kNotAllowed) << body.index();
   EXPECT_EQ(door.plane->count(ControlEvent::kForbidden), 5U);
-  EXPECT_TRUE(std::holds_alternative<rpc::Pong>(*client->ask(rpc::Ping{1}, kPatience)));
+  EXPECT_TRUE(std::holds_alternative<rpc::Pong>(*client->ask(rpc::Ping{1}, kTimeout)));
   const auto news = door.news();
   const auto told = std::ranges::count_if(
       news, [](const ControlEventRecord& n) { return n.event == ControlEvent::kForbidden && !n.detail.empty(); });
@@ -207,8 +207,8 @@ TEST(ControlPlane, LimitsLogLinesForForbiddenCommands) {
   const auto me = door.enrolled("me");
   auto client = door.connect(me);
   ASSERT_TRUE(client);
-  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(*client->ask(hello_with(door.ticket(me)), kPatience)));
-  for (int i = 0; i < 15; ++i) EXPECT_EQ(reason_of(client->ask(rpc::Drain{}, kPatience)), ErrorCode::kNotAllowed);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(*client->ask(hello_with(door.ticket(me)), kTimeout)));
+  for (int i = 0; i < 15; ++i) EXPECT_EQ(reason_of(client->ask(rpc::Drain{}, kTimeout)), ErrorCode::kNotAllowed);
   EXPECT_EQ(door.plane->count(ControlEvent::kForbidden), 15U);
   const auto news = door.news();
   EXPECT_EQ(
@@ -228,7 +228,7 @@ TEST(ControlPlane, BlocksOnlyTheSourceOfWrongEnrolmentCodes) {
   const auto stranger = auth::Identity::make("x", auth::test::counting<16>(), kNow);
   const auto ask_as = [&](const auth::Identity& who, const rpc::Body& what) {
     auto client = door.connect(who);
-    return client ? client->ask(what, kPatience) : std::unexpected(client.error());
+    return client ? client->ask(what, kTimeout) : std::unexpected(client.error());
   };
   for (unsigned i = 0; i < 10; ++i) {
     // A valid code, ticket or resume secret of another workstation in between costs nothing and undoes nothing.
@@ -251,12 +251,12 @@ TEST(ControlPlane, RevealsNoSecrets) {
   ASSERT_EQ(door.beside().registry().issue_code(code, "touch-07", kNow, kNow + 10), "");
   const auto me = auth::Identity::make("me", auth::test::counting<16>(), kNow);
   auto client = door.connect(me);
-  ASSERT_TRUE(client && client->ask(rpc::Enroll{code}, kPatience));
+  ASSERT_TRUE(client && client->ask(rpc::Enroll{code}, kTimeout));
   const auto ticket = door.ticket(me);
-  const auto joined = client->ask(hello_with(ticket), kPatience);
+  const auto joined = client->ask(hello_with(ticket), kTimeout);
   ASSERT_TRUE(joined && std::holds_alternative<rpc::Welcome>(*joined));
   auto again = door.connect(me);
-  ASSERT_TRUE(again && again->ask(hello_with(ticket), kPatience));  // rejected, with a reason
+  ASSERT_TRUE(again && again->ask(hello_with(ticket), kTimeout));  // rejected, with a reason
   std::string all = door.folder.read("server/audit.log");
   for (const ControlEventRecord& news : door.news())
     all += news.address + " " + news.workstation + " " + news.detail + "\n";
@@ -299,13 +299,13 @@ TEST(ControlPlane, SelectsTheLocalServersKeysDuringTheHandshake) {
         found = std::move(*keys);
         return &found->workstation;
       },
-      kPatience, -1);
+      kTimeout, -1);
   ASSERT_TRUE(client) << client.error().text;
   auth::Ticket ticket = auth::test::sample_ticket();
   ticket.workstation = found->workstation.fingerprint();
   const auto own = auth::sign_ticket(ticket, found->ticket_key);
   ASSERT_TRUE(own);
-  const auto answer = client->ask(hello_with(*own), kPatience);
+  const auto answer = client->ask(hello_with(*own), kTimeout);
   ASSERT_TRUE(answer) << answer.error().text;
   EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(*answer));
 }
@@ -315,7 +315,7 @@ TEST(ControlPlane, ListensOnIpv6Too) {
   const auto me = door.enrolled("me");
   auto client = door.connect(me);
   ASSERT_TRUE(client) << client.error().text;
-  EXPECT_FALSE(reason_of(client->ask(rpc::SessionListRequest{}, kPatience)));
+  EXPECT_FALSE(reason_of(client->ask(rpc::SessionListRequest{}, kTimeout)));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ void expect_alive(ControlServerFixture& door) {
   const auto me = door.enrolled("alive");
   auto client = door.connect(me);
   ASSERT_TRUE(client) << client.error().text;
-  EXPECT_FALSE(reason_of(client->ask(rpc::SessionListRequest{}, kPatience)));
+  EXPECT_FALSE(reason_of(client->ask(rpc::SessionListRequest{}, kTimeout)));
 }
 
 TEST(ControlServer, RejectsATooLongFrameByItsLengthAlone) {
@@ -252,7 +252,7 @@ TEST(ControlServer, RejectsServerMessagesAsRequests) {
       list->sessions.resize(std::min<std::size_t>(list->sessions.size(), 1));
     auto client = door.connect(me);
     ASSERT_TRUE(client);
-    EXPECT_EQ(reason_of(client->ask(body, kPatience)), rpc::ErrorCode::kBadFrame) << static_cast<int>(kind);
+    EXPECT_EQ(reason_of(client->ask(body, kTimeout)), rpc::ErrorCode::kBadFrame) << static_cast<int>(kind);
   }
 }
 
@@ -284,7 +284,7 @@ TEST(ControlClient, ReportsThatNoServerListens) {
   }
   const auto client = auth::ControlClient::connect(
       at, [](const auth::KeyFingerprint&) -> std::expected<const auth::Identity*, std::string> { return nullptr; },
-      kPatience, -1);
+      kTimeout, -1);
   ASSERT_FALSE(client);
   EXPECT_EQ(client.error().kind, auth::ClientError::Kind::kUnreachable);
   EXPECT_NE(client.error().text.find("check that tandem-server runs there"), std::string::npos);

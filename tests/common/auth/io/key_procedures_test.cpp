@@ -53,7 +53,7 @@ struct School {
   auto join(const auth::Identity& who, const std::string& text) {
     door.wall = auth::wall_seconds();
     auto connected = door.connect(who);
-    return connected ? connected->ask(hello_with(*auth::ticket_from_text(text)), kPatience)
+    return connected ? connected->ask(hello_with(*auth::ticket_from_text(text)), kTimeout)
                      : std::unexpected(connected.error());
   }
 

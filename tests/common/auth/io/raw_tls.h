@@ -19,8 +19,8 @@ namespace tandem::server::test {
 class RawTcp {
  public:
   explicit RawTcp(const io::SocketAddress& to) : fd_(::socket(to.family(), SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    const timeval patience{30, 0};
-    setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const timeval timeout{30, 0};
+    setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     connected = ::connect(fd_.get(), to.get(), to.size) == 0;
   }
   bool send(std::string_view bytes) const {

@@ -82,7 +82,7 @@ TEST(ControlTls, RejectsAnotherServerKeyBeforeSendingData) {
         EXPECT_EQ(fingerprint, door.server_fingerprint);
         return std::unexpected("this is not the expected key");
       },
-      kPatience, -1);
+      kTimeout, -1);
   ASSERT_FALSE(client);
   EXPECT_TRUE(asked);
   EXPECT_EQ(client.error().kind, auth::ClientError::Kind::kRefusedKey);
@@ -111,7 +111,7 @@ TEST(ControlTls, RejectsAServerWithAnotherProtocol) {
   const auto at = io::parse_address("127.0.0.1:" + std::to_string(acceptor.local_endpoint().port()), 1);
   const auto client = auth::ControlClient::connect(
       *at, [&](const auth::KeyFingerprint&) -> std::expected<const auth::Identity*, std::string> { return &key; },
-      kPatience, -1);
+      kTimeout, -1);
   ASSERT_FALSE(client);
   EXPECT_NE(client.error().text.find("tandem/1"), std::string::npos) << client.error().text;
   other.join();
@@ -122,7 +122,7 @@ TEST(ControlTls, GivesBothEndsTheSameSecretsAndOthersForAnotherContext) {
   const auto me = door.enrolled("me");
   auto client = door.connect(me);
   ASSERT_TRUE(client) << client.error().text;
-  const auto answer = client->ask(hello_with(door.ticket(me)), kPatience);
+  const auto answer = client->ask(hello_with(door.ticket(me)), kTimeout);
   ASSERT_TRUE(answer) << answer.error().text;
   const auto* welcome = std::get_if<rpc::Welcome>(&*answer);
   ASSERT_NE(welcome, nullptr);
