@@ -165,7 +165,7 @@ Result<SpaceMouseSpec> parse_spacemouse_options(const DeviceSpec& choice) {
       spec = *described->spacemouse;
     }
   }
-  return judge.result_with(std::move(spec));
+  return judge.result_with(spec);
 }
 
 }  // namespace

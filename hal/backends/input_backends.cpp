@@ -28,7 +28,7 @@ Result<MouseOptions> parse_mouse_options(const DeviceSpec& choice) {
   words.params.plane = judge.one_of("plane", {"vertical", "table"}) == "table" ? MouseDriver::Plane::kTable
                                                                                : MouseDriver::Plane::kVertical;
   words.grab = judge.yes_or_no("grab", false);
-  return judge.result_with(std::move(words));
+  return judge.result_with(words);
 }
 
 /// Returns where the recording exceeds the limits of every device; empty: it does not.

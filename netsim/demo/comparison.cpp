@@ -23,14 +23,14 @@ using Reading = std::function<double(const RunResult&)>;
 using Limits = std::array<Limit, kSettings>;
 
 /// Returns a number of one seat in one phase, or of the whole run if `phase` is empty.
-Reading of_seat(std::string phase, bool trainer, double SeatNumbers::* number, double scale) {
+Reading of_seat(const std::string& phase, bool trainer, double SeatNumbers::* number, double scale) {
   return [=](const RunResult& run) {
     if (phase.empty()) return scale * ((trainer ? run.report.trainer : run.report.trainee).*number);
     const PhaseNumbers* p = run.report.phase(phase);
     return p == nullptr ? kUnknown : scale * ((trainer ? p->trainer : p->trainee).*number);
   };
 }
-Reading of_joint(std::string phase, std::size_t joint) {
+Reading of_joint(const std::string& phase, std::size_t joint) {
   return [=](const RunResult& run) {
     const PhaseNumbers* p = run.report.phase(phase);
     return p == nullptr ? kUnknown : kMilli * p->trainer.joint_rad[joint];

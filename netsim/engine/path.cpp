@@ -26,7 +26,7 @@ enum Purpose : std::uint64_t {
 constexpr Time kTimeMax{Duration{std::int64_t{1} << 62}};
 
 /// Validates the spec. Path initializes this member first, so that no model sees an invalid number.
-const PathSpec& checked(const PathSpec& spec) {
+PathSpec checked(const PathSpec& spec) {
   throw_if_any("network path", problems(spec));
   return spec;
 }

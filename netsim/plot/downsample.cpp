@@ -27,7 +27,7 @@ std::vector<Point2> with_step(const std::vector<Point2>& path, double step) {
 }  // namespace
 
 std::vector<Point2> downsample_extremes(std::span<const Point2> curve, std::size_t most) {
-  const std::vector<Point2> all = finite_only(curve);
+  std::vector<Point2> all = finite_only(curve);
   most = std::max<std::size_t>(most, 4);
   if (all.size() <= most) return all;
   // Between the two ends, every bucket gives two points.
@@ -49,7 +49,7 @@ std::vector<Point2> downsample_extremes(std::span<const Point2> curve, std::size
 }
 
 std::vector<Point2> downsample_path(std::span<const Point2> path, double step, std::size_t most) {
-  const std::vector<Point2> all = finite_only(path);
+  std::vector<Point2> all = finite_only(path);
   if (all.size() <= 2 || !(step > 0)) return all;
   std::vector<Point2> out = with_step(all, step);
   while (out.size() > std::max<std::size_t>(most, 2)) {

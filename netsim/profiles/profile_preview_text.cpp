@@ -51,7 +51,7 @@ const char* shade(double share, bool utf8) noexcept {
   return (utf8 ? kBlocks : kLetters)[level];
 }
 
-std::string right(std::string text, std::size_t width) {
+std::string right(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }
 

@@ -21,7 +21,7 @@ void add(PathCounters& to, const PathCounters& from) noexcept {
 
 }  // namespace
 
-ProxyCore::ProxyCore(const LinkSpec& spec, std::uint64_t seed, std::vector<NetworkEvent> events)
+ProxyCore::ProxyCore(const LinkSpec& spec, std::uint64_t seed, const std::vector<NetworkEvent>& events)
     : spec_(spec), links_(spec, seed, events), queue_(kSlots, kClientsMax * kDirections) {
   update_may_defer(spec);
   for (const NetworkEvent& event : events) {

@@ -27,7 +27,7 @@ class ProxyCore {
 
   /// @throws std::invalid_argument listing all errors of the spec.
   /// @param events  changes by network time, for clients named "1", "2", ... in order of arrival
-  ProxyCore(const LinkSpec& spec, std::uint64_t seed, std::vector<NetworkEvent> events = {});
+  ProxyCore(const LinkSpec& spec, std::uint64_t seed, const std::vector<NetworkEvent>& events = {});
 
   /// Sends every later decision to `sink`; null: to none. Links and flows are numbered by arrival from 0.
   void log_to(DecisionSink* sink) noexcept;

@@ -26,8 +26,10 @@ class RandomDraws {
   std::size_t choose(const std::array<double, N>& weight) {
     double sum = 0, drawn = random_.uniform();
     for (const double w : weight) sum += w;
-    for (std::size_t i = 0; i + 1 < N; ++i)
-      if ((drawn -= weight[i] / sum) < 0) return i;
+    for (std::size_t i = 0; i + 1 < N; ++i) {
+      drawn -= weight[i] / sum;
+      if (drawn < 0) return i;
+    }
     return N - 1;
   }
 

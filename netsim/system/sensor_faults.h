@@ -13,7 +13,8 @@ class SensorFaults {
   /// @param key  randomness of joints and values of invalid readings, by tick
   SensorFaults(RandomKey key, Duration tick) : key_(key), tick_(tick) {}
 
-  /// Returns the reading that the program gets at `now` in place of the device's state.
+  /// Returns the reading that the program gets at `now` in place of the device's state. The result lives no
+  /// longer than `state`.
   /// @param joints  number of joints of the device
   [[nodiscard]] const hal::State& read(Time now, const FaultSchedule& faults, const hal::State& state,
                                        std::size_t joints) noexcept;

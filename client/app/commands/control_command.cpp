@@ -119,7 +119,8 @@ class ConsoleClient {
   /// Executes a command. @return exit code
   int execute(const ConsoleCommand& command) {
     return std::visit(
-        [this](auto request) {
+        [this](const auto& typed) {
+          auto request = typed;
           if constexpr (requires { request.session_id; }) request.session_id = welcome().session_id;
           return run(request);
         },
@@ -308,7 +309,7 @@ int control_command(const ControlArguments& arguments) {
     const bool stands =
         role && (*role == AccessRole::kInstructor || *role == AccessRole::kOperator || *role == AccessRole::kRecorder);
     if (!stands) errors.add("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
-    if (stands) asking.console = *role;
+    if (stands) asking.console = role;
   }
   asking.ticket = ticket_of(arguments.connection.ticket, errors);
   if (!errors.empty()) return errors.print("tandem-client control: ");

@@ -34,7 +34,7 @@ inline void add_ticket_options(const io::Command& command, TicketOption& ticket,
     return {};
   }
   const bool named = !given.file.empty() || given.text.starts_with('@');
-  const std::string name = !given.file.empty() ? given.file : named ? given.text.substr(1) : given.text;
+  std::string name = !given.file.empty() ? given.file : named ? given.text.substr(1) : given.text;
   const char* const option = given.file.empty() ? "--ticket" : "--ticket-file";
   if (name.empty() && !named) return {};
   if (!named && name.starts_with("ticket:")) return name;

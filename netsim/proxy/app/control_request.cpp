@@ -114,7 +114,7 @@ class ControlRequestParser {
       if (!value || !std::isfinite(*value) || *value < 0 || *value > key.max) {
         return std::string(word) + " " + quoted(words_[at_]) + ":" + must;
       }
-      key.value = *value;
+      key.value = value;
       ++at_;
       return {};
     }

@@ -18,7 +18,7 @@ namespace tandem::netsim {
 /// 1.024 us.
 class LiveDelayHistogram {
  public:
-  static constexpr std::size_t kBins = 36 * 32;  ///< the last one also holds all longer delays
+  static constexpr std::size_t kBins = std::size_t{36} * 32;  ///< the last one also holds all longer delays
   /// Copy of the histogram. The difference of two copies gives the delays in between.
   struct Snapshot {
     std::array<std::uint32_t, kBins> bins{};

@@ -106,7 +106,7 @@ class ProxyClients {
 
  private:
   static constexpr std::size_t kTable = 256;  ///< four times the clients, for short probe sequences
-  static_assert(kTable >= 4 * kMax && kMax < 255);
+  static_assert(kTable >= 4 * std::size_t{kMax} && kMax < 255);
 
   [[nodiscard]] io::Fd connect_downside(const io::SocketAddress& address, const io::LocalAddress& local) noexcept;
   [[nodiscard]] io::Fd connect_upside() noexcept;

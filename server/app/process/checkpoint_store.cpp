@@ -77,7 +77,7 @@ std::shared_ptr<CheckpointMailbox> CheckpointStore::add(SessionSnapshot kept) {
   return entries_.emplace_back(std::make_shared<Entry>(std::move(kept), wake_))->mailbox;
 }
 
-void CheckpointStore::set_removed(const std::string& name, std::vector<std::array<std::byte, 32>> keys) {
+void CheckpointStore::set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys) {
   {
     const std::lock_guard lock{lock_};
     for (const auto& entry : entries_)

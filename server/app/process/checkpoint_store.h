@@ -47,7 +47,7 @@ class CheckpointStore {
   /// Adds a session whose checkpoints are to be stored. @param kept everything but checkpoint and time
   [[nodiscard]] std::shared_ptr<CheckpointMailbox> add(SessionSnapshot kept);
   /// Sets the removed workstations of a session; the next write stores them. Thread-safe.
-  void set_removed(const std::string& name, std::vector<std::array<std::byte, 32>> keys);
+  void set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys);
   /// Deletes the file of a session that has ended.
   void remove(const std::string& name);
   /// Writes the newest checkpoints and ends the thread. Files remain.
