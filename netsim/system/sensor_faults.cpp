@@ -13,11 +13,10 @@ constexpr double kAbsurd[] = {1e5, -1e9, 1e160, -1e300};
 
 }  // namespace
 
-// The result lives as long as `state`, as the header says.
-// NOLINTNEXTLINE(bugprone-return-const-ref-from-parameter)
 const hal::State& SensorFaults::read(Time now, const FaultSchedule& faults, const hal::State& state,
                                      std::size_t joints) noexcept {
   invalid_ = false;
+  // NOLINTNEXTLINE(bugprone-return-const-ref-from-parameter): the header tells callers how long the result lives
   if (faults.empty()) return state;
   const bool frozen = faults.active(Fault::Kind::kFrozen, now);
   if (!frozen || !frozen_) reading_ = state;

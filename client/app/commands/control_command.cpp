@@ -120,9 +120,13 @@ class ConsoleClient {
   int execute(const ConsoleCommand& command) {
     return std::visit(
         [this](const auto& typed) {
-          auto request = typed;
-          if constexpr (requires { request.session_id; }) request.session_id = welcome().session_id;
-          return run(request);
+          if constexpr (requires { typed.session_id; }) {
+            auto request = typed;
+            request.session_id = welcome().session_id;
+            return run(request);
+          } else {
+            return run(typed);
+          }
         },
         command);
   }
