@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kPollIntervalMs = 100;
+constexpr int kDevicePollMs = 100;
 
 /// True if a signal is pending within `wait_ms` [ms]. Does not consume it, because ended_by_signal() reads its name.
 bool interrupted(int signals, int wait_ms) {
@@ -171,9 +171,9 @@ std::expected<void, HardwareDevice::Failure> HardwareDevice::wait_until_homed(in
     if (device_->phase() == hal::Phase::kFault)
       return std::unexpected(
           Failure{.reason = note_ + ": stopped answering while it was being homed; unplug it, plug it in, try again"});
-    const bool waited = io::monotonic_now() - begin > std::chrono::milliseconds(kPollIntervalMs);
+    const bool waited = io::monotonic_now() - begin > std::chrono::milliseconds(kDevicePollMs);
     if (waited && !std::exchange(asked, true)) line.note(how_to_home(device_->caps().homing));
-    if (interrupted(signals, kPollIntervalMs / 10))
+    if (interrupted(signals, kDevicePollMs / 10))
       return std::unexpected(Failure{.interrupted = true, .reason = ended_by_signal()});
   }
   if (asked) line.note("homed");

@@ -9,11 +9,12 @@ namespace tandem::netsim::demo {
 namespace {
 
 constexpr double kTenthMm = 1e4, kHundredthN = 100, kPercent = 100;
-constexpr double kLimit = 1e6;  ///< limit of a drawn value, so that invalid data stays a number
+constexpr double kCoordinateLimit = 1e6;  ///< limit of a drawn value, so that invalid data stays a number
 
 void put(std::array<int, MotionFrames::kValues>& frame, std::size_t& at, double value, double scale) {
   const double scaled = value * scale;
-  if (std::isfinite(scaled)) frame[at] = static_cast<int>(std::lround(std::clamp(scaled, -kLimit, kLimit)));
+  if (std::isfinite(scaled))
+    frame[at] = static_cast<int>(std::lround(std::clamp(scaled, -kCoordinateLimit, kCoordinateLimit)));
   ++at;
 }
 

@@ -9,7 +9,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kPress = 0.004, kRelease = 4, kPull = 1;  // [m, s, N]
+constexpr double kPress = 0.004, kReleaseAt = 4, kPull = 1;  // [m, s, N]
 // The device's damping, minus the effect of the sampled spring, lets the handle settle. On bone, at 0.93 of the
 // stiffness that a Touch renders, the time constant is 9 s.
 constexpr double kReleaseMeasure = 30, kReleaseEnd = 34;  // [s]
@@ -28,7 +28,7 @@ ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed) {
                  .environment = wall_of(k),
                  .frictionless = true};
     HandSpec& opens = run.hands[0].hand;
-    opens.release_at = kRelease;
+    opens.release_at = kReleaseAt;
     opens.drags = {kPull * hand.factor(11, 0.7, 1.4), 0, 0};
     opens.trajectory.kind = Trajectory::Kind::kWaypoints;
     opens.trajectory.waypoints = {{1, {0, 0, 0}}, {3, {kPress, 0, 0}}};

@@ -7,8 +7,8 @@
 namespace tandem::netsim {
 namespace {
 
-__extension__ using Wide = __int128;
-constexpr Wide kE12 = 1'000'000'000'000;
+__extension__ using WideTime = __int128;
+constexpr WideTime kE12 = 1'000'000'000'000;
 constexpr Duration kDay = std::chrono::hours(24);
 constexpr std::size_t kStepsMax = 64;
 
@@ -44,8 +44,8 @@ EndpointClock::EndpointClock(const EndpointSpec& spec) : offset_(spec.offset), d
 }
 
 Time EndpointClock::at(Time now) const noexcept {
-  const Wide product = Wide{now.time_since_epoch().count()} * drift_e12_;
-  Wide drift = product / kE12;
+  const WideTime product = WideTime{now.time_since_epoch().count()} * drift_e12_;
+  WideTime drift = product / kE12;
   if (product % kE12 < 0) --drift;  // rounds down also below zero; otherwise time would stop around zero drift
   Time own = now + offset_ + Duration{static_cast<std::int64_t>(drift)};
   for (const EndpointSpec::Step& step : steps_) {

@@ -10,12 +10,12 @@ namespace {
 
 enum LossModelPurpose : std::uint64_t { kLossState = 1, kLoss, kLossFirst };
 
-constexpr double kMillisecond = 1e6;  // [ns]
+constexpr double kNsPerMs = 1e6;
 
 LengthLaw law_of(const LossBurstsSpec& spec) noexcept {
   using Law = LossBurstsSpec::Law;
   const bool datagrams = spec.unit == LossBurstsSpec::Unit::kDatagrams;
-  const double unit = datagrams ? 1 : kMillisecond;
+  const double unit = datagrams ? 1 : kNsPerMs;
   LengthLaw law{.low = spec.length * unit, .high = spec.length * unit, .alpha = spec.alpha, .cap = spec.cap * unit};
   if (spec.law == Law::kParetoII) law.kind = LengthLaw::Kind::kParetoII;
   if (spec.law == Law::kGeometric) law.kind = LengthLaw::Kind::kExponential;

@@ -13,9 +13,8 @@ namespace {
 using std::chrono::hours;
 using std::chrono::microseconds;
 using std::chrono::minutes;
-using std::chrono::seconds;
 
-constexpr Duration kDelayMax = seconds(60);
+constexpr Duration kDelayMax = std::chrono::seconds(60);
 
 void check_outages(const std::vector<OutageSpec>& outages, SpecErrors& found) {
   if (outages.size() > 64) found.add("outages", std::to_string(outages.size()) + " are more than 64");
@@ -100,8 +99,8 @@ void check_rate(const RateSpec& rate, SpecErrors& found) {
   check_head_drop(rate, found);
   if (rate.queue_datagrams > 65'536) found.add("rate.queue_datagrams", "is above 65536");
   if (rate.codel) {
-    found.above<Duration>("rate.codel.target", rate.codel->target, Duration::zero(), seconds(10));
-    found.above<Duration>("rate.codel.interval", rate.codel->interval, rate.codel->target, seconds(60));
+    found.above<Duration>("rate.codel.target", rate.codel->target, Duration::zero(), std::chrono::seconds(10));
+    found.above<Duration>("rate.codel.interval", rate.codel->interval, rate.codel->target, std::chrono::seconds(60));
   }
   if (rate.trace) {
     if (rate.queue_wait) found.range<Duration>("rate.queue_wait", *rate.queue_wait, Duration::zero(), hours(1));
