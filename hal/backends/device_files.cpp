@@ -47,7 +47,7 @@ DeviceError wrong_device_kind(const std::string& file, const std::string& kind) 
   return {Errc::kUnsupported, file + ":1: does not describe a " + kind + ": write " + kind + " { ... }"};
 }
 
-Result<DeviceFileSpec> parse_shipped_preset(const ShippedPreset& preset) {
+Result<DeviceFileSpec> parse_shipped_preset(const EmbeddedFile& preset) {
   return parse_device_file(preset.text, preset.name);
 }
 

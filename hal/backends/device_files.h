@@ -23,7 +23,7 @@ namespace tandem::hal {
 /// Returns the error for a valid file of another kind of device.
 [[nodiscard]] DeviceError wrong_device_kind(const std::string& file, const std::string& kind);
 /// Parses a preset built into the program.
-[[nodiscard]] Result<DeviceFileSpec> parse_shipped_preset(const ShippedPreset& preset);
+[[nodiscard]] Result<DeviceFileSpec> parse_shipped_preset(const EmbeddedFile& preset);
 /// Reads a firmware image. Error: why it cannot be read; check_firmware validates its content.
 [[nodiscard]] Result<FalconFirmware> load_firmware(const std::string& file);
 

@@ -78,7 +78,7 @@ Result<std::pair<AttachedDevice, std::unique_ptr<HidrawPipe>>> open_pipe(const D
 
 std::string preset_names() {
   std::string names;
-  for (const ShippedPreset& preset : shipped_presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
+  for (const EmbeddedFile& preset : shipped_presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
   return names;
 }
 
@@ -89,7 +89,7 @@ struct Preset {
 
 /// Loads a shipped preset by its name, or the user's own file.
 Result<Preset> load_preset(const std::string& name) {
-  const ShippedPreset* shipped = find_shipped_preset(name);
+  const EmbeddedFile* shipped = find_shipped_preset(name);
   std::string text;
   if (shipped != nullptr) {
     text = shipped->text;

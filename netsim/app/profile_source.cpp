@@ -27,7 +27,7 @@ std::expected<ProfileSource, std::string> from_profile(std::expected<Profile, In
 
 std::expected<ProfileSource, std::string> load_profile_source(const std::string& name_or_file, Duration interval) {
   if (!is_file(name_or_file)) {
-    const auto shipped = std::ranges::find(shipped_profiles(), name_or_file, &ShippedProfile::name);
+    const auto shipped = std::ranges::find(shipped_profiles(), name_or_file, &EmbeddedFile::name);
     return from_profile(shipped_profile(name_or_file), "",
                         shipped == shipped_profiles().end() ? std::string_view{} : shipped->text);
   }

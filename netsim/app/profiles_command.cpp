@@ -49,7 +49,7 @@ bool speaks_utf8() {
 
 int list(bool json) {
   std::vector<Profile> all;  // a test reads all shipped profiles; a profile that cannot be read is a bug
-  for (const ShippedProfile& shipped : shipped_profiles())
+  for (const EmbeddedFile& shipped : shipped_profiles())
     if (auto profile = shipped_profile(shipped.name)) all.push_back(std::move(*profile));
   if (json) {
     std::fputs(profiles_json(all).c_str(), stdout);

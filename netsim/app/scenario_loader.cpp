@@ -53,9 +53,9 @@ class Folder {
       if (!path) return std::unexpected(path.error());
       return load_scene(fs::path(*path).is_absolute() || path->find('/') != std::string::npos ? *path : "./" + *path);
     }
-    if (const ShippedScene* scene = find_shipped_scene(word)) return parse_scene(scene->text, word + ".textproto");
+    if (const EmbeddedFile* scene = find_shipped_scene(word)) return parse_scene(scene->text, word + ".textproto");
     std::vector<std::string> names;
-    for (const ShippedScene& s : shipped_scenes()) names.emplace_back(s.name);
+    for (const EmbeddedFile& s : shipped_scenes()) names.emplace_back(s.name);
     return std::unexpected(
         blame("no scene has this name; " + suggest(word, names) + "; a file needs its ending, such as my.textproto"));
   }
@@ -176,7 +176,7 @@ std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vect
     scenario->file = as;
     scenarios.push_back(std::move(*scenario));
   };
-  const auto shipped = [&](const ShippedScenario& s) {
+  const auto shipped = [&](const EmbeddedFile& s) {
     if (seen.insert(std::string(s.name)).second)
       take(load_scenario_text(std::string(s.text), std::string(s.name) + ".textproto", true), std::string(s.name));
   };
@@ -226,9 +226,9 @@ std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vect
   };
   for (const std::string& argument : arguments) {
     std::error_code error;
-    const ShippedScenario* const named = find_shipped_scenario(argument);
+    const EmbeddedFile* const named = find_shipped_scenario(argument);
     if (argument == kAllShipped) {
-      for (const ShippedScenario& s : shipped_scenarios()) shipped(s);
+      for (const EmbeddedFile& s : shipped_scenarios()) shipped(s);
     } else if (fs::is_directory(argument, error)) {
       from_folder(argument);
     } else if (named != nullptr && !fs::exists(argument, error)) {
@@ -239,7 +239,7 @@ std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vect
       errors.push_back({argument, 0, 0, "", "", "cannot be read: " + error.message()});
     } else {
       std::vector<std::string> names{std::string(kAllShipped)};
-      for (const ShippedScenario& s : shipped_scenarios()) names.emplace_back(s.name);
+      for (const EmbeddedFile& s : shipped_scenarios()) names.emplace_back(s.name);
       errors.push_back({argument, 0, 0, "", "",
                         "no such file or folder, and no shipped scenario of this name; " +
                             suggest(fs::path(argument).stem().string(), names)});

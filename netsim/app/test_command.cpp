@@ -79,7 +79,7 @@ int test_command(const TestArguments& a) {
   if (names.empty() && a.list) names.emplace_back(kAllShipped);
   if (names.empty()) {
     std::string all;
-    for (const ShippedScenario& s : shipped_scenarios()) all += " " + std::string(s.name);
+    for (const EmbeddedFile& s : shipped_scenarios()) all += " " + std::string(s.name);
     mistakes.add("SCENARIO is required: a file, a folder, `shipped` for all shipped ones, or one of:" + all);
   }
   for (const auto& [only, wanted] : {std::pair{"--check", a.check}, std::pair{"--list", a.list}})

@@ -5,6 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "common/base/command_hints.h"
 #include "common/base/format.h"
 #include "common/io/output_file.h"
 
@@ -12,18 +13,6 @@ namespace tandem::netsim {
 namespace {
 
 using State = SeedOutcome::State;
-
-/// Quotes an argument for the shell.
-std::string quoted(const std::string& word) {
-  const auto plain = [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./,:=+@%").contains(c);
-  };
-  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 std::string run_in_child(const Scenario& scenario, std::uint64_t seed, const TestOptions& options,
                          io::JobProgressReporter share) {
@@ -154,8 +143,8 @@ std::vector<std::string> causes(const Scenario& scenario, const SeedOutcome& out
 
 std::string replay_command(const Scenario& scenario, std::uint64_t seed) {
   const std::string number = std::to_string(seed);
-  return "tandem-netsim test " + quoted(scenario.file) + " --seed " + number + " --seeds 1 --trace " +
-         quoted(scenario.name + "-" + number + ".csv");
+  return "tandem-netsim test " + shell_quote(scenario.file) + " --seed " + number + " --seeds 1 --trace " +
+         shell_quote(scenario.name + "-" + number + ".csv");
 }
 
 }  // namespace tandem::netsim

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "common/base/time.h"
+#include "netsim/models/shared_recording.h"
 
 /// Specifications of the loss models. Models are independent; a datagram is lost if at least one model loses it.
 namespace tandem::netsim {
@@ -93,16 +93,6 @@ struct LossTrace {
   Duration interval{};          ///< time per entry, starting at Time{} [1 us, 1 h]; 0: one entry per datagram
 
   friend bool operator==(const LossTrace&, const LossTrace&) = default;
-};
-
-/// A recording that several specs share; null: none. Recordings with the same content are equal, because each reading
-/// of a file makes another one.
-template <typename Recording>
-struct SharedRecording : std::shared_ptr<const Recording> {
-  using std::shared_ptr<const Recording>::shared_ptr;
-  friend bool operator==(const SharedRecording& a, const SharedRecording& b) {
-    return a.get() == b.get() || (a && b && *a == *b);
-  }
 };
 
 /// All loss models of one direction; absent members are off.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "common/base/time.h"
 #include "netsim/models/body_spec.h"
 #include "netsim/models/loss_spec.h"
+#include "netsim/models/shared_recording.h"
 #include "netsim/models/spec_errors.h"
 
 /// Specification of one direction of a link. The order of the members is the order in which they affect a datagram. All
@@ -58,9 +58,13 @@ struct CapacityTrace {
   struct Entry {
     std::int64_t ms = 0;              ///< ascending from 0
     std::uint64_t opportunities = 1;  ///< at least 1
+
+    friend bool operator==(const Entry&, const Entry&) = default;
   };
   std::vector<Entry> entries = {};  ///< at least one
   Duration period{};                ///< whole milliseconds, later than the last entry
+
+  friend bool operator==(const CapacityTrace&, const CapacityTrace&) = default;
 };
 
 /// Controlled delay [RFC 8289].
@@ -83,7 +87,7 @@ struct RateSpec {
       competing_period{};               ///< its period
   std::uint32_t queue_datagrams = 0;    ///< limit of unsent datagrams, the new one included; 0: no limit; at most 65536
   std::optional<CoDelSpec> codel = {};  ///< empty: no controlled delay
-  std::shared_ptr<const CapacityTrace> trace = {};  ///< replaces bits_per_s; null: none
+  SharedRecording<CapacityTrace> trace = {};  ///< replaces bits_per_s; null: none
   /// Datagrams to drop when the queue is full.
   enum class Drop : std::uint8_t {
     kTail,  ///< the new datagram
@@ -104,9 +108,13 @@ struct DelayTrace {
     Duration at{};      ///< time from the start of the recording, ascending, first 0
     Duration delay{};   ///< [0, 60 s]
     bool lost = false;  ///< datagrams of this step are lost
+
+    friend bool operator==(const Step&, const Step&) = default;
   };
   std::vector<Step> steps = {};  ///< at least one
   Duration period{};             ///< longer than the last `at`
+
+  friend bool operator==(const DelayTrace&, const DelayTrace&) = default;
 };
 
 /// Stalls that begin as a Poisson process. Datagrams due during a stall leave together at its end. Lengths are Pareto
@@ -176,21 +184,21 @@ struct MtuSpec {
 
 /// One direction of one link.
 struct PathSpec {
-  std::vector<OutageSpec> outages = {};          ///< at most 64
-  LossSpec loss = {};                            ///< random loss
-  RateSpec rate = {};                            ///< rate and queue
-  Duration floor{};                              ///< propagation delay, the minimum of every datagram [0, 60 s]
-  std::shared_ptr<const DelayTrace> trace = {};  ///< recorded delay added to the floor; null: none
-  BodySpec body = {};                            ///< random delay added to the floor
-  std::vector<RegimeSpec> regimes = {};          ///< empty, or 2 to 16 regimes
-  BoundarySpec boundary = {};                    ///< transmission at periodic times only
-  StallSpec stall = {};                          ///< random stalls
-  SlotsSpec slots = {};                          ///< requires ArrivalOrder::kFifo
-  ArrivalOrder order = ArrivalOrder::kFifo;      ///< order of arrivals
-  ReorderSpec reorder = {};                      ///< reordering
-  DuplicateSpec duplicate = {};                  ///< duplication
-  CorruptionSpec corruption = {};                ///< corruption
-  MtuSpec mtu = {};                              ///< longest datagram
+  std::vector<OutageSpec> outages = {};      ///< at most 64
+  LossSpec loss = {};                        ///< random loss
+  RateSpec rate = {};                        ///< rate and queue
+  Duration floor{};                          ///< propagation delay, the minimum of every datagram [0, 60 s]
+  SharedRecording<DelayTrace> trace = {};    ///< recorded delay added to the floor; null: none
+  BodySpec body = {};                        ///< random delay added to the floor
+  std::vector<RegimeSpec> regimes = {};      ///< empty, or 2 to 16 regimes
+  BoundarySpec boundary = {};                ///< transmission at periodic times only
+  StallSpec stall = {};                      ///< random stalls
+  SlotsSpec slots = {};                      ///< requires ArrivalOrder::kFifo
+  ArrivalOrder order = ArrivalOrder::kFifo;  ///< order of arrivals
+  ReorderSpec reorder = {};                  ///< reordering
+  DuplicateSpec duplicate = {};              ///< duplication
+  CorruptionSpec corruption = {};            ///< corruption
+  MtuSpec mtu = {};                          ///< longest datagram
 
   friend bool operator==(const PathSpec&, const PathSpec&) = default;
 };

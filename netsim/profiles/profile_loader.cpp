@@ -1,6 +1,6 @@
 #include "netsim/profiles/profile_loader.h"
 
-#include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,23 +12,13 @@ namespace tandem::netsim {
 namespace {
 
 /// Returns a minimal recording, used to validate the other parameters while the real one is missing.
-std::shared_ptr<const CapacityTrace> stand_in() {
+SharedRecording<CapacityTrace> stand_in() {
   return std::make_shared<CapacityTrace>(CapacityTrace{{{0, 1}}, std::chrono::milliseconds(1)});
 }
 
-struct Embedded {
-  std::string_view name, unused, text;
-};
-constexpr Embedded kEmbedded[] = {
+constexpr auto kProfiles = sorted_by_name(std::to_array<EmbeddedFile>({
 #include "profiles_embedded_data.inc"
-};
-
-std::vector<ShippedProfile> sorted() {
-  std::vector<ShippedProfile> all;
-  for (const Embedded& profile : kEmbedded) all.push_back({profile.name, profile.text});
-  std::ranges::sort(all, {}, &ShippedProfile::name);
-  return all;
-}
+}));
 
 }  // namespace
 
@@ -60,15 +50,12 @@ std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::st
   return profile;
 }
 
-std::span<const ShippedProfile> shipped_profiles() noexcept {
-  static const std::vector<ShippedProfile> all = sorted();
-  return all;
-}
+std::span<const EmbeddedFile> shipped_profiles() noexcept { return kProfiles; }
 
-std::span<const ShippedProfile> complete_profiles() {
-  static const std::vector<ShippedProfile> all = [] {
-    std::vector<ShippedProfile> some;
-    for (const ShippedProfile& profile : shipped_profiles()) {
+std::span<const EmbeddedFile> complete_profiles() {
+  static const std::vector<EmbeddedFile> all = [] {
+    std::vector<EmbeddedFile> some;
+    for (const EmbeddedFile& profile : shipped_profiles()) {
       const auto read = shipped_profile(profile.name);
       if (read && !read->capacity_file) some.push_back(profile);
     }
@@ -79,7 +66,7 @@ std::span<const ShippedProfile> complete_profiles() {
 
 std::expected<Profile, InputErrors> shipped_profile(std::string_view name) {
   std::vector<std::string> names;
-  for (const ShippedProfile& profile : shipped_profiles()) {
+  for (const EmbeddedFile& profile : shipped_profiles()) {
     if (profile.name == name) return parse_profile(profile.text, std::string(name) + ".textproto");
     names.emplace_back(profile.name);
   }

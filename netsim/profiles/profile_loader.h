@@ -6,6 +6,7 @@
 
 #include "proto/spec/input_error.h"
 #include "proto/spec/profile_spec.h"
+#include "proto/text/embedded_file.h"
 
 /// Named networks. A profile is a text file (proto/schema/profile.proto) with parameters, their sources and a version.
 namespace tandem::netsim {
@@ -20,16 +21,11 @@ bool supply_capacity(LinkSpec& link, const LinkSpec& recorded);
 /// @return profile, or all errors in file order
 [[nodiscard]] std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::string_view file_name);
 
-/// Profile of netsim/profiles, embedded in the program.
-struct ShippedProfile {
-  std::string_view name;  ///< file name without `.textproto`
-  std::string_view text;  ///< content of the file
-};
-/// Returns all shipped profiles, sorted by name.
-[[nodiscard]] std::span<const ShippedProfile> shipped_profiles() noexcept;
+/// Returns all profiles of netsim/profiles, sorted by name.
+[[nodiscard]] std::span<const EmbeddedFile> shipped_profiles() noexcept;
 
 /// Returns the shipped profiles that need no recording from the user.
-[[nodiscard]] std::span<const ShippedProfile> complete_profiles();
+[[nodiscard]] std::span<const EmbeddedFile> complete_profiles();
 
 /// Returns the shipped profile of this name, or an error with the closest name and the list of all names.
 [[nodiscard]] std::expected<Profile, InputErrors> shipped_profile(std::string_view name);

@@ -15,9 +15,9 @@ std::expected<SimulationConfig, std::string> simulation_config(const SceneRun& r
   std::string mistakes;
   SimulationConfig setup;
   setup.seed = run.seed;
-  if (const ShippedScene* const shipped = find_shipped_scene(run.scene); shipped == nullptr) {
+  if (const EmbeddedFile* const shipped = find_shipped_scene(run.scene); shipped == nullptr) {
     mistakes += "there is no scene " + run.scene + "; there are:";
-    for (const ShippedScene& scene : shipped_scenes()) mistakes += " " + std::string(scene.name);
+    for (const EmbeddedFile& scene : shipped_scenes()) mistakes += " " + std::string(scene.name);
     mistakes += "\n";
   } else if (auto scene = parse_scene(shipped->text, run.scene + ".textproto")) {
     setup.scene = std::move(*scene);

@@ -54,7 +54,7 @@ PathSpec draw_path(RandomDraws& d) {
 LinkSpec draw_link(RandomDraws& d, std::string& words) {
   if (d.chance(0.4)) {
     const auto shipped = complete_profiles();
-    const ShippedProfile& chosen = shipped[d.below(shipped.size())];
+    const EmbeddedFile& chosen = shipped[d.below(shipped.size())];
     const auto profile = shipped_profile(chosen.name);
     if (profile && !profile->capacity_file) {  // such a profile needs a recording
       words = chosen.name;

@@ -11,6 +11,7 @@
 #include "common/base/axes.h"
 #include "common/base/secret.h"
 #include "proto/spec/access_role.h"
+#include "proto/spec/registry_spec.h"
 #include "proto/wire/wire_messages.h"
 
 /// Structs of the messages on the control connection (proto/schema/rpc.proto). proto/rpc/rpc_codec.h encodes and
@@ -140,12 +141,7 @@ enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, 
   constexpr const char* kNames[] = {"waiting", "running", "paused", "stopped", "ending", "overloaded"};
   return phase <= SessionPhase::kOverloaded ? kNames[static_cast<std::size_t>(phase)] : "?";
 }
-struct ListedSeat {
-  std::string name;
-  AccessRole role = AccessRole::kTrainee;
-  bool taken = false, required = false;
-  friend bool operator==(const ListedSeat&, const ListedSeat&) = default;
-};
+using ListedSeat = OpenSeat;
 struct ListedSession {
   Id id{};
   std::string name;

@@ -67,7 +67,7 @@ TEST(AllProfiles, KeepEverySessionPassiveAndMatchTheReportedLink) {
   std::size_t ran = 0;
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
     if (seed > test::count_factor()) break;
-    for (const netsim::ShippedProfile& shipped : netsim::complete_profiles()) {
+    for (const EmbeddedFile& shipped : netsim::complete_profiles()) {
       for (const bool recorded : {false, true}) {
         const netsim::SceneRun run{.scene = recorded ? "free_motion" : "contact",
                                    .profile = std::string(shipped.name),

@@ -14,6 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "common/base/command_hints.h"
+
 namespace tandem::netsim::demo {
 namespace {
 
@@ -132,14 +134,7 @@ void end_all(std::span<ChildProcess> children) noexcept {
 
 std::string command_text(const std::vector<std::string>& arguments) {
   std::string text;
-  for (const std::string& a : arguments) {
-    const bool plain =
-        !a.empty() && a.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,+%@") ==
-                          std::string::npos;
-    std::string quoted = "'";
-    for (const char c : a) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    text += (text.empty() ? "" : " ") + (plain ? a : quoted + "'");
-  }
+  for (const std::string& a : arguments) text += (text.empty() ? "" : " ") + shell_quote(a);
   return text;
 }
 

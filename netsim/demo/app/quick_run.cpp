@@ -20,7 +20,7 @@ namespace {
 constexpr double kDecisionsPerSecond = 5000, kJoining = 10;
 
 std::expected<SceneSpec, std::string> scene_of(const RunPlan& plan) {
-  const ShippedScene* shipped = find_shipped_scene(plan.scene);
+  const EmbeddedFile* shipped = find_shipped_scene(plan.scene);
   if (shipped == nullptr)
     return std::unexpected("scene " + std::string(plan.scene) + " is not shipped with this program");
   auto scene = parse_scene(shipped->text, plan.scene);

@@ -5,20 +5,23 @@
 
 namespace tandem::netsim {
 
-void NetworkNumbers::apply(LinkSpec& link) const {
-  const LinkSpec wanted = link_from({.delay = from_milliseconds(delay_ms.value_or(0)),
+void NetworkNumbers::apply(PathSpec& path) const {
+  const PathSpec wanted = link_from({.delay = from_milliseconds(delay_ms.value_or(0)),
                                      .jitter = from_milliseconds(jitter_ms.value_or(0)),
                                      .loss = loss_percent.value_or(0) / 100,
                                      .duplicate = duplicate_percent.value_or(0) / 100,
-                                     .reorder = reorder_percent.value_or(0) / 100});
-  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    PathSpec& path = link[direction];
-    if (delay_ms) path.floor = wanted[direction].floor;
-    if (jitter_ms) path.body = wanted[direction].body;
-    if (loss_percent) path.loss.probability = wanted[direction].loss.probability;
-    if (duplicate_percent) path.duplicate = wanted[direction].duplicate;
-    if (reorder_percent) path.reorder = wanted[direction].reorder;
-  }
+                                     .reorder = reorder_percent.value_or(0) / 100})
+                              .up;
+  if (delay_ms) path.floor = wanted.floor;
+  if (jitter_ms) path.body = wanted.body;
+  if (loss_percent) path.loss.probability = wanted.loss.probability;
+  if (duplicate_percent) path.duplicate = wanted.duplicate;
+  if (reorder_percent) path.reorder = wanted.reorder;
+}
+
+void NetworkNumbers::apply(LinkSpec& link) const {
+  apply(link.up);
+  apply(link.down);
 }
 
 std::string NetworkNumbers::text() const {

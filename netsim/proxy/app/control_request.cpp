@@ -101,11 +101,11 @@ class ControlRequestParser {
       double max;
       const char* unit;
     };
-    const std::array<Key, 5> keys{{{"delay", request_.delay_ms, 60'000, "ms"},
-                                   {"jitter", request_.jitter_ms, 60'000, "ms"},
-                                   {"loss", request_.loss_percent, 100, "%"},
-                                   {"duplicate", request_.duplicate_percent, 100, "%"},
-                                   {"reorder", request_.reorder_percent, 100, "%"}}};
+    const std::array<Key, 5> keys{{{"delay", request_.numbers.delay_ms, 60'000, "ms"},
+                                   {"jitter", request_.numbers.jitter_ms, 60'000, "ms"},
+                                   {"loss", request_.numbers.loss_percent, 100, "%"},
+                                   {"duplicate", request_.numbers.duplicate_percent, 100, "%"},
+                                   {"reorder", request_.numbers.reorder_percent, 100, "%"}}};
     for (const Key& key : keys) {
       if (word != key.name) continue;
       const std::string must = format(" must be a number in [0, %.0f] %s", key.max, key.unit);

@@ -9,6 +9,7 @@
 
 #include "common/base/time.h"
 #include "netsim/models/path_spec.h"
+#include "netsim/profiles/app/network_numbers.h"
 
 namespace tandem::netsim {
 
@@ -18,8 +19,7 @@ struct ControlRequest {
   Kind kind = Kind::kChange;
   // kChange: the given members change, all at the same time.
   std::optional<std::string> network = {};  ///< name of a profile or file
-  std::optional<double> delay_ms = {}, jitter_ms = {};
-  std::optional<double> loss_percent = {}, duplicate_percent = {}, reorder_percent = {};
+  NetworkNumbers numbers = {};
   std::optional<Duration> outage = {};  ///< length of an outage that begins at once
   OutageSpec::Mode outage_mode = OutageSpec::Mode::kDrop;
   Duration dead_after{};                    ///< kRebind: time for which the old address stays valid

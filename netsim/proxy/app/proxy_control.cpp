@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "common/base/format.h"
-#include "common/base/milliseconds.h"
 #include "netsim/proxy/app/proxy_report.h"
 
 namespace tandem::netsim {
@@ -39,22 +38,10 @@ std::string missing(const std::vector<std::uint64_t>& asked, const std::set<std:
 }
 
 void apply(const ControlRequest& request, const std::optional<LinkSpec>& network, LinkSpec& link) {
-  const LinkSpec numbers = link_from({.delay = from_milliseconds(request.delay_ms.value_or(0)),
-                                      .jitter = from_milliseconds(request.jitter_ms.value_or(0)),
-                                      .loss = request.loss_percent.value_or(0) / 100,
-                                      .duplicate = request.duplicate_percent.value_or(0) / 100,
-                                      .reorder = request.reorder_percent.value_or(0) / 100,
-                                      .outages = {}});
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     if (request.direction && *request.direction != direction) continue;
-    PathSpec& path = link[direction];
-    if (network) path = (*network)[direction];
-    const PathSpec& wanted = numbers[direction];
-    if (request.delay_ms) path.floor = wanted.floor;
-    if (request.jitter_ms) path.body = wanted.body;
-    if (request.loss_percent) path.loss.probability = wanted.loss.probability;
-    if (request.duplicate_percent) path.duplicate = wanted.duplicate;
-    if (request.reorder_percent) path.reorder = wanted.reorder;
+    if (network) link[direction] = (*network)[direction];
+    request.numbers.apply(link[direction]);
   }
 }
 
@@ -106,13 +93,12 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
     next.outages.push_back(
         {{.start = now, .length = *request.outage, .mode = request.outage_mode}, request.direction, request.clients});
   }
-  const bool numbers = network || request.delay_ms || request.jitter_ms || request.loss_percent ||
-                       request.duplicate_percent || request.reorder_percent;
-  if (numbers && request.clients.empty()) {
+  const bool changed = network || request.numbers.any();
+  if (changed && request.clients.empty()) {
     apply(request, network, next.common);
     for (auto& [number, link] : next.own) apply(request, network, link);
     if (reset && !request.direction) next.own.clear();
-  } else if (numbers) {
+  } else if (changed) {
     for (const std::uint64_t number : request.clients)
       apply(request, network, next.own.try_emplace(number, next.common).first->second);
   }

@@ -16,7 +16,7 @@ struct ScenesArguments {
 };
 
 int print_scene(const std::string& name, bool json) {
-  const ShippedScene* scene = find_shipped_scene(name);
+  const EmbeddedFile* scene = find_shipped_scene(name);
   if (scene == nullptr) {
     io::print_formatted(stderr, "tandem-server scenes: --print %s: no shipped scene of this name; %s\n", name.c_str(),
                         suggest_name(name, shipped_scenes()).c_str());
@@ -34,7 +34,7 @@ int print_scene(const std::string& name, bool json) {
 int scenes_command(const ScenesArguments& arguments) {
   if (!arguments.print.empty()) return print_scene(arguments.print, arguments.json);
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const ShippedScene& scene : shipped_scenes()) {
+  for (const EmbeddedFile& scene : shipped_scenes()) {
     if (arguments.json) {
       list.push_back({{"name", scene.name}, {"summary", scene.summary}});
     } else {

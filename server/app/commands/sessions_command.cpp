@@ -32,8 +32,7 @@ int sessions_command(const SessionsArguments& arguments) {
   rpc::SessionList list;
   std::vector<std::string> codes;
   for (const OpenSession& s : (*serving)->sessions) {
-    rpc::ListedSession& out = list.sessions.emplace_back(s.id, s.name, phase_named(s.phase));
-    for (const OpenSeat& seat : s.seats) out.seats.push_back({seat.name, seat.role, seat.taken, seat.required});
+    list.sessions.emplace_back(s.id, s.name, phase_named(s.phase), s.seats);
     codes.push_back(s.code.empty() ? "" : code_text(s.code));
   }
   if (!arguments.json) std::printf("server at %s\n", (*serving)->address.c_str());

@@ -152,7 +152,7 @@ PathSpec late_decisions() {
 
 std::vector<MatrixEntry> decision_matrix() {
   std::vector<MatrixEntry> all;
-  for (const ShippedProfile& shipped : shipped_profiles()) {
+  for (const EmbeddedFile& shipped : shipped_profiles()) {
     const auto profile = shipped_profile(shipped.name);
     // A profile that plays a user's recording cannot be simulated without it.
     if (!profile || !problems(profile->link.up).empty() || !problems(profile->link.down).empty()) continue;

@@ -221,7 +221,7 @@ TEST(FourGTrace, CannotBePlayedWithoutARecording) {
   const auto found = problems(profile->link.up);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].key, "rate.trace");
-  for (const ShippedProfile& complete : complete_profiles()) EXPECT_NE(complete.name, "4g-trace");
+  for (const EmbeddedFile& complete : complete_profiles()) EXPECT_NE(complete.name, "4g-trace");
   EXPECT_EQ(complete_profiles().size() + 1, shipped_profiles().size());
 }
 

@@ -82,5 +82,20 @@ TEST(PathSpec, LongestDelayIsTheSumOfItsParts) {
   EXPECT_EQ(delay_max(everything()), 417ms);
 }
 
+TEST(PathSpec, EqualRecordingsAreEqualWhereverTheyWereRead) {
+  const auto delays = [](Duration delay) {
+    return PathSpec{.trace = std::make_shared<DelayTrace>(DelayTrace{{{0s, delay}}, 1s})};
+  };
+  EXPECT_EQ(delays(2ms), delays(2ms));
+  EXPECT_NE(delays(2ms), delays(3ms));
+  EXPECT_NE(delays(2ms), PathSpec{});
+  const auto capacity = [](std::uint64_t opportunities) {
+    return RateSpec{.trace = std::make_shared<CapacityTrace>(CapacityTrace{{{0, opportunities}}, 60ms})};
+  };
+  EXPECT_EQ(capacity(2), capacity(2));
+  EXPECT_NE(capacity(2), capacity(3));
+  EXPECT_NE(capacity(2), RateSpec{});
+}
+
 }  // namespace
 }  // namespace tandem::netsim

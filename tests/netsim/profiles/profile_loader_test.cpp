@@ -15,7 +15,7 @@ using namespace test;
 
 TEST(Profiles, AreValidAndDescribedIfShipped) {
   std::set<std::string> names;
-  for (const ShippedProfile& shipped : shipped_profiles()) {
+  for (const EmbeddedFile& shipped : shipped_profiles()) {
     const auto profile = shipped_profile(shipped.name);
     ASSERT_TRUE(profile) << to_text(profile.error());
     EXPECT_EQ(profile->name, shipped.name);
@@ -66,7 +66,7 @@ TEST(Profiles, AreValidAndDescribedIfShipped) {
 
 // Section 4 of the network design: 30 virtual minutes at 1 kHz, tolerance 10 % up to p95, 20 % at p99.
 TEST(Profiles, MatchTheirPromisedQuantiles) {
-  for (const ShippedProfile& shipped : shipped_profiles()) {
+  for (const EmbeddedFile& shipped : shipped_profiles()) {
     const auto profile = shipped_profile(shipped.name);
     ASSERT_TRUE(profile);
     for (const ProfileCheck& check : profile->checks) {

@@ -23,7 +23,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 ScenarioSources sources() {
   return {
       .scene = [](const std::string& name) -> std::expected<SceneSpec, InputErrors> {
-        if (const ShippedScene* scene = find_shipped_scene(name)) return parse_scene(scene->text, name);
+        if (const EmbeddedFile* scene = find_shipped_scene(name)) return parse_scene(scene->text, name);
         return std::unexpected(InputErrors{{"", 0, 0, "", "", "no such scene"}});
       },
       .network = [](const ScenarioNetworkSpec& spec) -> std::expected<ScenarioLink, InputErrors> {
@@ -374,7 +374,7 @@ TEST(Scenario, ParsesOrRejectsAnyText) {
 
 TEST(Scenario, HasADescriptionAndALimitInEveryShippedFile) {
   ASSERT_GE(shipped_scenarios().size(), 6u);
-  for (const ShippedScenario& shipped : shipped_scenarios()) {
+  for (const EmbeddedFile& shipped : shipped_scenarios()) {
     const auto spec = parse_scenario_text(shipped.text, shipped.name);
     ASSERT_TRUE(spec) << shipped.name << "\n" << to_text(spec.error());
     EXPECT_FALSE(spec->summary.empty()) << shipped.name;

@@ -111,7 +111,7 @@ TEST_P(PathBytes, ValidateNoForgedSourceByGuessedTokens) {
 
 std::vector<std::string> scenes() {
   std::vector<std::string> names;
-  for (const ShippedScene& scene : shipped_scenes()) names.emplace_back(scene.name);
+  for (const EmbeddedFile& scene : shipped_scenes()) names.emplace_back(scene.name);
   return names;
 }
 INSTANTIATE_TEST_SUITE_P(EveryShippedScene, PathBytes, testing::ValuesIn(scenes()),

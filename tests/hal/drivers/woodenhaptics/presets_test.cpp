@@ -14,7 +14,7 @@ namespace tandem::hal::woodenhaptics {
 namespace {
 
 WoodenHapticsSpec shipped(std::string_view name) {
-  const ShippedPreset* preset = find_shipped_preset(name);
+  const EmbeddedFile* preset = find_shipped_preset(name);
   if (preset == nullptr) {
     ADD_FAILURE() << "no preset " << name;
     return test::wooden_2015();
@@ -58,7 +58,7 @@ TEST(WoodenPresets, MatchThePublishedNumbers) {
 }
 
 TEST(WoodenPresets, HaveAReachableNonSingularCalibrationPose) {
-  for (const ShippedPreset& preset : shipped_presets()) {
+  for (const EmbeddedFile& preset : shipped_presets()) {
     SCOPED_TRACE(preset.name);
     const Kinematics k(shipped(preset.name));
     const auto& c = shipped(preset.name).calibration_counts;
@@ -72,7 +72,7 @@ TEST(WoodenPresets, HaveAReachableNonSingularCalibrationPose) {
 
 TEST(WoodenPresets, HaveConservativeLimits) {
   EXPECT_EQ(shipped_presets().size(), 4u);
-  for (const ShippedPreset& preset : shipped_presets()) {
+  for (const EmbeddedFile& preset : shipped_presets()) {
     SCOPED_TRACE(preset.name);
     const WoodenHapticsSpec spec = shipped(preset.name);
     EXPECT_LE(spec.current_max, 2.0);

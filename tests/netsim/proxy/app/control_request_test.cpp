@@ -17,9 +17,9 @@ TEST(ControlRequests, ParseTypedInput) {
   const auto one = parse_control_request("  delay 20 loss 2.5\tclient 2 7 up \n");
   ASSERT_TRUE(one);
   EXPECT_EQ(one->kind, What::kChange);
-  EXPECT_EQ(one->delay_ms, 20);
-  EXPECT_EQ(one->loss_percent, 2.5);
-  EXPECT_FALSE(one->jitter_ms);
+  EXPECT_EQ(one->numbers.delay_ms, 20);
+  EXPECT_EQ(one->numbers.loss_percent, 2.5);
+  EXPECT_FALSE(one->numbers.jitter_ms);
   EXPECT_EQ(one->clients, (std::vector<std::uint64_t>{2, 7}));
   EXPECT_EQ(one->direction, Direction::kUp);
 
@@ -79,8 +79,8 @@ TEST(ControlRequests, ParseOrRejectAnyBytes) {
     std::string line;
     for (std::uint64_t n = random.below(40); n > 0; --n) line += letters[random.below(letters.size())];
     const auto request = parse_control_request(line);
-    if (request && request->delay_ms) {
-      EXPECT_LE(*request->delay_ms, 60'000);
+    if (request && request->numbers.delay_ms) {
+      EXPECT_LE(*request->numbers.delay_ms, 60'000);
     }
   }
 }
