@@ -8,7 +8,8 @@
 namespace tandem::tidy {
 namespace {
 
-constexpr std::array<std::string_view, 7> kFolders{"client", "common", "hal", "netsim", "proto", "server", "tests"};
+constexpr std::array<std::string_view, 8> kFolders{"client", "common", "hal",    "netsim",
+                                                   "proto",  "server", "tandem", "tests"};
 constexpr std::string_view kSpace = " \t\r\n";
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }

@@ -46,7 +46,7 @@ inline constexpr std::size_t kLinesMax = 400;
 /// generated code, directly or indirectly.
 [[nodiscard]] std::vector<Finding> check_generated(std::span<const SourceFile> files);
 
-/// Finds entries of the root that product.md does not list and .gitignore does not name.
+/// Finds entries of the root that the list of this function and .gitignore do not name.
 [[nodiscard]] std::vector<Finding> check_top_level(const std::filesystem::path& root);
 
 }  // namespace tandem::tidy

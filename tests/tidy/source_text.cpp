@@ -9,7 +9,8 @@
 namespace tandem::tidy {
 namespace {
 
-constexpr std::array<std::string_view, 7> kFolders{"client", "common", "hal", "netsim", "proto", "server", "tests"};
+constexpr std::array<std::string_view, 8> kFolders{"client", "common", "hal",    "netsim",
+                                                   "proto",  "server", "tandem", "tests"};
 constexpr std::array<std::string_view, 10> kTextEndings{".h",    ".cpp",       ".proto", ".txt", ".cmake",
                                                         ".json", ".textproto", ".md",    ".sh",  ".csv"};
 

@@ -84,7 +84,7 @@ TEST(SceneReader, AcceptsBothBracketsListsSeparatorsAndComments) {
   EXPECT_EQ(scene->seats[0].name, "a");
 }
 
-/// The scene of product.md, word for word.
+/// A whole scene, with several messages on a line and comments.
 TEST(SceneReader, ReadsTheOutlineOfTheProductDocument) {
   const auto scene = parse_scene(
       R"(version: 1  tick_hz: 1000  dof: 3  duration_s: 18  alpha_slew_per_s: 1
