@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
 #include <string>
 
 #include "tests/install/shell.h"
@@ -54,6 +56,24 @@ void check_development_package() {
     EXPECT_NE(depends.find(needed), std::string::npos) << needed << " is not in " << depends;
 }
 
+/// Checks that every relative link of the installed documents leads to an installed file.
+void check_links(const fs::path& documents) {
+  const std::regex link{R"(\]\(([^)#\s]+))"};
+  std::size_t links = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(documents)) {
+    if (entry.path().extension() != ".md") continue;
+    std::ifstream in(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    for (auto found = std::sregex_iterator(text.begin(), text.end(), link); found != std::sregex_iterator(); ++found) {
+      const std::string target = (*found)[1];
+      if (target.find(':') != std::string::npos) continue;  // https:
+      EXPECT_TRUE(fs::exists(entry.path().parent_path() / target)) << entry.path() << " links " << target;
+      ++links;
+    }
+  }
+  EXPECT_GT(links, 20u) << "the manuals are not there";
+}
+
 TEST(DebianPackages, ContainTheirFilesAndRunFromAnUnpackedRoot) {
   if (const std::string& why = packages(); !why.empty()) GTEST_SKIP() << why;
   for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
@@ -88,6 +108,7 @@ TEST(DebianPackages, ContainTheirFilesAndRunFromAnUnpackedRoot) {
   for (const char* script : {"postinst", "prerm", "postrm"})
     EXPECT_EQ(shell("sh -n " + quoted(control / script)).code, 0) << script;
   EXPECT_TRUE(fs::exists(root / "lib/systemd/system/tandem-server.service"));
+  check_links(root / "usr/share/doc/tandem-server");
   ASSERT_NO_FATAL_FAILURE(check_development_package());
 
   // The installed configuration, but with a state directory that this test may write.
