@@ -12,7 +12,7 @@ class SessionInvariantChecker {
   void check(const Session& session, Violations& out);
 };
 
-/// Name of the mode, as in product.md and in reports.
+/// Name of the mode, as in options and reports.
 [[nodiscard]] std::string_view mfs_name(MfsMode mode) noexcept;
 
 }  // namespace tandem::server
