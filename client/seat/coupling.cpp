@@ -56,6 +56,7 @@ void SpringCoupling::fill_sample(std::size_t, const Input& in, bool engaged, Por
     out.v[a] = engaged && master_ ? ipc_[a].v : in.v[a];
     out.f[a] = state.k[a] * (out.x[a] - state.ref[a]);
   }
+  if (engaged) in.tools[0].end->replace_velocity(out.v);
 }
 
 namespace {

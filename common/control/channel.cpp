@@ -1,8 +1,14 @@
 #include "common/control/channel.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "common/control/channel_pd.h"
 #include "common/control/channel_raw.h"
 #include "common/control/channel_replica.h"
 #include "common/control/channel_set_position.h"
+#include "common/control/channel_tdpa.h"
+#include "common/control/channel_wave.h"
 
 namespace tandem::control {
 
@@ -20,6 +26,24 @@ void ChannelEnd::engage(const AxisArray& x, double age) noexcept {
 
 void ChannelEnd::clamp_reference(const AxisArray&) noexcept {}
 
+void ChannelEnd::replace_velocity(AxisArray&) const noexcept {}
+
+void ChannelEnd::follow_unpaid(const EndInput& in, std::size_t a, double k) noexcept {
+  EnergyLedger& ledger = ledger_[a];
+  ledger.dissipate(in.dissipated[a]);
+  ledger.receive(in.rx.e_in[a]);
+  const double before = state_.ref[a] - in.x[a];
+  const double wanted = std::isfinite(in.rx.x[a]) ? in.rx.x[a] : state_.ref[a];
+  const double after = wanted - in.x[a];
+  const double dE = 0.5 * in.weight * (k * after * after - state_.k[a] * before * before);
+  state_.k[a] = k;
+  state_.ref[a] = wanted;
+  state_.absorbed[a] = dE < 0 ? -dE : 0;
+  state_.paid[a] = dE > 0 ? dE : 0;
+  if (dE > 0) ledger.spend_unchecked(dE);
+  margin_min_ = std::min(margin_min_, ledger.margin());
+}
+
 EnergyArray ChannelEnd::e_out() const noexcept {
   EnergyArray e{};
   for (std::size_t a = 0; a < params_.dof; ++a) e[a] = ledger_[a].out_nj();
@@ -33,17 +57,26 @@ std::unique_ptr<ChannelEnd> make(const ChannelParams& p) {
   return std::make_unique<Law>(p);
 }
 
-std::unique_ptr<ChannelEnd> make_replica(const ChannelParams& p) {
-  if (p.side == Side::kClient) return std::make_unique<ReplicaReference>(p);
-  return std::make_unique<PredictedHand>(p);
+template <class Client, class Server>
+std::unique_ptr<ChannelEnd> make_pair(const ChannelParams& p) {
+  if (p.side == Side::kClient) return std::make_unique<Client>(p);
+  return std::make_unique<Server>(p);
 }
 
 constexpr ChannelLaw kLaws[] = {
     {"replica", "every client simulates the tool; only what others do crosses the network, paid from an energy ledger",
-     make_replica},
+     make_pair<ReplicaReference, PredictedHand>},
     {"set_position",
      "positions both ways, every move paid from an energy ledger; stiffness, damping and lead follow the delay",
      make<SetPositionEnd>},
+    {"tdpa",
+     "two-port time-domain passivity: force down, position up, with passivity controllers and drift compensation",
+     make_pair<TdpaForceEnd, TdpaPositionEnd>},
+    {"wave",
+     "wave variables of constant impedance, with position correction; a wave acts only as far as it is paid for",
+     make<WaveEnd>},
+    {"pd", "positions both ways, stiffness and damping follow the delay (P+d); passive for slowly varying delays only",
+     make<PdEnd>},
     {"raw", "positions both ways, constant stiffness, no passivity: for comparison only", make<RawEnd>},
 };
 

@@ -34,7 +34,8 @@ struct ChannelParams {
       std::numeric_limits<double>::infinity();  ///< largest useful spring force: the strongest motor's [N at the tip]
   double k_c = 400;  ///< `replica`: stiffness from hand to tool, and to the other seats where no force is fed back [N/m
                      ///< at the tip]
-  double b_rel = 14;  ///< `replica`: damping relative to the motion that drives the tool [N s/m at the tip]
+  double impedance = 5;  ///< `wave`: impedance b of the waves [N s/m at the tip]
+  double b_rel = 14;     ///< `replica`: damping relative to the motion that drives the tool [N s/m at the tip]
 };
 
 /// The invariants that a law guarantees. Monitors report a breach of any other invariant as expected and do not fail.
@@ -99,6 +100,9 @@ class ChannelEnd {
   virtual void clamp_reference(const AxisArray& x) noexcept TANDEM_REALTIME;
   /// Computes the new reference, stiffness and damping; called once per tick. Accepts any input and is real-time safe.
   virtual const EndState& move(const EndInput& in) noexcept TANDEM_REALTIME = 0;
+  /// Replaces what this law sends in place of the velocity; most laws send the velocity itself.
+  /// @param v  velocity of the near end, per axis; changed in place
+  virtual void replace_velocity(AxisArray& v) const noexcept TANDEM_REALTIME;
   /// Returns the invariants that this law guarantees.
   [[nodiscard]] virtual Guarantees guarantees() const noexcept = 0;
 
@@ -142,6 +146,10 @@ class ChannelEnd {
     const bool mix = params_.side == Side::kServer && params_.effort_half && d >= GainSchedule::kShort && d <= 0.25;
     return mix ? 0.5 * ahead + 0.5 * (in.x[a] + in.rx.f[a] / k) : ahead;
   }
+
+  /// Laws without a bound on energy: the received position becomes the reference of an axis at stiffness k. The ledger
+  /// books the change of the spring's energy and limits nothing.
+  void follow_unpaid(const EndInput& in, std::size_t axis, double k) noexcept;
 
   ChannelParams params_;                         ///< parameters of this end
   GainSchedule schedule_;                        ///< gains at the present delay

@@ -18,6 +18,12 @@ std::string_view law_name(LawKind law) noexcept {
       return "raw";
     case LawKind::kReplica:
       return "replica";
+    case LawKind::kTdpa:
+      return "tdpa";
+    case LawKind::kWave:
+      return "wave";
+    case LawKind::kPd:
+      return "pd";
   }
   return "";
 }
@@ -35,6 +41,11 @@ control::FlowSourceMode flow_source_mode(MfsMode mode) noexcept {
   }
   return control::FlowSourceMode::kOpen;
 }
+
+static_assert(static_cast<int>(HandCouplingKind::kAveragePosition) ==
+                  static_cast<int>(control::HandCoupling::kAveragePosition) &&
+              control::kHandCouplings == static_cast<std::size_t>(HandCouplingKind::kAveragePosition) + 1);
+control::HandCoupling hand_coupling(HandCouplingKind kind) noexcept { return static_cast<control::HandCoupling>(kind); }
 
 control::ContactSet contacts(const EnvironmentSpec& environment) noexcept {
   control::ContactSet all;
@@ -76,6 +87,9 @@ std::unique_ptr<control::ChannelEnd> make_channel(const ChannelSpec& spec, contr
   p.v_app = spec.v_app;
   p.k_c = k_c;
   p.b_rel = spec.b_rel;
+  p.impedance = spec.impedance;
+  // The force of law `tdpa` goes to the hand and its position to the tool. A SLAVE seat is the other way round.
+  if (stiffness && spec.law == LawKind::kTdpa) return control::make_channel_end(law_name(LawKind::kSetPosition), p);
   if (spec.law != LawKind::kReplica) return control::make_channel_end(law_name(spec.law), p);
   // A slave is coupled to the tool by a spring with two ends. The initial energy of a hand does not depend on its
   // motors.

@@ -7,6 +7,7 @@
 #include "common/control/channel.h"
 #include "common/control/contact.h"
 #include "common/control/flow_sources.h"
+#include "common/control/hand_coupling.h"
 #include "proto/spec/scene_spec.h"
 
 /// Builds the control laws from a scene. Both ends of a channel use this code, so they cannot differ.
@@ -14,6 +15,8 @@ namespace tandem::setup {
 
 [[nodiscard]] std::string_view law_name(LawKind law) noexcept;
 [[nodiscard]] control::FlowSourceMode flow_source_mode(MfsMode mode) noexcept;
+
+[[nodiscard]] control::HandCoupling hand_coupling(HandCouplingKind kind) noexcept;
 
 /// Returns the surfaces of the scene's own environment, for a virtual tool and its copies.
 [[nodiscard]] control::ContactSet contacts(const EnvironmentSpec& environment) noexcept;

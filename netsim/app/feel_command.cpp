@@ -30,7 +30,7 @@ namespace {
 constexpr std::size_t kRecordingsMax = 8;
 
 struct FeelArguments {
-  std::string scene, channel, mfs, contacts, probes, recordings, json, csv;
+  std::string scene, channel, coupling, mfs, contacts, probes, recordings, json, csv;
   std::vector<std::string> hands, limits;
   double seeds = 20, jobs = 0;
   double assist = -1;  ///< [N]; below 0: that of the scene
@@ -129,10 +129,11 @@ int feel_command(const FeelArguments& a) {
   }
   if (auto scene = load_scene(a.scene)) {
     feel.scene = std::move(*scene);
+    set_coupling(feel.scene, a.coupling);
     set_law(feel.scene, a.channel, a.mfs);
     mistakes.add("--contacts", set_contacts(a, feel.scene));
     mistakes.add(set_assist(a, feel.scene));
-    mistakes.add("--channel", law_conflict(feel.scene, a.scene));
+    mistakes.add(law_option(a.channel, a.coupling), law_conflict(feel.scene, a.scene));
   } else {
     mistakes.add(to_text(scene.error()));
   }
@@ -166,6 +167,9 @@ int feel_command(const FeelArguments& a) {
   report.scene = a.scene;
   report.spec = feel.scene;
   report.channel = setup::law_name(feel.scene.channel.law);
+  if (feel.scene.channel.coupling != HandCouplingKind::kEsc)
+    report.channel +=
+        ", coupling " + std::string(control::row_of(setup::hand_coupling(feel.scene.channel.coupling)).name);
   report.plain_hands = a.plain;
   for (const auto& recording : feel.recordings) report.recordings.push_back(recording.name);
   io::StatusLine line{a.quiet || isatty(STDERR_FILENO) == 0};
@@ -218,10 +222,8 @@ void add_feel_command(const io::Command& root) {
   command.add_option("--recordings", a.recordings, "a folder: every motion_*.csv in it that needs no options")
       .value_name("DIR");
   command.add_flag("--plain-hands", a.plain, "hands without tremor and noise, all with the same impedance");
-  command
-      .add_option("--channel", a.channel,
-                  "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
-      .check(io::one_of({"replica", "set_position", "raw"}));
+  command.add_option("--channel", a.channel, law_help()).check(io::one_of(law_names()));
+  command.add_option("--coupling", a.coupling, coupling_help()).check(io::one_of(coupling_names()));
   command
       .add_option("--contacts", a.contacts,
                   "how hands feel contacts of a SLAVE seat's device, instead of the scene's tool { contacts }: "

@@ -27,7 +27,7 @@ namespace tandem::netsim {
 namespace {
 
 struct RunArguments {
-  std::string scene, channel, mfs, json, trace, log, replay;
+  std::string scene, channel, coupling, mfs, json, trace, log, replay;
   std::vector<std::string> hands;
   double duration_s = 0;
   bool check = false, quiet = false, verbose = false, no_quality = false;
@@ -104,8 +104,9 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
   if (arguments.duration_s > 0) setup.scene.duration = arguments.duration_s;
   if (setup.scene.endless())
     mistakes.add("--duration: " + endless_scene_error(arguments.scene, "give --duration S, such as --duration 60"));
+  set_coupling(setup.scene, arguments.coupling);
   set_law(setup.scene, arguments.channel, arguments.mfs);
-  mistakes.add(arguments.channel.empty() ? "--mfs" : "--channel", law_conflict(setup.scene, arguments.scene));
+  mistakes.add(law_option(arguments.channel, arguments.coupling), law_conflict(setup.scene, arguments.scene));
   for (const std::string& text : arguments.hands) {
     const auto cut = text.find('=');
     const std::string seat = text.substr(0, cut);
@@ -242,12 +243,8 @@ void add_run_command(const io::Command& root) {
                   "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
       .value_name("SEAT=FILE...")
       .one_value();
-  command
-      .add_option("--channel", arguments.channel,
-                  "channel law instead of the scene's: replica (every client simulates the tool; default of scenes "
-                  "that name none), set_position (springs between hand and tool, held passive by a ledger at both "
-                  "ends), raw (without passivity control)")
-      .check(io::one_of({"replica", "set_position", "raw"}));
+  command.add_option("--channel", arguments.channel, law_help()).check(io::one_of(law_names()));
+  command.add_option("--coupling", arguments.coupling, coupling_help()).check(io::one_of(coupling_names()));
   command
       .add_option(
           "--mfs", arguments.mfs,

@@ -21,7 +21,7 @@ namespace tandem::netsim {
 namespace {
 
 struct SweepArguments {
-  std::string scene, delay, jitter, loss, metric = "tracking_rms_m", channel, mfs, json, csv;
+  std::string scene, delay, jitter, loss, metric = "tracking_rms_m", channel, coupling, mfs, json, csv;
   std::uint64_t seed = 1;
   double seeds = 1, jobs = 0, duration_s = 0;
   bool quiet = false;
@@ -72,10 +72,12 @@ SweepSpec understand(const SweepArguments& a, io::UsageErrors& mistakes) {
                    " is measured in phases that the scene marks `contact: true`; the run of " + a.scene + " has none");
   }
   const auto add = [&](const std::string& option) { spec.options += (spec.options.empty() ? "" : " ") + option; };
+  set_coupling(spec.scene, a.coupling);
   set_law(spec.scene, a.channel, a.mfs);
   if (!a.channel.empty()) add("--channel " + a.channel);
+  if (!a.coupling.empty()) add("--coupling " + a.coupling);
   if (!a.mfs.empty()) add("--mfs " + a.mfs);
-  mistakes.add(a.channel.empty() ? "--mfs" : "--channel", law_conflict(spec.scene, a.scene));
+  mistakes.add(law_option(a.channel, a.coupling), law_conflict(spec.scene, a.scene));
   return spec;
 }
 
@@ -142,10 +144,8 @@ void add_sweep_command(const io::Command& root) {
   command.add_option("--duration", a.duration_s, "session time instead of the scene's")
       .check(io::number_in(0.1, 3e6, "s"))
       .value_name("S");
-  command
-      .add_option("--channel", a.channel,
-                  "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
-      .check(io::one_of({"replica", "set_position", "raw"}));
+  command.add_option("--channel", a.channel, law_help()).check(io::one_of(law_names()));
+  command.add_option("--coupling", a.coupling, coupling_help()).check(io::one_of(coupling_names()));
   command.add_option("--mfs", a.mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       .check(io::one_of({"open", "tank", "seed", "seed_signed"}));
   command.add_option("--json", a.json, "writes all points and seeds; `-`: to standard output").value_name("FILE|-");

@@ -26,6 +26,7 @@ bool InvariantChecker::begin_recovery_phase() noexcept {
   };
   const auto pushed = [](const SeatSpec& s) { return !s.hand.deviations.empty(); };
   const bool ordinary = scene_->channel.law == LawKind::kSetPosition && scene_->channel.mfs == MfsMode::kOpen &&
+                        scene_->channel.coupling == HandCouplingKind::kEsc &&
                         scene_->channel.eta >= ChannelSpec{}.eta && scene_->tools.size() == 1 &&
                         std::ranges::none_of(scene_->seats, pushed) &&
                         std::ranges::count_if(scene_->seats, std::not_fn(passive)) == 1;

@@ -16,7 +16,20 @@ namespace tandem {
 /// Space of a port: the tip in Cartesian axes, or the joints of the device.
 enum class PortSpace : std::uint8_t { kTip, kJoint };
 /// Channel laws of a scene.
-enum class LawKind : std::uint8_t { kSetPosition, kRaw, kReplica };
+enum class LawKind : std::uint8_t { kSetPosition, kRaw, kReplica, kTdpa, kWave, kPd };
+/// Number of channel laws.
+inline constexpr std::size_t kLaws = 6;
+/// Couplings between the hands of a tool (common/control/hand_coupling.h).
+enum class HandCouplingKind : std::uint8_t {
+  kEsc,
+  kClc,
+  kMcet,
+  kNudehi,
+  kNpdSaturated,
+  kPdVariableDelay,
+  kPdPeer,
+  kAveragePosition
+};
 /// Modulation of the flow sources of law SET_POSITION: none, by a tank, or as in the source paper.
 enum class MfsMode : std::uint8_t { kOpen, kTank, kSeed, kSeedSigned };
 /// A hand, or a slave with a seat of its own.
@@ -27,21 +40,23 @@ enum class Role : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver };
 /// Parameters of the channel between a seat and the server (ARCHITECTURE.md, "The channel, as built"). Gains are tip
 /// gains; joint ports scale them by diag(J^T J).
 struct ChannelSpec {
-  LawKind law = LawKind::kReplica;  ///< channel law
-  MfsMode mfs = MfsMode::kOpen;     ///< modulation of the flow sources
-  double k = 1500;                  ///< stiffness without delay [N/m]
-  double k_min = 60;                ///< smallest stiffness at any delay [N/m]
-  double k_delay = 5;               ///< k <= k_delay / d [N s/m]
-  double b_delay = 0.25;            ///< added damping = b_delay k d [1]
-  double lead_max = 0.1;            ///< longest extrapolation [s]; 0: none
-  bool effort_half = true;          ///< the server's target includes the effort
-  double e0 = 0.05;                 ///< initial energy of each axis at each end [J]
-  bool e0_given = false;            ///< the scene sets e0; otherwise the law does, see `choose_law`
-  double eta = 0.9;                 ///< share of the dissipation that the ledger may spend
-  double margin_max = 0.1;          ///< unspent energy above this is forfeited [J]
-  double v_app = 0.1;               ///< approach speed after an outage [m/s]
-  double b_rel = 14;                ///< REPLICA: damping of the tool relative to the reference that drives it [N s/m]
-  double tank = 0.05;               ///< MFS tank and authority tank, initial [J]
+  LawKind law = LawKind::kReplica;                     ///< channel law
+  HandCouplingKind coupling = HandCouplingKind::kEsc;  ///< between the hands
+  MfsMode mfs = MfsMode::kOpen;                        ///< modulation of the flow sources
+  double k = 1500;                                     ///< stiffness without delay [N/m]
+  double k_min = 60;                                   ///< smallest stiffness at any delay [N/m]
+  double k_delay = 5;                                  ///< k <= k_delay / d [N s/m]
+  double b_delay = 0.25;                               ///< added damping = b_delay k d [1]
+  double impedance = 5;                                ///< of the waves of law WAVE [N s/m]
+  double lead_max = 0.1;                               ///< longest extrapolation [s]; 0: none
+  bool effort_half = true;                             ///< the server's target includes the effort
+  double e0 = 0.05;                                    ///< initial energy of each axis at each end [J]
+  bool e0_given = false;                               ///< the scene sets e0; otherwise the law does, see `choose_law`
+  double eta = 0.9;                                    ///< share of the dissipation that the ledger may spend
+  double margin_max = 0.1;                             ///< unspent energy above this is forfeited [J]
+  double v_app = 0.1;                                  ///< approach speed after an outage [m/s]
+  double b_rel = 14;   ///< REPLICA: damping of the tool relative to the reference that drives it [N s/m]
+  double tank = 0.05;  ///< MFS tank and authority tank, initial [J]
 };
 
 /// Coupling of a master's device to its virtual mass (common/control/ipc.h).

@@ -17,7 +17,10 @@ using text::write_keys;
 
 // Enumerators are converted by number; the assertion on the last of each pair fails if one side gains an enumerator.
 static_assert(static_cast<int>(LawKind::kReplica) == pb::Channel::REPLICA &&
-              pb::Channel::Law_MAX == pb::Channel::REPLICA);
+              static_cast<int>(LawKind::kPd) == pb::Channel::PD && pb::Channel::Law_MAX == pb::Channel::PD &&
+              pb::Channel::Law_ARRAYSIZE == kLaws);
+static_assert(static_cast<int>(HandCouplingKind::kAveragePosition) == pb::Channel::AVERAGE_POSITION &&
+              pb::Channel::Coupling_MAX == pb::Channel::AVERAGE_POSITION);
 static_assert(static_cast<int>(MfsMode::kSeedSigned) == pb::Channel::SEED_SIGNED &&
               pb::Channel::Mfs_MAX == pb::Channel::SEED_SIGNED);
 static_assert(static_cast<int>(ContactsMode::kEstimated) == pb::Tool::ESTIMATED &&
@@ -29,7 +32,7 @@ static_assert(static_cast<int>(HandModel::kRecorded) == pb::Hand::RECORDED &&
 static_assert(static_cast<int>(HandModel::kLettingGo) == pb::Hand::LETTING_GO);
 static_assert(static_cast<int>(PortSpace::kJoint) == pb::Scene::JOINT && pb::Scene::Port_MAX == pb::Scene::JOINT);
 
-constexpr std::array<MessageKey<ChannelSpec>, 12> kChannelKeys{{{"k_n_m", &ChannelSpec::k},
+constexpr std::array<MessageKey<ChannelSpec>, 13> kChannelKeys{{{"k_n_m", &ChannelSpec::k},
                                                                 {"k_min_n_m", &ChannelSpec::k_min},
                                                                 {"k_delay_n_s_m", &ChannelSpec::k_delay},
                                                                 {"b_delay", &ChannelSpec::b_delay},
@@ -40,7 +43,8 @@ constexpr std::array<MessageKey<ChannelSpec>, 12> kChannelKeys{{{"k_n_m", &Chann
                                                                 {"margin_max_j", &ChannelSpec::margin_max},
                                                                 {"v_app_m_s", &ChannelSpec::v_app},
                                                                 {"tank_j", &ChannelSpec::tank},
-                                                                {"b_rel_n_s_m", &ChannelSpec::b_rel}}};
+                                                                {"b_rel_n_s_m", &ChannelSpec::b_rel},
+                                                                {"impedance_n_s_m", &ChannelSpec::impedance}}};
 constexpr std::array<MessageKey<CouplingSpec>, 3> kCouplingKeys{
     {{"k_c_n_m", &CouplingSpec::k_c}, {"b_n_s_m", &CouplingSpec::b}, {"m_c_kg", &CouplingSpec::m_c}}};
 constexpr std::array<MessageKey<GateSpec>, 7> kGateKeys{{{"silence_limit_ms", &GateSpec::silence_limit, 1e3},
@@ -225,6 +229,7 @@ void write_hand(const HandSpec& in, pb::Hand& out) {
 void read_channel(const pb::Channel& in, const std::string& path, MessageValidator& validator, ChannelSpec& out) {
   if (in.has_law()) out.law = static_cast<LawKind>(in.law());
   out.mfs = static_cast<MfsMode>(in.mfs());
+  out.coupling = static_cast<HandCouplingKind>(in.coupling());
   read_keys(in, kChannelKeys, out);
   // The default k_min is reduced to k of a softer channel; a written k_min above k is an error.
   if (!in.has_k_min_n_m()) out.k_min = std::min(out.k_min, out.k);
@@ -306,6 +311,7 @@ void read_slave(const pb::Slave& in, std::size_t dof, const std::string& path, M
 void write_channel(const ChannelSpec& in, pb::Channel& out) {
   out.set_law(static_cast<pb::Channel::Law>(in.law));
   out.set_mfs(static_cast<pb::Channel::Mfs>(in.mfs));
+  if (in.coupling != HandCouplingKind::kEsc) out.set_coupling(static_cast<pb::Channel::Coupling>(in.coupling));
   write_keys(in, kChannelKeys, out);
 }
 

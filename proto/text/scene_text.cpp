@@ -42,7 +42,33 @@ void choose_law(SceneSpec& scene, LawKind law) noexcept {
   scene.channel.e0 = scene.channel.e0_given ? std::max(scene.channel.e0, own) : own;
 }
 
+namespace {
+
+std::optional<LawProblem> coupling_problem(const SceneSpec& scene) {
+  const HandCouplingKind coupling = scene.channel.coupling;
+  if (coupling == HandCouplingKind::kEsc) return std::nullopt;
+  const LawKind law = scene.channel.law;
+  const std::string key = "channel.coupling";
+  if (law != LawKind::kSetPosition && law != LawKind::kPd && law != LawKind::kRaw)
+    return LawProblem{key,
+                      "couples hands by positions that the server combines; it needs law: SET_POSITION, PD or RAW, "
+                      "named explicitly"};
+  if (scene.channel.mfs != MfsMode::kOpen) return LawProblem{key, "has no flow sources; it needs mfs: OPEN"};
+  if (scene.port != PortSpace::kTip) return LawProblem{key, "needs port: TIP"};
+  if (scene.tools.size() != 1 || scene.tools[0].remote)
+    return LawProblem{key, "needs exactly one tool, and none that a SLAVE seat serves"};
+  const bool any_number = coupling == HandCouplingKind::kPdPeer || coupling == HandCouplingKind::kAveragePosition;
+  if (!any_number && scene.masters() != 2)
+    return LawProblem{key, "has equations for two hands; the scene has " +
+                               text::number_text(static_cast<double>(scene.masters())) +
+                               " MASTER seats. ESC, PD_PEER and AVERAGE_POSITION take any number"};
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<LawProblem> law_problem(const SceneSpec& scene) {
+  if (auto problem = coupling_problem(scene)) return problem;
   if (scene.channel.e0 > kE0Max)  // reachable by choose_law only: scene files have a lower maximum
     return LawProblem{"gate.force_max_n", "force_max_n^2 / (2 k_min_n_m) = " + text::number_text(scene.channel.e0) +
                                               " J must be at most " + text::number_text(kE0Max) +

@@ -68,6 +68,10 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   setup.clock_runs_while_stopped = scene.clock_runs_while_stopped;
   setup.unsafe_gains = scene.unsafe_gains;
   setup.channel = scene.channel;
+  if (scene.channel.coupling == HandCouplingKind::kPdPeer && scene.masters() > 1) {  // one spring to each other hand
+    const auto springs = static_cast<double>(scene.masters() - 1);
+    for (double* const gain : {&setup.channel.k, &setup.channel.k_min, &setup.channel.k_delay}) *gain *= springs;
+  }
   setup.coupling = scene.coupling;
   setup.gate = scene.gate;
   setup.alpha_slew = scene.alpha_slew;

@@ -40,6 +40,12 @@ SharedControl::SharedControl(const SceneSpec& scene, std::vector<std::unique_ptr
       present_(present),
       masters_(scene.masters()),
       replica_(scene.channel.law == LawKind::kReplica),
+      coupling_(setup::hand_coupling(scene.channel.coupling)),
+      coupling_params_{.axes = scene.dof,
+                       .k = seat_setup(scene, 0).channel.k,
+                       .saturation = scene.gate.force_max,
+                       .v_app = scene.channel.v_app,
+                       .dt = 1.0 / scene.tick_hz},
       hub_(hub_params(scene)) {
   offsets_.fill(offset_of(scene, scale));
   tools_.reserve(scene.tools.size());
@@ -253,7 +259,44 @@ void SharedControl::fill_tool_target(std::size_t i) noexcept {
     out.x[a] = hub_.target(i)[a] + offsets_[i][a];
     // Until the seat is present, the target moves with its own hand, so that nothing pulls.
     out.v[a] = present ? flow[a] + offsets_[i].last_step()[a] / dt_ : seat.last_state().port.v[a];
-    out.f[a] = end.k[a] * (end.ref[a] - out.x[a]);
+    out.f[a] = end.k[a] * (end.ref[a] - hub_.target(i)[a]);
+  }
+  if (present) seat.end().replace_velocity(out.v);
+  if (i < masters_ && coupling_ != control::HandCoupling::kEsc) fill_coupled_target(i, out);
+}
+
+/// The tool as the couplings see it.
+control::CoupledBody SharedControl::coupled_tool() const noexcept {
+  const control::ToolPort& port = hub_.tool(0);
+  control::CoupledBody tool{.x = port.x, .v = port.v, .f = port.surface_force};
+  if (const hal::SteppedDevice* const slave = tools_[0].slave())
+    for (std::size_t a = 0; a < scene_->dof; ++a) tool.f[a] = slave->state().f_env[static_cast<Eigen::Index>(a)];
+  return tool;
+}
+
+/// Replaces the target of a present hand by that of the coupling. Hands are compared at the tool: each without the
+/// offset with which it engaged.
+void SharedControl::fill_coupled_target(std::size_t i, PortSample& out) noexcept {
+  std::array<control::CoupledBody, kMastersMax> bodies;
+  std::size_t present = 0, own = 0;
+  for (std::size_t h = 0; h < masters_; ++h) {
+    if (!present_[h]) continue;
+    if (h == i) own = present;
+    const PortSample& heard = seats_[h].last_state().port;
+    control::CoupledBody& body = bodies[present++];
+    body = {.x = heard.x, .v = heard.v, .f = heard.f, .alpha = hub_.coupling(h, 0).alpha};
+    for (std::size_t a = 0; a < scene_->dof; ++a) body.x[a] -= offsets_[h][a];
+  }
+  control::CoupledTarget& target = coupled_targets_[i];
+  if (!present_[i]) {
+    target = {.x = hub_.target(i), .v = {}};  // where the hand begins
+    return;
+  }
+  target = control::coupled_target(coupling_, coupling_params_, std::span{bodies}.first(present), own, coupled_tool(),
+                                   target);
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    out.x[a] = target.x[a] + offsets_[i][a];
+    out.v[a] = target.v[a] + offsets_[i].last_step()[a] / dt_;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/control/esc_hub.h"
+#include "common/control/hand_coupling.h"
 #include "common/control/reengage_offset.h"
 #include "proto/spec/scene_spec.h"
 #include "server/session/leading_hands.h"
@@ -58,6 +59,8 @@ class SharedControl {
   void fill_hand_target(std::size_t i, std::size_t tool, const LeadingHands& hands,
                         wire::ToolForce& out) const noexcept TANDEM_REALTIME;
   void fill_tool_target(std::size_t i) noexcept TANDEM_REALTIME;
+  void fill_coupled_target(std::size_t i, PortSample& out) noexcept TANDEM_REALTIME;
+  [[nodiscard]] control::CoupledBody coupled_tool() const noexcept TANDEM_REALTIME;
   void fill_account(std::size_t i, std::size_t tool, double alpha, wire::ToolForce& out) const noexcept TANDEM_REALTIME;
   void fill_contacts(SeatEndpoint& seat, std::uint32_t tick) const noexcept TANDEM_REALTIME;
 
@@ -67,11 +70,14 @@ class SharedControl {
   const std::array<bool, kSeatsMax>& present_;
   std::size_t masters_;
   bool replica_;
+  control::HandCoupling coupling_;
+  control::HandCouplingParams coupling_params_;
   control::EscHub hub_;
   std::vector<Tool> tools_;
   std::array<control::ReengageOffset, kSeatsMax> offsets_;
-  std::array<std::uint32_t, kSeatsMax> engaged_ticks_{};     ///< since the seat engaged
-  std::array<control::NearEnd, kToolsMax> near_ends_{};      ///< scratch space of `move_predictions`
+  std::array<control::CoupledTarget, kMastersMax> coupled_targets_{};  ///< couplings other than ESC
+  std::array<std::uint32_t, kSeatsMax> engaged_ticks_{};               ///< since the seat engaged
+  std::array<control::NearEnd, kToolsMax> near_ends_{};                ///< scratch space of `move_predictions`
   std::array<std::uint64_t, kToolsMax> slave_generation_{};  ///< newest STATE that the contact source received
 };
 

@@ -245,26 +245,5 @@ TEST(SetPosition, MovesWithoutHeap) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
-TEST(ChannelLaws, AreFoundByNameAndDeclareTheirGuarantees) {
-  const auto ours = make_channel_end("set_position", plain());
-  const auto raw = make_channel_end("raw", plain());
-  ASSERT_TRUE(ours && raw);
-  EXPECT_TRUE(ours->guarantees().ledger);
-  EXPECT_TRUE(ours->guarantees().bounded_step);
-  EXPECT_FALSE(raw->guarantees().ledger);
-  EXPECT_FALSE(raw->guarantees().bounded_step);
-  EXPECT_EQ(make_channel_end("no such law", plain()), nullptr);
-  EXPECT_EQ(channel_laws().front().name, "replica");
-}
-
-TEST(RawChannel, JumpsAtOnceAndOverdrawsTheLedger) {
-  RawEnd end(plain());
-  end.engage({}, 0);
-  const EndState& s = end.move(towards(0.1));  // 5 J for 50 mJ
-  EXPECT_EQ(s.ref[0], 0.1);
-  EXPECT_NEAR(s.paid[0], 5, 1e-12);
-  EXPECT_FALSE(end.ledger(0).holds());
-}
-
 }  // namespace
 }  // namespace tandem::control
