@@ -2,6 +2,7 @@
 // tests/install/sample with it and runs the sample's tests. Needs no network and no input.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "tests/install/installed_package.h"
