@@ -5,7 +5,7 @@
 
 #include "proto/spec/scene_spec.h"
 
-/// The options --channel and --mfs of the commands that run a scene.
+/// The options --channel, --coupling and --mfs of the commands that run a scene.
 namespace tandem::netsim {
 
 /// Replaces the coupling between the hands of a scene. @param coupling  as typed; empty: that of the scene stays
