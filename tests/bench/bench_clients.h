@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -27,6 +28,7 @@ class BareClient {
   void hear(Time now, std::span<const std::byte> bytes) {
     const auto opened = link_.open(now, bytes);
     if (!opened) return;
+    counter_ = std::max(counter_, opened->counter);
     if (opened->type == wire::Type::kPathChallenge) {
       if (const auto asked = codec_.decode_path(opened->plaintext)) answer_ = asked->message;
       return;
@@ -34,7 +36,6 @@ class BareClient {
     const auto force = codec_.decode_force(opened->plaintext);
     if (!force || !opened->newer) return;
     link_.accept(now, *opened, force->preamble);
-    ++forces_;
     state_.engaged = force->message.engage;
     if (!settled_) state_.port.x = force->message.port.x;  // position of the tool: the coupling has no elongation
     settled_ = state_.engaged;
@@ -52,7 +53,8 @@ class BareClient {
   [[nodiscard]] const transport::SecureChannel& link() const { return link_; }
   [[nodiscard]] bool settled() const { return settled_; }
   [[nodiscard]] bool answers() const { return answer_.has_value(); }
-  [[nodiscard]] std::uint64_t forces() const { return forces_; }
+  /// Highest counter received. Its growth is the number of datagrams that the server sent, whatever the socket lost.
+  [[nodiscard]] std::uint64_t counter() const { return counter_; }
 
  private:
   transport::SecureChannel link_;
@@ -60,7 +62,7 @@ class BareClient {
   wire::StateMessage state_;
   std::optional<wire::PathMessage> answer_;
   bool settled_ = false;
-  std::uint64_t forces_ = 0;
+  std::uint64_t counter_ = 0;
 };
 
 /// Returns the capabilities of the device that the scene describes for a seat.

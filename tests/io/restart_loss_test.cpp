@@ -39,6 +39,7 @@ constexpr double kOvershoot = 0.006,
                  kOvershootKg = 0.1;  // [m]; up to this mass as in virtual time, heavier devices are only printed
 constexpr double kDrag = 3;           // [N]
 constexpr double kDamping = 5;        // [N s/m] remaining damping after the force has ended
+constexpr int kSessions = 5;          // attempts in which the hands may not press as they should
 constexpr std::size_t kAround = 5;    // ticks around a tick from which its speed is estimated
 
 double tank(double mass_kg) { return std::min(0.100, std::max(0.020, 0.180 * mass_kg)); }
@@ -90,7 +91,7 @@ struct Loss {
   int ticks = 0;
 };
 
-Loss loss_of(const Trace& t, const Case& c, double target) {
+Loss loss_of(const Trace& t, double target) {
   Loss loss;
   std::size_t fresh = t.size() - 1;  // row of the last accepted datagram
   while (fresh > 0 && t.at(fresh, "silence") >= t.at(fresh - 1, "silence") + 1e-9) --fresh;
@@ -117,21 +118,27 @@ Loss loss_of(const Trace& t, const Case& c, double target) {
           speed, std::abs(t.at(k + 1, "x") - t.at(k, "x")) / std::max(0.9e-3, t.at(k + 1, "t_s") - t.at(k, "t_s")));
     loss.left_n = std::max(loss.left_n, std::abs(t.at(i, "f_gate_x")) - kDamping * speed);
   }
-  EXPECT_NEAR(loss.force_n, c.force_n, 0.15 * c.force_n + 0.1) << "pressed as it should, or the table is not the table";
   return loss;
 }
 
-void lose(Grip grip, const char* name) {
+/// Whether the hand pressed as the table says. It does not if the machine stood still shortly before the kill.
+bool pressed_as_planned(const Loss& loss, const Case& c) {
+  return std::abs(loss.force_n - c.force_n) <= 0.15 * c.force_n + 0.1;
+}
+
+/// Runs one session to the kill of its server and judges every client.
+/// @return whether every hand pressed as the table says
+bool lose_once(Grip grip, const char* name) {
   const Folder folder;
   const std::string scene = folder.write("loss.textproto", scene_of(grip));
   Process host = hosting(scene);
-  ASSERT_FALSE(address_of(host).empty()) << host.err();
+  EXPECT_FALSE(address_of(host).empty()) << host.err();
   std::vector<Process> clients;
   for (const Case& c : kCases)
     clients.push_back(client(address_of(host), c.seat,
                              {"--reconnect-timeout", "0", "--trace", folder.file(std::string(c.seat) + ".csv"),
                               "--json", folder.file(std::string(c.seat) + ".json")}));
-  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  EXPECT_TRUE(host.wait_for("the session runs")) << host.err();
   const auto session_time = [&] {  // as the first client wrote it about 20 ms ago
     const std::string text = folder.read("trainer.csv");
     const auto end = text.rfind('\n'), begin = end == std::string::npos ? end : text.rfind('\n', end - 1);
@@ -146,7 +153,8 @@ void lose(Grip grip, const char* name) {
   std::this_thread::sleep_for(
       milliseconds(std::max(0, static_cast<int>(1e3 * (kHandsChange - kAimBefore - seen - 0.010)))));
   host.signal(SIGKILL);
-  ASSERT_EQ(host.wait(), -SIGKILL);
+  EXPECT_EQ(host.wait(), -SIGKILL);
+  bool as_the_table_says = true;
   std::this_thread::sleep_for(milliseconds(800));
   for (Process& c : clients) c.signal(SIGINT);
   for (std::size_t i = 0; i < kCases.size(); ++i) {
@@ -154,7 +162,8 @@ void lose(Grip grip, const char* name) {
     SCOPED_TRACE(c.seat);
     EXPECT_EQ(clients[i].wait(), 0) << clients[i].err();
     const double target = target_of(c, grip == Grip::kHolding ? 135 : 1000);
-    const Loss loss = loss_of(Trace(folder.read(std::string(c.seat) + ".csv")), c, target);
+    const Loss loss = loss_of(Trace(folder.read(std::string(c.seat) + ".csv")), target);
+    as_the_table_says = as_the_table_says && pressed_as_planned(loss, c);
     EXPECT_LE(loss.energy_j, tank(c.mass_kg) + kBelowTank);
     EXPECT_LE(loss.left_n, 0.05) << "the remaining force is damping only";
     if (grip == Grip::kHolding && c.mass_kg <= kOvershootKg) {
@@ -170,6 +179,15 @@ void lose(Grip grip, const char* name) {
         1e3 * tank(c.mass_kg), grip == Grip::kHolding ? "beyond its target " : "",
         grip == Grip::kHolding ? 1e3 * loss.beyond_m : 0, grip == Grip::kHolding ? "" : " -", -1e3 * loss.hands_s);
   }
+  return as_the_table_says;
+}
+
+/// Repeats a session in which the machine stood still before the kill, since it measured another case. The energy is
+/// judged in every session.
+void lose(Grip grip, const char* name) {
+  for (int session = 0; session < kSessions && !testing::Test::HasFailure(); ++session)
+    if (lose_once(grip, name)) return;
+  ADD_FAILURE() << "no session of " << kSessions << " in which all hands pressed as they should";
 }
 
 TEST(LinkLoss, GivesReleasedHandsAtMostTheTankWhenTheServerIsKilled) { lose(Grip::kReleased, "released"); }
