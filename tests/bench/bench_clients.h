@@ -36,6 +36,7 @@ class BareClient {
     const auto force = codec_.decode_force(opened->plaintext);
     if (!force || !opened->newer) return;
     link_.accept(now, *opened, force->preamble);
+    ++forces_;
     state_.engaged = force->message.engage;
     if (!settled_) state_.port.x = force->message.port.x;  // position of the tool: the coupling has no elongation
     settled_ = state_.engaged;
@@ -53,6 +54,7 @@ class BareClient {
   [[nodiscard]] const transport::SecureChannel& link() const { return link_; }
   [[nodiscard]] bool settled() const { return settled_; }
   [[nodiscard]] bool answers() const { return answer_.has_value(); }
+  [[nodiscard]] std::uint64_t forces() const { return forces_; }
   /// Highest counter received. Its growth is the number of datagrams that the server sent, whatever the socket lost.
   [[nodiscard]] std::uint64_t counter() const { return counter_; }
 
@@ -62,7 +64,7 @@ class BareClient {
   wire::StateMessage state_;
   std::optional<wire::PathMessage> answer_;
   bool settled_ = false;
-  std::uint64_t counter_ = 0;
+  std::uint64_t counter_ = 0, forces_ = 0;
 };
 
 /// Returns the capabilities of the device that the scene describes for a seat.
