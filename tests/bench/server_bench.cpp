@@ -3,6 +3,7 @@
 // of the same datagrams in the same run.
 #include <pthread.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,8 @@
 #include "common/io/realtime.h"
 #include "server/app/process/shard.h"
 #include "tests/bench/bench_clients.h"
+#include "tests/bench/instruction_count.h"
+#include "tests/bench/served_sessions.h"
 #include "tests/bench/udp_load.h"
 #include "tests/support/simulation_run.h"
 
@@ -27,103 +30,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// One datagram in memory.
-struct Carried {
-  std::array<std::byte, transport::kDatagramMax> bytes;
-  std::size_t size = 0;
-  std::size_t client = 0;
-};
-
-server::PeerAddress address_of(std::size_t client) {
-  server::PeerAddress e;
-  e.bytes[0] = static_cast<std::byte>(client);
-  e.bytes[1] = static_cast<std::byte>(client >> 8);
-  e.size = 2;
-  return e;
-}
-
-/// Does all work of a server in a tick. callgrind counts inside this function and needs its symbol: not inlined.
-/// @return number of datagrams in `out`
-[[gnu::noinline]] std::size_t serve_one_tick(std::vector<std::unique_ptr<server::Session>>& sessions, std::size_t seats,
-                                             Time now, std::span<const Carried> in, std::span<Carried> out) {
-  for (const Carried& d : in)
-    sessions[d.client / seats]->on_datagram(now, address_of(d.client), std::span{d.bytes}.first(d.size));
-  std::size_t sent = 0;
-  for (auto& session : sessions) {
-    session->on_tick(now, 0);
-    while (sent < out.size()) {
-      const auto due = session->poll_transmit(now, out[sent].bytes);
-      if (!due) break;
-      out[sent].size = due->size;
-      out[sent].client = std::to_integer<std::size_t>(due->to.bytes[0]) | std::to_integer<std::size_t>(due->to.bytes[1])
-                                                                              << 8;
-      ++sent;
-    }
-  }
-  return sent;
-}
-
-std::unique_ptr<server::Session> session_of(const SceneSpec& scene) {
-  auto slaves = *server::make_local_slaves(scene, Time{});
-  return std::make_unique<server::Session>(scene, std::move(slaves.devices), slaves.scale);
-}
-
-/// Runs sessions in memory, for callgrind. @return exit code
-int serve(const std::string& name, int ticks) {
-  const SceneSpec scene = test::shipped(name);
-  constexpr std::size_t kSessions = 8;
-  const std::size_t seats = scene.seats.size();
-  std::vector<std::unique_ptr<server::Session>> sessions;
-  std::vector<std::unique_ptr<BareClient>> clients;
-  Time now{1h};
-  for (std::size_t s = 0; s < kSessions; ++s) {
-    sessions.push_back(session_of(scene));
-    for (std::size_t i = 0; i < seats; ++i)
-      clients.push_back(std::make_unique<BareClient>(
-          *netsim::simulate_join(*sessions.back(), now, i, caps_of(scene, i), RandomKey{s}, i)));
-  }
-  std::vector<Carried> in(2 * clients.size()), out(2 * clients.size());
-  for (int tick = 0; tick < ticks; ++tick, now += 1ms) {
-    std::size_t count = 0;
-    for (std::size_t c = 0; c < clients.size(); ++c)
-      for (bool more = true; more;) {
-        more = clients[c]->answers();
-        in[count].client = c;
-        in[count].size = clients[c]->send(now, static_cast<std::uint32_t>(tick), in[count].bytes);
-        ++count;
-      }
-    const std::size_t sent = serve_one_tick(sessions, seats, now, std::span{in}.first(count), out);
-    for (const Carried& d : std::span{out}.first(sent)) clients[d.client]->hear(now, std::span{d.bytes}.first(d.size));
-  }
-  for (const auto& session : sessions)
-    if (session->state() != wire::SessionState::kRunning) return 1;  // otherwise it measured waiting participants
-  std::printf("%zu client-ticks\n", clients.size() * static_cast<std::size_t>(ticks));
-  return 0;
-}
-
-/// Returns the instructions inside `function`; -1 if callgrind did not run.
-double collected(const std::string& self, const std::string& scene, int ticks, const std::string& function) {
-  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '--toggle-collect=" + function +
-                              "' " + self + " --serve " + scene + " " + std::to_string(ticks) + " 2>&1";
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return -1;
-  double instructions = -1;
-  char line[512];
-  while (std::fgets(line, sizeof line, pipe) != nullptr)
-    if (const char* found = std::strstr(line, "Collected :")) instructions = std::atof(found + 11);
-  return pclose(pipe) == 0 ? instructions : -1;
-}
-
 /// Returns the instructions inside `function` per client-tick after all hands are engaged; nothing if callgrind did not
 /// run.
 std::optional<double> per_client_tick(const std::string& self, const std::string& scene, const std::string& function) {
   constexpr int kFew = 300, kMany = 1300;
-  const double few = collected(self, scene, kFew, function), many = collected(self, scene, kMany, function);
-  if (few < 0 || many < 0) return std::nullopt;
-  return (many - few) / (8.0 * static_cast<double>(test::shipped(scene).seats.size()) * (kMany - kFew));
+  const auto run = [&](int ticks) {
+    return count_instructions(self + " --serve " + scene + " " + std::to_string(ticks), function,
+                              "server_bench." + std::to_string(getpid()) + ".callgrind");
+  };
+  const auto few = run(kFew), many = run(kMany);
+  if (!few || !many) return std::nullopt;
+  return (many->all - few->all) / (static_cast<double>(kSessions * test::shipped(scene).seats.size()) * (kMany - kFew));
 }
 
-void count_instructions(const std::string& self) {
+void print_instructions(const std::string& self) {
   std::printf(
       "user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s %10s  %s\n",
       "scene", "seats", "instructions", "its arms'", "other work of the server");
@@ -316,8 +236,8 @@ void compare_with_echo() {
 
 int main(int argc, char** argv) {
   const std::string only = argc > 1 ? argv[1] : "";
-  if (argc == 4 && only == "--serve") return tandem::bench::serve(argv[2], std::atoi(argv[3]));
-  if (only != "--cpu") tandem::bench::count_instructions(argv[0]);
+  if (argc == 4 && only == "--serve") return tandem::bench::serve(tandem::test::shipped(argv[2]), std::atoi(argv[3]));
+  if (only != "--cpu") tandem::bench::print_instructions(argv[0]);
   if (only != "--instructions") tandem::bench::compare_with_echo();
   return 0;
 }

@@ -36,13 +36,13 @@ TANDEM_PACKAGES_TEST=(
   "clang-format-19: compares the sources with .clang-format"
   "clang-tidy-19: checks the sources for frequent mistakes"
   "doxygen: API documents of the public headers"
+  "valgrind: counts instructions"
 )
 
 # Further packages of ./test --full, --nightly and --bench. Without them the default ./test lists what it did not run.
 # shellcheck disable=SC2034
 TANDEM_PACKAGES_FULL=(
   "clang-19: second compiler that must decide as g++ does"
-  "valgrind: counts instructions in benchmarks"
   "faketime: makes wall clocks jump"
   "debootstrap: a fresh Debian to install the packages into"
   "iproute2: two machines with a cable between them, as network namespaces"

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <array>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "proto/text/scene_text.h"
+#include "tests/bench/instruction_count.h"
+
+namespace tandem::bench {
+
+/// Keys of a scene that this table varies.
+struct Row {
+  const char* name;
+  const char* what;
+  int axes, seats;
+  const char* slave;
+};
+inline constexpr const char* kWall = "environment { wall { axis: X at_m: 0 k_n_m: 20000 } }";
+inline constexpr std::array<Row, 7> kRows{
+    {{"one_axis", "1 axis, free, 1 seat", 1, 1, ""},
+     {"three_axes", "3 axes, free, 1 seat", 3, 1, ""},
+     {"two_seats", "3 axes, free, 2 seats", 3, 2, ""},
+     {"contact", "3 axes, contact, 2 seats", 3, 2, kWall},
+     {"arm", "3 axes, contact, 2 seats, slave an arm", 3, 2, "model: TOUCH"},
+     {"gravity", "3 axes, contact, 2 seats, slave an arm with gravity and friction", 3, 2,
+      "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"},
+     {"eight_seats", "3 axes, contact, 8 seats, slave an arm with gravity and friction", 3, 8,
+      "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"}}};
+
+inline SceneSpec scene_of(const Row& row) {
+  std::string text = "version: 1 tick_hz: 1000 duration_s: 600 dof: " + std::to_string(row.axes) + "\n";
+  for (int i = 0; i < row.seats; ++i)
+    text += "seat { name: \"hand" + std::to_string(i) + "\" kind: MASTER role: " + (i == 0 ? "INSTRUCTOR" : "TRAINEE") +
+            " required: true device { model: " + (row.axes == 1 ? "LINEAR" : "TOUCH") + " } }\n";
+  const std::string wall = std::strstr(row.slave, "TOUCH") != nullptr ? kWall : "";
+  text += std::string("tool { name: \"tool\" slave { ") + row.slave + " " + wall +
+          " } }\nauthority { tool: \"tool\" seat: \"hand0\" alpha: 1 }\n";
+  auto scene = parse_scene(text, row.name);
+  if (!scene) throw std::runtime_error(to_text(scene.error()));
+  return *scene;
+}
+
+inline const Row& row_of(const std::string& name) {
+  for (const Row& row : kRows)
+    if (name == row.name) return row;
+  throw std::runtime_error("no row " + name);
+}
+
+/// Returns the instructions of the server per client-tick once all hands are engaged; nothing if callgrind did not run.
+/// @param program  path of the program scene_cost
+inline std::optional<Instructions> cost_of(const std::string& program, const Row& row) {
+  constexpr int kFew = 300, kMany = 1300;
+  const auto run = [&](int ticks) {
+    return count_instructions(program + " --serve " + row.name + " " + std::to_string(ticks), "*serve_one_tick*",
+                              "scene_cost." + std::to_string(getpid()) + ".callgrind");
+  };
+  const auto few = run(kFew), many = run(kMany);
+  if (!few || !many) return std::nullopt;
+  return (*many - *few) / (static_cast<double>(kSessions) * row.seats * (kMany - kFew));
+}
+
+}  // namespace tandem::bench
