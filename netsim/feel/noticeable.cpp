@@ -48,7 +48,7 @@ std::vector<std::string> noticeable_text(const SceneSpec& scene, const std::map<
   const double bone = mean_of(numbers, "stiffness_felt_n_m"), tissue = mean_of(numbers, "stiffness_tissue_n_m");
   const double possible = in_series(scene.coupling.k_c, kBone);
   if (const double steps = noticeable_steps(bone, possible, kStiffnessWeber); !std::isnan(steps))
-    out.push_back(format("Bone feels %.0f N/m, %s %s than the %.0f N/m that this coupling can show.", bone,
+    out.push_back(format("Bone feels %.0f N/m, %s %s than the %.0f N/m of the scene's spring and bone in series.", bone,
                          steps_text(steps).c_str(), bone < possible ? "softer" : "harder", possible));
   if (const double steps = noticeable_steps(bone, tissue, kStiffnessWeber); !std::isnan(steps))
     out.push_back(format("Bone and tissue are %s apart: %s.", steps_text(steps).c_str(),

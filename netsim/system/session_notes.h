@@ -31,4 +31,8 @@ struct SessionSpan {
 /// whole lines, each beginning with `indent`.
 [[nodiscard]] std::string network_listing(const SimulationConfig& setup, const std::string& indent);
 
+/// Returns the stiffness of the spring between a master's simulated device and its tool [N/m]: the scene's k_c, or less
+/// where the device renders less.
+[[nodiscard]] double granted_stiffness(const SceneSpec& scene, std::size_t seat);
+
 }  // namespace tandem::netsim

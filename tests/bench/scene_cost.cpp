@@ -1,6 +1,6 @@
-// What a scene costs the server: user-space instructions of a sealed client-tick, from one axis in free space to eight
-// hands in contact, with the bytes of the datagrams. A scene may cost only what it names, so that the first row is the
-// cost of the system itself.
+// The cost of a scene for the server: user-space instructions of a sealed client-tick, from one axis in free space to
+// eight hands in contact, with the bytes of the datagrams. A scene may cost only what it names, so that the first row
+// is the cost of the system itself.
 #include <cstdio>
 #include <cstring>
 #include <string>

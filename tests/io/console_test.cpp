@@ -97,7 +97,7 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
   Process drain = control(address, {"drain"});
   EXPECT_EQ(drain.wait(), 0) << drain.err();
   EXPECT_EQ(host.wait(), 0) << host.err();
-  EXPECT_NE(host.err().find("drained by an operator"), std::string::npos) << host.err();
+  EXPECT_NE(host.err().find("ended by a drain command"), std::string::npos) << host.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
   EXPECT_NE(trainer.err().find("the server ended the session"), std::string::npos) << trainer.err();

@@ -4,6 +4,9 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <thread>
 
 #include "tests/io/programs.h"
@@ -50,6 +53,23 @@ TEST(NetsimTest, ShippedScenariosPassWithinTheirLimits) {
         "[ NOT RUN ] JUnit XML through xmllint: it is not installed (package libxml2-utils; ./test --full installs "
         "it)\n");
   }
+}
+
+/// The first block of text under "## Verdicts for CI" in netsim/README.md.
+std::string scenario_of_the_manual() {
+  std::ifstream file(TANDEM_SOURCE_DIR "/netsim/README.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto chapter = text.find("## Verdicts for CI"), begin = text.find("```\n", chapter),
+             end = text.find("```", begin + 4);
+  return chapter == std::string::npos || end == std::string::npos ? "" : text.substr(begin + 4, end - begin - 4);
+}
+
+TEST(NetsimTest, PassesTheScenarioOfTheManual) {
+  const Folder folder;
+  const std::string scenario = scenario_of_the_manual();
+  ASSERT_NE(scenario.find("seat_limits"), std::string::npos);
+  auto run = netsim_test({folder.write("manual.textproto", scenario)});
+  EXPECT_EQ(run.wait(), 0) << run.out() << run.err();
 }
 
 TEST(NetsimTest, ReportsWhyItFailedAndACommandThatRepeatsTheTrace) {

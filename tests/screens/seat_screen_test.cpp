@@ -146,8 +146,8 @@ TEST(SeatScreen, ExplainsABrakedToolInOneSentence) {
   rpc::Status w = words();
   w.held = "trainer left";
   EXPECT_EQ(at(80, s, setup(), w)[0].find("trainee 123.4 s BRAKED: trainer left |"), 0u) << at(80, s, setup(), w)[0];
-  w.held = "stopped by trainer: r there resumes";
-  EXPECT_NE(at(80, s, setup(), w)[0].find("BRAKED: stopped by trainer: r there resumes"), std::string::npos);
+  w.held = "stopped by trainer: key r there resumes";
+  EXPECT_NE(at(80, s, setup(), w)[0].find("BRAKED: stopped by trainer: key r there resumes"), std::string::npos);
   s.local_stop = true;
   EXPECT_NE(at(80, s, setup(), w)[0].find("BRAKED: you stopped your hand: r resumes"), std::string::npos)
       << "the reason known to the client comes first";

@@ -36,13 +36,13 @@ TEST(BrakedReason, NamesTheSeatAndTheReasonInOneSentence) {
   EXPECT_EQ(held_reason_text(s, spec), "trainer left");
   s = running();
   s.seats[0].stopped = true;
-  EXPECT_EQ(held_reason_text(s, spec), "stopped by trainer: r there resumes");
+  EXPECT_EQ(held_reason_text(s, spec), "stopped by trainer: key r there resumes");
   s = running();
   s.seats[0].alive = false;
   EXPECT_EQ(held_reason_text(s, spec), "trainer is silent: its link is lost");
   s = running();
   s.seats[0].gate = wire::GateState::kLatched;
-  EXPECT_EQ(held_reason_text(s, spec), "trainer's force is latched off: b there switches it on");
+  EXPECT_EQ(held_reason_text(s, spec), "trainer's force is latched off: key b there switches it on");
   s = running();
   s.seats[1].taken = false;
   EXPECT_EQ(held_reason_text(s, spec), "no seat with authority is engaged")

@@ -250,7 +250,7 @@ TEST(Braked, ShowsTheReasonAtTheRemainingSeat) {
   ASSERT_TRUE(trainer.wait_for("force on")) << trainer.picture();
   trainer.type("s");
   ASSERT_TRUE(trainer.wait_for("BRAKED: you stopped your hand: r resumes")) << trainer.picture();
-  ASSERT_TRUE(trainee.wait_for("BRAKED: stopped by trainer: r there resumes")) << trainee.picture();
+  ASSERT_TRUE(trainee.wait_for("BRAKED: stopped by trainer: key r there resumes")) << trainee.picture();
   trainer.type("r");
   ASSERT_TRUE(trainer.wait_until([](const Terminal& t) {
     return flat(status_of(t, "trainer")).find("resumes") == std::string::npos;

@@ -8,6 +8,7 @@
 #include "common/base/milliseconds.h"
 #include "netsim/demo/app/network_series.h"
 #include "netsim/system/run_simulation.h"
+#include "netsim/system/session_notes.h"
 #include "netsim/system/simulation.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
@@ -35,7 +36,7 @@ Springs springs_of(const RunPlan& plan) {
   if (!scene || scene->tools.empty()) return {};
   constexpr double kNone = std::numeric_limits<double>::infinity();  // no such spring
   const bool local = scene->channel.law == LawKind::kReplica;
-  return {scene->coupling.k_c, local ? kNone : scene->channel.k,
+  return {granted_stiffness(*scene, 0), local ? kNone : scene->channel.k,
           scene->tools.front().is_virtual ? kNone : scene->tools.front().k_s};
 }
 

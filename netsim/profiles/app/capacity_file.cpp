@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kForms =
     "one whole millisecond per line and opportunity to send 1500 bytes (mahimahi), or the table "
-    "direction,t_ms,opportunities";
+    "direction[up|down],t_ms[ms],opportunities[count]";
 
 bool is_table(std::string_view text) { return text.find(',') != std::string_view::npos; }
 

@@ -160,14 +160,16 @@ void NetworkOptions::add_to(const io::Command& command) {
       .add_option(
           "--capacity", capacity_,
           "the recorded capacity that the profile plays (4g-trace): mahimahi's file, one millisecond per line and "
-          "opportunity to send 1500 bytes, or a table direction,t_ms,opportunities")
+          "opportunity to send 1500 bytes, or a table "
+          "direction[up|down],t_ms[ms],opportunities[count]")
       .value_name("FILE")
       .group(group);
   command
       .add_option("--network", network_,
                   "a profile or a file, as --profile takes, or a recording: .csv with a column rtt_ms or delay_ms "
                   "(empty: lost) and t_s or t_send_s; "
-                  "or a recorded capacity: mahimahi's file, or .csv with direction,t_ms,opportunities; excludes the "
+                  "or a recorded capacity: mahimahi's file, or .csv with "
+                  "direction[up|down],t_ms[ms],opportunities[count]; excludes the "
                   "numbers")
       .value_name("NAME|FILE")
       .group(group);

@@ -50,8 +50,8 @@ std::string leaders(const SessionStatus& status, const SceneSpec& scene) {
 std::string not_ready_text(const SeatStatus& seat, const SeatSpec& spec) {
   if (!seat.taken) return seat.ever_taken ? spec.name + " left" : "no client joined as " + spec.name;
   if (!seat.alive) return spec.name + " is silent: its link is lost";
-  if (seat.stopped) return "stopped by " + spec.name + ": r there resumes";
-  if (seat.gate == wire::GateState::kLatched) return spec.name + "'s force is latched off: b there switches it on";
+  if (seat.stopped) return "stopped by " + spec.name + ": key r there resumes";
+  if (seat.gate == wire::GateState::kLatched) return spec.name + "'s force is latched off: key b there switches it on";
   if (seat.gate == wire::GateState::kFault) return spec.name + "'s device has a fault";
   return seat.ready ? "" : spec.name + " is not ready";
 }

@@ -111,7 +111,7 @@ class ServerProcess {
     const Time now = io::monotonic_now();
     output_.print_posted();
     const auto due = control_->registry().drain().due();
-    if (due && !drain_began_ && now >= *due) drain("drained by an operator");
+    if (due && !drain_began_ && now >= *due) drain("ended by a drain command");
     if (drain_began_ && now - *drain_began_ > kDrainMax) exit_now("the sessions did not end within 3 s");
     feed_watchdog();
     report_machine();

@@ -86,7 +86,7 @@ TEST_F(CapacityOptions, ReplayTheGivenFileInTheProfile) {
 TEST_F(CapacityOptions, ReportMissingAndSuperfluousOptions) {
   const std::string missing = mistake({"--profile", "4g-trace"});
   EXPECT_NE(missing.find("name it with --capacity FILE"), std::string::npos) << missing;
-  EXPECT_NE(missing.find("direction,t_ms,opportunities"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("direction[up|down],t_ms[ms],opportunities[count]"), std::string::npos) << missing;
   EXPECT_NE(mistake({"--network", "4g-trace"}).find("--capacity FILE"), std::string::npos);
   EXPECT_NE(mistake({"--profile", "4g-trace", "--capacity", path("none")}).find("--capacity: " + path("none")),
             std::string::npos);
