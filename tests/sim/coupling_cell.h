@@ -22,7 +22,7 @@ inline constexpr Contender kDefault{"replica + esc", LawKind::kReplica, HandCoup
 inline constexpr Contender kPeer{"pd + pd_peer", LawKind::kPd, HandCouplingKind::kPdPeer};
 inline constexpr Contender kAverage{"pd + average_position", LawKind::kPd, HandCouplingKind::kAveragePosition};
 
-/// What hand 0 does. It has all authority, except in kKick.
+/// Motion of hand 0, which has all authority, except in kKick.
 enum class Motion : std::uint8_t {
   kCircle,  ///< 50 mm radius, 0.5 Hz; the other hands are relaxed
   kReach,   ///< 40 mm there and back, 0.5 s each, with rests; the other hands are relaxed

@@ -24,8 +24,8 @@ constexpr double kForceMax = 3.3;
 struct Setting {
   std::string_view law;
   double k = 1000, m = 0.02, b = 0.5, T = 0.001;
-  int delay = 1;    ///< one way [ticks]
-  double age = 0;   ///< stated age of what arrives [s]
+  int delay = 1;   ///< one way [ticks]
+  double age = 0;  ///< stated age of what arrives [s]
   int ticks = 1500;
 };
 std::string text(const Setting& s) {
@@ -59,8 +59,11 @@ std::string run(const Setting& s) {
   copy_params.contacts.add({.normal = {-1, 0, 0}, .at = 0.02, .k = s.k, .b = s.b});
   ToolCopy copy(copy_params);
   copy.rest_at({}, {});
-  ForceGate gate({.dof = 1, .force_max = kForceMax, .silence_limit = std::chrono::seconds(10),
-                  .loop_age_max = std::chrono::seconds(20), .latch = false});
+  ForceGate gate({.dof = 1,
+                  .force_max = kForceMax,
+                  .silence_limit = std::chrono::seconds(10),
+                  .loop_age_max = std::chrono::seconds(20),
+                  .latch = false});
   std::deque<PortSample> up(static_cast<std::size_t>(s.delay)), down(up);
   Time now{};
   EnergyArray before{};
@@ -143,7 +146,8 @@ TEST_P(Extremes, OfStiffnessMassDampingAndStepStayFiniteLimitedAndBooked) {
 
 TEST_P(Extremes, OfRoundTripsFromZeroTo10SecondsStayFiniteLimitedAndBooked) {
   for (const int delay : {1, 10, 500, 5000}) {
-    const Setting s{.law = GetParam(), .delay = delay, .age = delay == 1 ? 0 : 0.001 * delay, .ticks = 3000 + 2 * delay};
+    const Setting s{
+        .law = GetParam(), .delay = delay, .age = delay == 1 ? 0 : 0.001 * delay, .ticks = 3000 + 2 * delay};
     EXPECT_EQ(run(s), "") << text(s);
   }
 }
@@ -171,7 +175,8 @@ TEST_P(Extremes, OfEveryInputAreForgotten) {
   for (const Side side : {Side::kClient, Side::kServer}) {
     for (const Field& field : kFields) {
       for (const double bad : {kNaN, kInf, -kInf, 1e300, -1e300, 1e18, kDenormal, -kDenormal, -0.0}) {
-        SCOPED_TRACE(std::string(field.name) + " = " + testing::PrintToString(bad) + (side == Side::kClient ? ", client" : ""));
+        SCOPED_TRACE(std::string(field.name) + " = " + testing::PrintToString(bad) +
+                     (side == Side::kClient ? ", client" : ""));
         ChannelParams p;
         p.side = side;
         p.dof = 1;
@@ -195,7 +200,7 @@ TEST_P(Extremes, OfEveryInputAreForgotten) {
         end->move(wrong);
         check();
         good.rx.x[0] = 0.001;
-        if (std::string(GetParam()) == "tdpa") good.rx.f[0] = -1;  // its reference at a client follows a force
+        if (std::string(GetParam()) == "tdpa") good.rx.f[0] = -1;   // its reference at a client follows a force
         if (std::string(GetParam()) == "wave") good.rx.v[0] = 0.2;  // its reference follows waves of 1 N
         for (int i = 0; i < 4000; ++i) {
           good.rx.e_in[0] += 100'000;  // pays for the waves

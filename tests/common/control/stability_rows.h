@@ -8,7 +8,7 @@ namespace tandem::test {
 
 struct StabilityRow {
   std::string family;  ///< source of the closed form
-  std::string loop;    ///< what is closed, and its parameters
+  std::string loop;    ///< the closed loop and its parameters
   std::string unit;
   double experiment = 0;  ///< largest stable value of the code under test, by bisection of simulated motion
   double exact = 0;  ///< the same from eigenvalues of matrices written down independently; Diolaiti: energy balance
