@@ -36,6 +36,8 @@ void ChannelEnd::follow_unpaid(const EndInput& in, std::size_t a, double k) noex
   const double wanted = std::isfinite(in.rx.x[a]) ? in.rx.x[a] : state_.ref[a];
   const double after = wanted - in.x[a];
   const double dE = 0.5 * in.weight * (k * after * after - state_.k[a] * before * before);
+  state_.absorbed[a] = state_.paid[a] = 0;
+  if (!std::isfinite(dE)) return;  // a near end that is not finite, or a square that overflows
   state_.k[a] = k;
   state_.ref[a] = wanted;
   state_.absorbed[a] = dE < 0 ? -dE : 0;

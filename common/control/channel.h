@@ -81,6 +81,11 @@ struct EndState {
   }
 };
 
+/// Returns a share within [0, 1], and `otherwise` for one that is not a number.
+[[nodiscard]] constexpr double unit_share(double share, double otherwise) noexcept {
+  return share >= 0 ? (share < 1 ? share : 1) : share < 0 ? 0 : otherwise;
+}
+
 /// One end of a channel: holds the reference, the gain schedule and one energy ledger per axis.
 class ChannelEnd {
  public:

@@ -18,6 +18,8 @@ constexpr double kSharedDamping = 0.5;
 constexpr double kFurther = 0.4;
 /// Damping of a follower's copy towards the velocity of the other hands, as a part of b_rel.
 constexpr double kFollowDamping = 1.25;
+/// Largest velocity of the others that counts [m/s or rad/s]; no hand is faster. A filter would remember a larger one.
+constexpr double kHeardMax = 100;
 }  // namespace
 
 ReplicaReference::ReplicaReference(const ChannelParams& params) : EnergyBoundedEnd(params), k_x_(params.k_c) {}
@@ -35,13 +37,13 @@ void ReplicaReference::engage(const AxisArray& x, double age) noexcept {
 
 const EndState& ReplicaReference::move(const EndInput& in) noexcept {
   schedule_.step(std::max(0.0, in.age - 0.5 * in.dt), in.dt);
-  const double d = schedule_.delay(), alone = 1 - std::clamp(in.authority, 0.0, 1.0);
-  const double wanted = stiffness_for(in.authority, d);
+  const double d = schedule_.delay(), own = unit_share(in.authority, 1), alone = 1 - own;
+  const double wanted = stiffness_for(own, d);
   k_x_ += std::clamp(wanted - k_x_, -params_.schedule.k_fall * in.dt, params_.schedule.k_rise * in.dt);
-  const bool follows = in.authority < 1e-3;
+  const bool follows = own < 1e-3;
   const double calm = follows ? Prediction::calm_part(in.dt, in.age) : 1;
   const double shared_damping = follows ? 0 : kSharedDamping * alone * k_x_ * d;
-  const double slave = std::clamp(in.slave_pull, 0.0, 1.0) * params_.k_c;
+  const double slave = unit_share(in.slave_pull, 0) * params_.k_c;
   const double relative = (follows ? kFollowDamping : 1) * params_.b_rel;
   const double damping = alone * relative * k_x_ / params_.k_c + shared_damping + kSharedDamping * slave * d;
   for (std::size_t a = 0; a < params_.dof; ++a) {
@@ -51,13 +53,14 @@ const EndState& ReplicaReference::move(const EndInput& in) noexcept {
     static_cast<void>(ledger.forfeit_above(params_.margin_max, 0));
     state_.absorbed[a] = state_.paid[a] = state_.passed[a] = 0;
     state_.b[a] = damping * params_.scale[a];
-    state_.rate[a] = in.rx.v[a];
+    const double heard = std::isfinite(in.rx.v[a]) ? std::clamp(in.rx.v[a], -kHeardMax, kHeardMax) : 0;
+    state_.rate[a] = heard;
     change_stiffness(a, (alone * k_x_ + slave) * params_.scale[a], in.x[a], 1);
 
-    calm_v_[a] += calm * (in.rx.v[a] - calm_v_[a]);
+    calm_v_[a] += calm * (heard - calm_v_[a]);
     const double target = follows ? Prediction::place_for_hand(in.rx.x[a], calm_v_[a], in.age) : in.rx.x[a];
     const double gains = follows ? kFollowerSpeedGain / std::sqrt(params_.scale[a]) : 0;
-    const double step = (std::abs(in.rx.v[a]) + approach_[a] + gains) * in.dt;
+    const double step = (std::abs(heard) + approach_[a] + gains) * in.dt;
     const double reach =
         2 * effort_max_[a] / (slave > 0 ? (alone * k_x_ + slave) * params_.scale[a] : k_x_ * params_.scale[a]);
     const double clamped =

@@ -13,7 +13,7 @@ const EndState& SetPositionEnd::move(const EndInput& in) noexcept {
     EnergyLedger& ledger = ledger_[a];
     const std::uint64_t heat = ledger.dissipate(in.dissipated[a]);
     ledger.receive(in.rx.e_in[a]);
-    const auto most = static_cast<std::uint64_t>(in.pass_on * static_cast<double>(heat));
+    const auto most = static_cast<std::uint64_t>(unit_share(in.pass_on, 0) * static_cast<double>(heat));
     state_.passed[a] = 1e-9 * static_cast<double>(ledger.forfeit_above(params_.margin_max, most));
     state_.absorbed[a] = 0;
     state_.paid[a] = 0;

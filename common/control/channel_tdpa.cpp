@@ -21,6 +21,10 @@ const EndState& TdpaForceEnd::move(const EndInput& in) noexcept {
   for (std::size_t a = 0; a < params_.dof; ++a) {
     EnergyLedger& ledger = ledger_[a];
     const double k = params_.schedule.k * params_.scale[a], x = in.x[a], moved = x - last_x_[a];
+    if (!std::isfinite(k * moved * moved)) {  // a near end that is not finite, or a square that overflows
+      state_.absorbed[a] = state_.paid[a] = 0;
+      continue;
+    }
     last_x_[a] = x;
     const double work = k * (state_.ref[a] - x) * moved;
     state_.absorbed[a] = std::max(0.0, -work);

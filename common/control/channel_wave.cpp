@@ -21,8 +21,10 @@ const EndState& WaveEnd::move(const EndInput& in) noexcept {
     state_.absorbed[a] = state_.paid[a] = 0;
     const double k = state_.k[a] * in.weight, b = params_.impedance * params_.scale[a], x = in.x[a];
     const double per_square = b / (4 * in.dt);  // energy of a wave over its square
+    const double distance = k * (state_.ref[a] - x);
+    if (!std::isfinite(distance * distance)) continue;  // a near end that is not finite, or a square that overflows
     double arriving = in.rx.v[a] * in.dt;
-    if (!std::isfinite(arriving) || !std::isfinite(x)) arriving = 0;
+    if (!std::isfinite(arriving)) arriving = 0;
     double cost = per_square * arriving * arriving;
     if (const double budget = std::max(0.0, ledger.margin() - 1e-9); cost > budget) {
       refused_ += cost - budget;

@@ -25,9 +25,10 @@ class GainSchedule {
   explicit GainSchedule(const GainScheduleParams& p = {}) noexcept : p_(p), k_(p.k) {}
 
   /// @param age  age of the datagram in use [s] >= 0: RTT/2 without synchronised clocks, plus the wait since its
-  /// arrival.
+  /// arrival. A value that is not a number, or above kAgeMax, counts as kAgeMax.
   /// @param dt   duration of a tick [s]
   void step(double age, double dt) noexcept TANDEM_REALTIME {
+    age = bounded(age);
     const double tau = age > delay_ ? kRiseTime : kDecayTime;
     delay_ += (age - delay_) * std::min(1.0, dt / tau);
     const double wanted = delay_ > 0 ? std::clamp(p_.k_delay / delay_, std::min(p_.k_min, p_.k), p_.k) : p_.k;
@@ -35,7 +36,7 @@ class GainSchedule {
   }
   /// Sets the delay known before the seat engages, without slewing: no spring is loaded then, so no step is felt.
   void settle(double age) noexcept {
-    delay_ = age;
+    delay_ = bounded(age);
     k_ = delay_ > 0 ? std::clamp(p_.k_delay / delay_, std::min(p_.k_min, p_.k), p_.k) : p_.k;
   }
   /// Filtered delay [s].
@@ -47,8 +48,10 @@ class GainSchedule {
   /// Returns the time by which a position of this age is extrapolated [s].
   [[nodiscard]] double lead(double age) const noexcept { return std::min(age, p_.lead_max); }
   static constexpr double kShort = 0.002;  ///< below this age a datagram counts as fresh [s]
+  static constexpr double kAgeMax = 60;    ///< [s]
 
  private:
+  [[nodiscard]] static double bounded(double age) noexcept { return age < kAgeMax ? std::max(0.0, age) : kAgeMax; }
   static constexpr double kRiseTime = 0.1, kDecayTime = 1.0;  // a longer delay takes effect soon, a shorter one slowly
   GainScheduleParams p_;
   double delay_ = 0;

@@ -54,7 +54,7 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   apply_assist(hand, authority, end);
   apply_received_contacts(end);
   const EndState& reference = end.state();
-  const double own = std::clamp(authority, 0.0, 1.0), alone = 1 - own;
+  const double own = unit_share(authority, 1), alone = 1 - own;
   VirtualTool::Pulls pulls{}, without_dampers{};
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double q = place(hand, a);

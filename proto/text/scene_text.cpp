@@ -1,6 +1,7 @@
 #include "proto/text/scene_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "proto/text/scene_convert.h"
@@ -19,10 +20,18 @@ std::string scene_name(std::string_view file_name) {
   return std::string(file_name.substr(0, file_name.find('.')));
 }
 
+/// Largest number of ticks in a session; the wire counts them in 32 bits.
+constexpr double kTicksMax = 4294967295.0;
+
 void read_basics(const pb::Scene& in, MessageValidator& validator, SceneSpec& out) {
   if (in.has_tick_hz()) out.tick_hz = in.tick_hz();
   if (in.has_dof()) out.dof = in.dof();
   if (in.has_duration_s()) out.duration = in.duration_s();
+  const bool possible = out.tick_hz >= 1 && out.tick_hz <= 1e4;  // else tick_hz has an error of its own
+  if (const double most = std::floor(kTicksMax / out.tick_hz); possible && in.has_duration_s() && out.duration > most)
+    validator.error("duration_s", "must be at most " + text::number_text(most) +
+                                      " s at tick_hz = " + text::number_text(out.tick_hz) +
+                                      ": a session has at most 2^32 - 1 ticks; omit it for a session without end");
   out.clock_runs_while_stopped = in.clock_runs_while_stopped();
   out.port = static_cast<PortSpace>(in.port());
   out.unsafe_gains = in.unsafe_gains();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace tandem::server {
 class SessionClock {
  public:
   static constexpr std::uint32_t kCatchUpMax = 50;  ///< missed ticks that are run after a stall; more are dropped
+
+  static constexpr std::uint32_t kTickMax = std::numeric_limits<std::uint32_t>::max();  ///< last session tick
 
   /// @param tick_hz  ticks per second, positive
   explicit SessionClock(double tick_hz) noexcept : dt_(1.0 / tick_hz), tick_length_(from_seconds(dt_)) {}
@@ -49,11 +52,12 @@ class SessionClock {
     session_tick_ = 0;
   }
   void resume() noexcept { begun_ = true; }
-  /// Counts one tick. @pre begun()
+  /// Counts one tick. The count ends at kTickMax, where session time stands still: it never begins again at 0, which
+  /// would repeat the timeline. @pre begun()
   void advance(bool stopped) noexcept {
     if (stopped) {
       ++stopped_ticks_;
-    } else {
+    } else if (session_tick_ < kTickMax) {
       ++session_tick_;
     }
   }

@@ -70,6 +70,20 @@ TEST(Security, EveryClaimNamesATestThatExists) {
       << to_string(check_references(*document, known, kRoot));
 }
 
+TEST(ExtremesTable, NamesATestInEveryRowAndEveryTestOfExtremes) {
+  const auto files = read_repository(kRoot);
+  const SourceFile* document = find_document(files, "tests/EXTREMES.md");
+  ASSERT_NE(document, nullptr);
+  const Known known = known_things(files);
+  const auto findings = check_references(*document, known, kRoot);
+  EXPECT_TRUE(findings.empty()) << to_string(findings);
+  EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
+  for (const std::string& test : known.tests) {
+    if (!test.starts_with("Extremes") || test.starts_with("ExtremesTable")) continue;
+    EXPECT_NE(document->text.find("`" + test + "`"), std::string::npos) << test << " has no row";
+  }
+}
+
 TEST(NetsimManual, EveryCommandFileAndTestItNamesExists) { check_manual("netsim/README.md"); }
 
 TEST(ClientManual, EveryCommandFileAndTestItNamesExists) { check_manual("client/README.md"); }

@@ -222,6 +222,19 @@ TEST(SessionTicks, CountRunningAndStoppedTicksApart) {
   EXPECT_EQ(clock.session_tick(), 0u);
 }
 
+TEST(SessionClock, StandsStillAtItsLastTickAndDoesNotBeginAgain) {
+  SessionClock clock(1000);
+  clock.restore(SessionClock::kTickMax - 2);
+  clock.resume();
+  double before = clock.time();
+  for (int i = 0; i < 5; ++i) {
+    clock.advance(false);
+    EXPECT_GE(clock.time(), before);
+    before = clock.time();
+  }
+  EXPECT_EQ(clock.session_tick(), SessionClock::kTickMax);
+}
+
 TEST(AuditTrail, StampsEventsWithTheSessionsTick) {
   SessionClock clock(1000);
   AuditTrail audit(clock);
