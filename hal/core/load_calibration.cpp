@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeverMin = 0.005;
 /// Part of the effort that the estimate may leave unexplained, RMS: a share of it, or the force at the tip [N] that
 /// inertia takes in a slow motion, if that is more.
-constexpr double kUnexplainedMax = 0.25, kInertiaMax = 0.03;
+constexpr double kUnexplainedMax = 0.25, kInertiaMax = 0.06;
 
 /// Smallest ratio of the pivots of the normal equations, with columns of unit norm.
 constexpr double kPivotMin = 1e-4;

@@ -49,7 +49,7 @@ struct SimSetup {
 /// A simulated device, Touch or one axis, with a hand or an environment at its tip. State is what a host measures: q is
 /// quantised by the encoder, dq is its filtered difference; x, dx and J follow from these. The effort of a command is
 /// limited to `force_peak` at the tip. Gravity compensation and friction feed-forward are added internally and not
-/// reported, as a host does. After a calibration (hal/sim/sim_calibration.h) both use its result.
+/// reported, as a host does. After a calibration (hal/sim/sim_calibration.h) they use its result.
 /// Deterministic; no heap after make(); total: every input leaves a finite state.
 class SimDevice final : public SteppedDevice {
  public:

@@ -76,7 +76,7 @@ TEST(ScaledHand, PressesWithTheForceOfTheTransformer) {
 
 /// Energy books of both ends, work of the motors on hands, and all other invariants, for any scales, laws and networks.
 TEST(ScaledHand, KeepsAllInvariantsForAnyScaleLawAndNetwork) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(8); ++seed) {
+  for (std::uint64_t seed = 1, last = test::seeds(8); seed <= last; ++seed) {
     RandomStream r(seed);
     SceneSpec scene = shipped(std::array{"free_motion", "contact", "guidance", "two_by_two"}[seed % 4]);
     const auto law = seed % 2 == 0 ? LawKind::kReplica : static_cast<LawKind>(seed / 2 % kLaws);
@@ -194,7 +194,7 @@ TEST(ForceSeparation, TakesNearlyAllOutAtAnyDelayWhereMotorsBalanceWhatWasMeasur
 /// No passivity is lost: the energy oracle at each hand and all other invariants hold, under the laws that separate.
 TEST(ForceSeparation, KeepsAllInvariantsForAnyFrictionLoadAndNetwork) {
   constexpr std::array kSeparating{LawKind::kReplica, LawKind::kSetPosition, LawKind::kPd};
-  for (std::uint64_t seed = 1; seed <= test::seeds(6); ++seed) {
+  for (std::uint64_t seed = 1, last = test::seeds(6); seed <= last; ++seed) {
     RandomStream r(seed);
     SceneSpec scene = shipped(seed % 2 == 0 ? "contact" : "guidance");
     choose_law(scene, kSeparating[seed % 3]);

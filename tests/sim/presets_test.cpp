@@ -47,7 +47,7 @@ TEST_P(Preset, KeepsAllInvariantsAndItsLimitsOverDelaysAndSeeds) {
     SCOPED_TRACE(delay_ms);
     Scenario one = on_its_network;
     if (delay_ms == 0) one.setup.network = netsim::link_from(test::delayed(0));
-    for (std::uint64_t seed = 1; seed <= test::seeds(delay_ms == 0 ? 1 : 2); ++seed) {
+    for (std::uint64_t seed = 1, last = test::seeds(delay_ms == 0 ? 1 : 2); seed <= last; ++seed) {
       const SeedOutcome outcome = netsim::run_seed(one, seed, {});
       EXPECT_EQ(outcome.state, SeedOutcome::State::kPass)
           << text_of(one, outcome) << "tandem-netsim test " << GetParam() << " --seed " << seed << " --seeds 1";

@@ -25,7 +25,7 @@ TEST(MotionScale, MapsMotionAndForceByTheSameFactor) {
 }
 
 TEST(MotionScale, ConservesPower) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(100); ++seed) {
+  for (std::uint64_t seed = 1, last = test::seeds(100); seed <= last; ++seed) {
     SCOPED_TRACE(seed);
     RandomStream r(seed);
     MotionScale scale(std::exp(r.uniform(std::log(0.1), std::log(4.0))), 3);

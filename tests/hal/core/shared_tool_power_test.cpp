@@ -1,4 +1,4 @@
-// Devices of different kinematics share a tool through their tips: what one gives, the others receive.
+// Devices of different kinematics share a tool through their tips: the power of both motors sums to zero.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -73,7 +73,7 @@ TEST(SharedTool, PassesPowerBetweenEveryPairOfDeviceModels) {
       const std::size_t axes = std::min(a.joints, b.joints);
       const PortMap one(PortSpace::kTip, axes, a.joints), other(PortSpace::kTip, axes, b.joints);
       std::size_t compared = 0;
-      for (std::uint64_t seed = 1; seed <= test::seeds(50); ++seed) {
+      for (std::uint64_t seed = 1, last = test::seeds(50); seed <= last; ++seed) {
         SCOPED_TRACE(a.name + " and " + b.name + ", seed " + std::to_string(seed));
         RandomStream r(seed);
         const auto drawn = [&](double most) {

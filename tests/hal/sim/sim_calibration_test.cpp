@@ -50,7 +50,7 @@ TEST(SimCalibration, FindsFrictionAndAnUnknownLoadOfATouch) {
 }
 
 TEST(SimCalibration, FindsThemFromDrawnPosesWithEveryMotion) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(3); ++seed) {
+  for (std::uint64_t seed = 1, last = test::seeds(3); seed <= last; ++seed) {
     RandomStream r(seed);
     for (const SlowMotion& motion : {SlowMotion{}, SlowMotion{.amplitude = 0.015, .frequency = 0.4, .length = 8},
                                      SlowMotion{.amplitude = 0.03, .frequency = 0.15, .length = 14}}) {
