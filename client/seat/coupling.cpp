@@ -12,8 +12,9 @@ std::unique_ptr<Coupling> make_coupling(const SeatSetup& setup) {
 
 SpringCoupling::SpringCoupling(const SeatSetup& setup)
     : dof_(setup.dof), master_(setup.seat.kind == SeatKind::kMaster) {
+  const double at_tool = 1 / (setup.seat.motion_scale * setup.seat.motion_scale);
   for (std::size_t a = 0; a < dof_; ++a) {
-    const double s = setup.axis_scale[a];
+    const double s = setup.axis_scale[a] * at_tool;
     gains_[a] = {setup.coupling.k_c * s, setup.coupling.b * s, setup.coupling.m_c * s};
   }
 }
@@ -53,6 +54,7 @@ void SpringCoupling::fill_sample(std::size_t, const Input& in, bool engaged, Por
   const control::EndState& state = in.tools[0].end->state();
   for (std::size_t a = 0; a < dof_; ++a) {
     out.x[a] = master_ ? ipc_[a].x : in.q[a];
+    if (engaged && in.device_force != nullptr && state.k[a] > 0) out.x[a] -= (*in.device_force)[a] / state.k[a];
     out.v[a] = engaged && master_ ? ipc_[a].v : in.v[a];
     out.f[a] = state.k[a] * (out.x[a] - state.ref[a]);
   }
@@ -63,22 +65,24 @@ namespace {
 
 control::ToolCopy::Params copy_params(const SeatSetup& setup, const control::VirtualTool::Gains& gains,
                                       const EnvironmentSpec& environment) {
+  const double scale = setup.seat.motion_scale;
   return {.tool = gains,
           .axes = setup.dof,
           .contacts = setup::contacts(environment),
-          .k_c = setup.coupling.k_c,
+          .k_c = setup.coupling.k_c / (scale * scale),
           .b_rel = setup.channel.b_rel,
           .v_app = setup.channel.v_app,
           .offset_hold = setup.gate.ramp_in,
-          .force_max = setup.gate.force_max * share_of_force(setup.seat.role),
+          .force_max = setup.gate.force_max * share_of_force(setup.seat.role) / scale,
           .of_several = !setup.further.empty(),
           .dt = 1.0 / setup.tick_hz,
-          .assist = {.force = setup.seat.assist.force, .in_contact = setup.seat.assist.in_contact}};
+          .assist = {.force = setup.seat.assist.force / scale, .in_contact = setup.seat.assist.in_contact}};
 }
 
 }  // namespace
 
-CopyCoupling::CopyCoupling(const SeatSetup& setup) : dof_(setup.dof) {
+CopyCoupling::CopyCoupling(const SeatSetup& setup)
+    : dof_(setup.dof), k_c_(setup.coupling.k_c / (setup.seat.motion_scale * setup.seat.motion_scale)) {
   copies_.reserve(1 + setup.further.size());
   copies_.push_back({.tool = control::ToolCopy(copy_params(setup, {setup.m_s, setup.b_s}, setup.environment)),
                      .weight = setup.weight});
@@ -151,6 +155,7 @@ void CopyCoupling::fill_sample(std::size_t k, const Input& in, bool engaged, Por
   for (std::size_t a = 0; a < dof_; ++a) {
     const control::HandMotion& anchor = copies_[k].tool.anchor(a);
     out.x[a] = engaged ? anchor.x : in.q[a];
+    if (engaged && in.device_force != nullptr) out.x[a] -= (*in.device_force)[a] / k_c_;
     out.v[a] = engaged ? anchor.v : in.v[a];
     out.a[a] = engaged ? anchor.a : 0;
     out.f[a] = engaged ? copies_[k].effort[a] : 0;

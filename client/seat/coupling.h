@@ -31,6 +31,9 @@ class Coupling {
     const AxisArray& v;                  ///< velocity of the device's port
     std::span<const Tool> tools;         ///< 1 + SeatSetup::further.size()
     const wire::Ghost* ghost = nullptr;  ///< received leader of the first tool
+    /// Part of the force on the tool that is not the hand's, taken out of samples (client/seat/force_separation.h) [N];
+    /// null: nothing is
+    const AxisArray* device_force = nullptr;
   };
   virtual ~Coupling() = default;
   /// Restarts the coupling without elongation; called while the seat is not engaged.
@@ -105,6 +108,7 @@ class CopyCoupling final : public Coupling {
   [[nodiscard]] const AxisArray& wanted_of(Copy& copy, const Tool& tool, const Input& in) noexcept;
 
   std::size_t dof_;
+  double k_c_;  ///< hand to tool, at the tool [N/m]
   std::vector<Copy> copies_;
   AxisArray wanted_{};  ///< total wanted effort [N]
   double share_ = 0;    ///< share of it that was delivered last [0, 1]

@@ -46,6 +46,8 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const transport:
       coupling_(make_coupling(setup_)),
       gate_(gate_params(setup, caps)),
       device_(setup.port, setup.dof, caps.joints),
+      motion_scale_(setup.seat.motion_scale, setup.dof),
+      separation_(setup, caps),
       guards_(setup, caps.joints),
       clock_(dt_, setup.clock_runs_while_stopped),
       requests_(setup) {}
@@ -121,8 +123,10 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
                                .reading_valid = device_.update(device),
                                .q = device_.q(),
                                .v = device_.v()};
+  motion_scale_.update(device_.q(), device_.v());
+  if (separation_.on()) separation_.update(device_.reading(), motion_scale_);
   if (was_active) {
-    in.wanted = coupling_->step(coupling_input(seconds(link().timing().age(now))));
+    in.wanted = motion_scale_.effort_at_hand(coupling_->step(coupling_input(seconds(link().timing().age(now)))));
   } else {
     rest();
   }
@@ -131,10 +135,11 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
     in.silence_allowance = link().timing().gaps().silence_limit(from_seconds(limits.least), from_seconds(limits.most));
   }
   if (in.reset) guards_.reset();
-  guards_.update(now, device_.reading(), tools_.end(0).state().ref, effort_, was_active);
+  guards_.update(now, device_.reading(), motion_scale_.position_at_hand(tools_.end(0).state().ref), effort_,
+                 was_active);
   in.engage = may_engage();
   effort_ = gate_.step(in).effort;
-  if (was_active) coupling_->set_delivered(effort_);
+  if (was_active) coupling_->set_delivered(motion_scale_.effort_at_tool(effort_));
   if (was_active != gate_.active()) rest();
 
   fill_state(now, device.homed, in.wanted);
@@ -157,7 +162,13 @@ bool Seat::may_engage() const noexcept {
 }
 
 Coupling::Input Seat::coupling_input(double age) const noexcept {
-  return {.dt = dt_, .age = age, .q = device_.q(), .v = device_.v(), .tools = tools_.all(), .ghost = &force().ghost};
+  return {.dt = dt_,
+          .age = age,
+          .q = motion_scale_.q(),
+          .v = motion_scale_.v(),
+          .tools = tools_.all(),
+          .ghost = &force().ghost,
+          .device_force = separation_.on() ? &separation_.force() : nullptr};
 }
 
 std::optional<hal::Vec3> offset_from_leader(const Seat& seat, Time now) noexcept {
@@ -166,7 +177,8 @@ std::optional<hal::Vec3> offset_from_leader(const Seat& seat, Time now) noexcept
   const double age = seconds(seat.link().timing().age(now));
   hal::Vec3 offset = seat.device().reading().x;
   for (std::size_t k = 0; k < 3; ++k)
-    offset[static_cast<Eigen::Index>(k)] -= control::Prediction::place_for_hand(ghost.x[k], ghost.v[k], age);
+    offset[static_cast<Eigen::Index>(k)] -=
+        control::Prediction::place_for_hand(ghost.x[k], ghost.v[k], age) / seat.motion_scale().value();
   return offset;
 }
 

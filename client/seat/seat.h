@@ -10,6 +10,8 @@
 #include "client/seat/close_out.h"
 #include "client/seat/coupling.h"
 #include "client/seat/device_port.h"
+#include "client/seat/force_separation.h"
+#include "client/seat/motion_scale.h"
 #include "client/seat/seat_guards.h"
 #include "client/seat/seat_requests.h"
 #include "client/seat/session_clock.h"
@@ -31,7 +33,8 @@ namespace tandem::client {
 /// After construction: no heap, no lock, no clock; `prepare` and the `reconnect` that calls it allocate.
 class Seat {
  public:
-  /// @throws std::runtime_error if the law is unknown or the crypto library lacks a cipher.
+  /// @throws std::runtime_error if the law is unknown, the crypto library lacks a cipher, or the scene requests force
+  /// separation from a device that is not calibrated.
   Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const transport::SecureChannel::Params& link);
 
   /// Channel and channel ends of one connection of this seat. Allocated outside the tick.
@@ -87,6 +90,8 @@ class Seat {
   [[nodiscard]] const Coupling& coupling() const noexcept { return *coupling_; }
   [[nodiscard]] const control::ForceGate& gate() const noexcept { return gate_; }
   [[nodiscard]] const DevicePort& device() const noexcept { return device_; }
+  [[nodiscard]] const ForceSeparation& separation() const noexcept { return separation_; }
+  [[nodiscard]] const MotionScale& motion_scale() const noexcept { return motion_scale_; }
   [[nodiscard]] const SeatGuards& guards() const noexcept { return guards_; }
   [[nodiscard]] const SessionClock& clock() const noexcept { return clock_; }
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes [N or N m]
@@ -108,6 +113,8 @@ class Seat {
   std::unique_ptr<Coupling> coupling_;
   control::ForceGate gate_;
   DevicePort device_;
+  MotionScale motion_scale_;
+  ForceSeparation separation_;
   SeatGuards guards_;
   SessionClock clock_;
   SeatRequests requests_;
@@ -122,8 +129,8 @@ class Seat {
   std::uint64_t command_seq_ = 0;
 };
 
-/// Position of a seat's tip minus that of the leader [m], 3x1, HAL frame. The leader's position is extrapolated to
-/// `now`. nullopt if no other seat leads, or if the law sends no leader.
+/// Position of a seat's tip minus that of the leader [m], 3x1, HAL frame, both at the hand of this seat. The leader's
+/// position is extrapolated to `now`. nullopt if no other seat leads, or if the law sends no leader.
 [[nodiscard]] std::optional<hal::Vec3> offset_from_leader(const Seat& seat, Time now) noexcept;
 
 }  // namespace tandem::client

@@ -25,7 +25,8 @@ ToolChannels::Ends ToolChannels::make_ends(const SeatSetup& s) {
   for (std::size_t k = 0; k <= s.further.size(); ++k)
     ends.push_back(setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale,
                                        s.gate.force_max * share_of_force(s.seat.role), s.coupling.k_c, !s.unsafe_gains,
-                                       s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt));
+                                       s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt,
+                                       s.seat.motion_scale));
   return ends;
 }
 

@@ -35,7 +35,9 @@ struct ChannelParams {
   double k_c = 400;  ///< `replica`: stiffness from hand to tool, and to the other seats where no force is fed back [N/m
                      ///< at the tip]
   double impedance = 5;  ///< `wave`: impedance b of the waves [N s/m at the tip]
-  double b_rel = 14;     ///< `replica`: damping relative to the motion that drives the tool [N s/m at the tip]
+  double kappa =
+      2;  ///< `replica`: largest product of stiffness and round trip where hands share a tool [N s/m at the tip]
+  double b_rel = 14;  ///< `replica`: damping relative to the motion that drives the tool [N s/m at the tip]
 };
 
 /// The invariants that a law guarantees. Monitors report a breach of any other invariant as expected and do not fail.

@@ -25,7 +25,7 @@ constexpr double kHeardMax = 100;
 ReplicaReference::ReplicaReference(const ChannelParams& params) : EnergyBoundedEnd(params), k_x_(params.k_c) {}
 
 double ReplicaReference::stiffness_for(double authority, double delay) const noexcept {
-  const double shared = delay > 0 ? std::min(params_.k_c, kKappa / (2 * delay)) : params_.k_c;
+  const double shared = delay > 0 ? std::min(params_.k_c, params_.kappa / (2 * delay)) : params_.k_c;
   return shared + (params_.k_c - shared) * std::max(0.0, 1 - authority / kFollows);
 }
 

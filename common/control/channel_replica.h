@@ -11,7 +11,7 @@ namespace tandem::control {
 /// The client's end: the mix-minus reference r of the other hands. It is coupled to the copy of the tool by (1 - a) k_x
 /// and by damping relative to the motion of r.
 ///
-///     k_x = min(k_c, kappa / 2 d), kappa = 2 N s/m    where hands share authority
+///     k_x = min(k_c, kappa / 2 d), kappa = 2 N s/m by default    where hands share authority
 ///     k_x = k_c                                       below a = 0.02, where no force is fed back
 ///
 /// The first row is the P+d condition [Nuno et al., IJRR 28(7) 2009], halved as measurements required. Where the force
@@ -24,7 +24,6 @@ class ReplicaReference final : public EnergyBoundedEnd {
   const EndState& move(const EndInput& in) noexcept TANDEM_REALTIME override;
   [[nodiscard]] Guarantees guarantees() const noexcept override { return {.ledger = true, .bounded_step = true}; }
 
-  static constexpr double kKappa = 2;  ///< [N s/m]
   static constexpr double kFollows =
       0.02;  ///< below this authority the loop of a hand over the network is practically open
   /// While the other hands accelerate, the reference of a following hand may move this much faster than they do, in

@@ -8,6 +8,17 @@ namespace {
 /// Damping of a SLAVE seat relative to the masters' damping. A slave has no hand that damps it. At 20 ms it bounces off
 /// a wall with 0.84 m/s with the masters' damping, and with 0.24 m/s with twice that damping.
 constexpr double kSlaveDamping = 2;
+/// Converts the gains of a hand to its tool, x_tool = s x_hand. A hand with s > 1 is light, soft and weakly damped as
+/// the tool sees it: its reference is damped by as much less. At the client, an approach is no faster for the hand than
+/// without scale.
+void scale_to_tool(double s, control::ChannelParams& p) noexcept {
+  const double at_tool = 1 / (s * s);
+  for (double* const gain : {&p.schedule.k, &p.schedule.k_min, &p.schedule.k_delay, &p.k_c, &p.impedance})
+    *gain *= at_tool;
+  p.kappa *= std::min(1.0, at_tool);
+  if (p.side == control::Side::kClient) p.v_app *= std::min(1.0, s);
+}
+
 }  // namespace
 
 std::string_view law_name(LawKind law) noexcept {
@@ -68,9 +79,9 @@ control::ContactSet contacts(const EnvironmentSpec& environment) noexcept {
 
 std::unique_ptr<control::ChannelEnd> make_channel(const ChannelSpec& spec, control::Side side, std::size_t dof,
                                                   const AxisArray& scale, double force_max, double k_c, bool clamped,
-                                                  std::optional<double> stiffness) {
+                                                  std::optional<double> stiffness, double motion_scale) {
   control::ChannelParams p;
-  if (clamped) p.effort_max = force_max;
+  if (clamped) p.effort_max = force_max / motion_scale;
   p.side = side;
   p.dof = dof;
   p.scale = scale;
@@ -88,6 +99,7 @@ std::unique_ptr<control::ChannelEnd> make_channel(const ChannelSpec& spec, contr
   p.k_c = k_c;
   p.b_rel = spec.b_rel;
   p.impedance = spec.impedance;
+  if (motion_scale != 1) scale_to_tool(motion_scale, p);
   // The force of law `tdpa` goes to the hand and its position to the tool. A SLAVE seat is the other way round.
   if (stiffness && spec.law == LawKind::kTdpa) return control::make_channel_end(law_name(LawKind::kSetPosition), p);
   if (spec.law != LawKind::kReplica) return control::make_channel_end(law_name(spec.law), p);

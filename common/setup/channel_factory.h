@@ -27,9 +27,12 @@ namespace tandem::setup {
 /// motor delivers
 /// @param k_c  stiffness of the coupling between device and tool [N/m]
 /// @param stiffness  stiffness of a SLAVE seat's spring (k_s) in place of the channel's [N/m]
+/// @param motion_scale  s of the seat (client/seat/motion_scale.h). Gains and forces above are those at its hand; the
+/// end is at the tool, where a stiffness is k / s^2 and a force F / s.
 [[nodiscard]] std::unique_ptr<control::ChannelEnd> make_channel(const ChannelSpec& spec, control::Side side,
                                                                 std::size_t dof, const AxisArray& scale,
                                                                 double force_max, double k_c, bool clamped,
-                                                                std::optional<double> stiffness);
+                                                                std::optional<double> stiffness,
+                                                                double motion_scale = 1);
 
 }  // namespace tandem::setup

@@ -83,6 +83,17 @@ struct AxisLimit {
   Provenance from = Provenance::kUnknown;  ///< source of these numbers
 };
 
+/// Weight and Coulomb friction of a device with the load at its tip, per joint. The weight acts as
+///
+///     tau_g,j = w_j J_zj
+///
+/// with the vertical part J_zj of the tip's Jacobian. This is exact for the links of a Touch, for a load at the tip of
+/// any arm, and for vertical rails.
+struct DeviceLoad {
+  AxisArray weight{};    ///< w_j: weight at the tip that loads joint j as links and load do [N]
+  AxisArray friction{};  ///< Coulomb friction c_j [N m] or [N]
+};
+
 /// Capabilities of a device. Immutable after open.
 struct DeviceCaps {
   std::size_t joints = 0;              ///< sensed and actuated joints, <= kAxesMax
@@ -100,6 +111,8 @@ struct DeviceCaps {
   /// Delay t_d from a reading to the force that answers it, without the hold of one tick [s]; bounds the coupling
   /// stiffness too.
   std::optional<double> latency;
+  std::optional<DeviceLoad>
+      load;  ///< calibrated part of weight and friction that motors do not balance; empty: not calibrated
   std::optional<double> stiffness;  ///< largest stiffness the manufacturer allows [N/m]
   /// Time-out after which the device itself switches its motors off.
   std::optional<std::chrono::milliseconds> watchdog;

@@ -16,7 +16,11 @@ double bounded(double v) noexcept { return std::isfinite(v) ? std::clamp(v, -kHa
 }  // namespace
 
 LinearPlant::LinearPlant(const SimDeviceSpec& spec, const EnvironmentSpec& environment, const Vec3& start) noexcept
-    : environment_(environment), mass_(spec.mass), friction_(spec.friction), damping_(spec.damping), tip_(start) {}
+    : environment_(environment),
+      mass_(spec.mass + spec.load),
+      friction_(spec.friction),
+      damping_(spec.damping),
+      tip_(start) {}
 
 double LinearPlant::penetration() const noexcept {
   double deepest = 0.0;

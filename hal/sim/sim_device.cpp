@@ -6,7 +6,9 @@
 #include <numbers>
 #include <string>
 
+#include "hal/core/device_load.h"
 #include "hal/core/port_map.h"
+#include "hal/sim/sim_calibration.h"
 
 namespace tandem::hal::sim {
 namespace {
@@ -23,6 +25,8 @@ constexpr double kRateMin = 1e-12;  // [rad/s]
 /// The speed is above the ripple of the estimated velocity. The share below 1 keeps friction and feed-forward together
 /// dissipative.
 constexpr double kFeedforwardShare = 0.9;
+/// The same for measured friction: with an estimate that errs by a fifth, at most the friction itself.
+constexpr double kMeasuredShare = 0.8;
 constexpr double kFeedforwardSpeed = 0.015;  // [m/s]
 constexpr double kLinearEncoder = 5.5e-5;    // [m]
 constexpr double kTouchResolution = 5.5e-5;  // [m] at the tip, datasheet
@@ -49,6 +53,7 @@ Result<> check(const SimSetup& s) {
       {"force_peak [N]", d.force_peak, 0.0, 1e3},
       {"encoder [rad or m]", d.encoder, 0.0, 0.1},
       {"mass [kg]", d.model == DeviceModel::kLinear ? d.mass : 0.1, 1e-4, 1e4},
+      {"load [kg]", d.load, 0.0, 1e3},
       {"start.x [m]", d.start.x, -1.0, 1.0},
       {"start.y [m]", d.start.y, -1.0, 1.0},
       {"start.z [m]", d.start.z, -1.0, 1.0},
@@ -69,6 +74,15 @@ Result<> check(const SimSetup& s) {
 
 Result<std::unique_ptr<SimDevice>> SimDevice::make(const SimSetup& setup) {
   if (auto ok = check(setup); !ok) return std::unexpected(ok.error());
+  auto device = make_uncalibrated(setup);
+  if (!device || !setup.device.calibrate) return device;
+  const auto load = calibrate_load(setup);
+  if (!load) return std::unexpected(load.error());
+  (*device)->set_load(*load);
+  return device;
+}
+
+Result<std::unique_ptr<SimDevice>> SimDevice::make_uncalibrated(const SimSetup& setup) {
   Vec3 start = to_vec3(setup.device.start);
   if (setup.joints) {  // a reading of such a device may be a count beyond a stop; stops are soft, so it is accepted
     for (std::size_t i = 0; i < 3; ++i)
@@ -104,6 +118,13 @@ SimDevice::SimDevice(const SimSetup& setup, Plant plant, const Vec3& start)
   state_.sampled_at = setup.start;
   read_truth();
   measure(0.0);
+}
+
+void SimDevice::set_load(const DeviceLoad& load) noexcept {
+  load_ = caps_.load = load;
+  if (caps_.gravity != GravityCompensation::kNone) caps_.load->weight = {};
+  for (double& friction : caps_.load->friction)
+    if (spec_.friction_feedforward) friction *= 1 - kMeasuredShare;
 }
 
 void SimDevice::make_caps() {
@@ -217,7 +238,17 @@ SimDevice::Effort SimDevice::limited_effort(const Command& command) noexcept {
 Vec3 SimDevice::compensation() const noexcept {
   Vec3 tau = Vec3::Zero();
   const bool touch = !caps_.prismatic;
-  if (touch && spec_.gravity && spec_.gravity_compensation) tau = TouchPlant::gravity(pose_);
+  if (touch && spec_.gravity && spec_.gravity_compensation) {
+    tau = TouchPlant::gravity(pose_);
+    if (load_) {
+      const AxisArray measured = weight_effort(*load_, state_, caps_.joints);
+      tau = Vec3(measured[0], measured[1], measured[2]);
+    }
+  }
+  if (spec_.friction_feedforward && load_) {
+    const AxisArray measured = friction_effort(*load_, state_, caps_.joints);
+    return tau + kMeasuredShare * Vec3(measured[0], measured[1], measured[2]);
+  }
   if (spec_.friction_feedforward && spec_.friction > 0.0) {
     const Vec3 lever = touch ? TouchPlant::working_levers() : Vec3(1.0, 0.0, 0.0);
     for (std::size_t i = 0; i < caps_.joints; ++i) {

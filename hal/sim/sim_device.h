@@ -49,10 +49,12 @@ struct SimSetup {
 /// A simulated device, Touch or one axis, with a hand or an environment at its tip. State is what a host measures: q is
 /// quantised by the encoder, dq is its filtered difference; x, dx and J follow from these. The effort of a command is
 /// limited to `force_peak` at the tip. Gravity compensation and friction feed-forward are added internally and not
-/// reported, as a host does. Deterministic; no heap after make(); total: every input leaves a finite state.
+/// reported, as a host does. After a calibration (hal/sim/sim_calibration.h) they use its result.
+/// Deterministic; no heap after make(); total: every input leaves a finite state.
 class SimDevice final : public SteppedDevice {
  public:
-  /// Returns a new device. Error: a number that is not finite or out of range, or a start pose out of reach.
+  /// Returns a new device, calibrated if its setup requests that. Error: a failed calibration, a number that is not
+  /// finite or out of range, or a start pose out of reach.
   [[nodiscard]] static Result<std::unique_ptr<SimDevice>> make(const SimSetup& setup);
 
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
@@ -81,7 +83,9 @@ class SimDevice final : public SteppedDevice {
  private:
   using Plant = std::variant<TouchPlant, LinearPlant>;
   SimDevice(const SimSetup& setup, Plant plant, const Vec3& start);
+  [[nodiscard]] static Result<std::unique_ptr<SimDevice>> make_uncalibrated(const SimSetup& setup);
   void make_caps();
+  void set_load(const DeviceLoad& load) noexcept;
   void read_truth() noexcept;
   void measure(double dt) noexcept;
   void derive_pose() noexcept;
@@ -101,6 +105,7 @@ class SimDevice final : public SteppedDevice {
   Vec3 push_ = Vec3::Zero();
   double push_left_ = 0;  ///< [s]
   DeviceCaps caps_;
+  std::optional<DeviceLoad> load_;  ///< as calibrated
   State state_;
   GroundTruth ground_truth_;
   SimCounts counts_;

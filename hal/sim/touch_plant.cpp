@@ -79,6 +79,7 @@ TouchPlant::TouchPlant(const SimDeviceSpec& spec, const EnvironmentSpec& environ
     : environment_(environment),
       friction_(joint_friction(spec.friction)),
       damping_(spec.damping),
+      load_(spec.load),
       gravity_(spec.gravity),
       q_(q0),
       pose_(q0) {
@@ -101,9 +102,13 @@ Eigen::Matrix3d TouchPlant::inertia(const TouchPose& p) noexcept {
   return m;
 }
 
-double TouchPlant::kinetic_energy() const noexcept { return 0.5 * dq_.dot(inertia(pose_) * dq_); }
+double TouchPlant::kinetic_energy() const noexcept {
+  return 0.5 * dq_.dot(inertia(pose_) * dq_) + 0.5 * load_ * tip_velocity().squaredNorm();
+}
 
-double TouchPlant::potential_energy() const noexcept { return gravity_ ? kG2 * pose_.s2 - kG3 * pose_.c3 : 0.0; }
+double TouchPlant::potential_energy() const noexcept {
+  return gravity_ ? kG2 * pose_.s2 - kG3 * pose_.c3 + load_ * kG * pose_.tip()[2] : 0.0;
+}
 
 void TouchPlant::set(const Vec3& q, const Vec3& dq) noexcept {
   q_ = q;
@@ -131,11 +136,11 @@ void TouchPlant::advance(const Vec3& tau, const HandPull& hand, double dt) noexc
 
 void TouchPlant::substep(const Vec3& tau, const HandPull& hand, const Vec3& intended, double h) noexcept {
   const TouchPose p(q_ + 0.5 * h * dq_);
-  const double m = hand.m;
+  const double m = hand.m + load_;
   const double sd = p.s3 * p.c2 - p.c3 * p.s2;  // sin, cos of q3 - q2
   const double cd = p.c3 * p.c2 + p.s3 * p.s2;
 
-  // Inertia of device and hand. The hand is a point mass at the tip, so it only makes link 3 heavier.
+  // Inertia of device, load and hand. Load and hand are point masses at the tip, so they only make link 3 heavier.
   const double arm = kL1 * p.c2 + kR3 * p.s3;
   const double kappa = kM23 + m * kL1 * kL2;
   Block a{kI + kM2 * kR2 * kR2 * p.c2 * p.c2 + kM3 * arm * arm + m * p.rho * p.rho, kM22 + m * kL1 * kL1,
@@ -151,8 +156,8 @@ void TouchPlant::substep(const Vec3& tau, const HandPull& hand, const Vec3& inte
   r[1] -= kappa * cd * w[2] * w[2] - 0.5 * d2 * w[0] * w[0];
   r[2] += kappa * cd * w[1] * w[1] + 0.5 * d3 * w[0] * w[0];
   if (gravity_) {
-    r[1] -= kG2 * p.c2;
-    r[2] -= kG3 * p.s3;
+    r[1] -= (kG2 + load_ * kG * kL1) * p.c2;
+    r[2] -= (kG3 + load_ * kG * kL2) * p.s3;
   }
 
   const Vec3 tip = p.tip();

@@ -67,9 +67,9 @@ class TouchPlant {
   void substep(const Vec3& tau, const HandPull& hand, const Vec3& intended, double h) noexcept;
 
   Environment environment_;
-  Vec3 friction_;        ///< Coulomb, per joint [N m]
-  Vec3 friction_rate2_;  ///< smoothing speed squared, per joint [rad^2/s^2]
-  double damping_;
+  Vec3 friction_;          ///< Coulomb, per joint [N m]
+  Vec3 friction_rate2_;    ///< smoothing speed squared, per joint [rad^2/s^2]
+  double damping_, load_;  ///< [N s/m], mass at the tip [kg]
   bool gravity_;
   Vec3 q_;
   Vec3 dq_ = Vec3::Zero();

@@ -35,7 +35,8 @@ void DeviceGuardChecker::check(const ObservedSeat& seat) {
 /// changes.
 void DeviceGuardChecker::check_frozen_sensor(const ObservedSeat& seat) {
   const client::Seat& core = seat.core();
-  const AxisArray &ref = core.tools().end(0).state().ref, &scale = core.setup().axis_scale;
+  const AxisArray ref = core.motion_scale().position_at_hand(core.tools().end(0).state().ref);
+  const AxisArray& scale = core.setup().axis_scale;
   const Time now = seat.client.last_run();
   const bool frozen = !seat.slave() && core.gate().active() && seat.frozen() && !seat.client.invalid_reading();
   if (!frozen || !frozen_.on) frozen_ = {now, ref, core.effort(), frozen};

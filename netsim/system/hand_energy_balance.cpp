@@ -34,7 +34,7 @@ double HandEnergyBalance::excess(const Sample& sample) noexcept {
   if (seat.coupling().tool_copy() == nullptr) return 0;
   const SeatSetup& setup = seat.setup();
   const wire::Telemetry& t = seat.sample().telemetry;
-  const double k_c = setup.coupling.k_c;
+  const double k_c = setup.coupling.k_c, scale = setup.seat.motion_scale;  // both of the hand
   if (sample.program_restarted) known_ = active_ = false;
 
   double wanted2 = 0, given2 = 0, moved2 = 0;
@@ -62,7 +62,7 @@ double HandEnergyBalance::excess(const Sample& sample) noexcept {
       to_others += 0.5 * end.state().k[a] * e * e;
       force2 += f * f;
     }
-    if (several) stored += weight * 0.5 * force2 / k_c;
+    if (several) stored += weight * 0.5 * force2 * scale * scale / k_c;
     stored += weight * (0.5 * copy.gains().m * copy_v2 + to_others + copy.surface_energy());
     if (active && active_) heat_lost_ += weight * (1 - setup.channel.eta) * copy.gains().b * copy_v2 / setup.tick_hz;
   }

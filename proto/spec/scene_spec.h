@@ -118,6 +118,8 @@ struct SimDeviceSpec {
   double force_peak = 3.3;                  ///< [N]
   double encoder = 4.1e-4;                  ///< joint resolution [rad], 0: exact; LINEAR: default 5.5e-5 [m]
   double mass = 0.1;                        ///< LINEAR only [kg]
+  double load = 0;                          ///< mass at the tip that the built-in model does not contain [kg]
+  bool calibrate = false;                   ///< weight and friction are measured by a slow motion before the session
   Point start;                              ///< tip position at the start [m]
 };
 
@@ -219,6 +221,8 @@ struct SeatSpec {
   SimDeviceSpec device;               ///< simulated device
   HandSpec hand;                      ///< masters
   AssistSpec assist;                  ///< masters
+  bool force_separation = false;      ///< masters: others do not feel weight and friction of this device
+  double motion_scale = 1;            ///< masters: motion of the tool per motion of the hand, s; F_hand = s F_tool [1]
   EnvironmentSpec environment;        ///< SLAVE seats
 };
 

@@ -97,6 +97,8 @@ void read_device(const Message& in, std::size_t dof, const std::string& path, Me
   if (!linear && in.has_encoder_rad()) out.encoder = in.encoder_rad();
   read_keys(in, kDeviceKeys, out);
   if (in.has_mass_kg()) out.mass = in.mass_kg();
+  out.load = in.load_kg();
+  out.calibrate = in.calibrate();
   read_keys(in.start_m(), kPointKeys, out.start);
   if (linear && (out.start.y != 0 || out.start.z != 0)) {
     validator.error(child_path(path, "start_m"), "a LINEAR device moves along x only");
@@ -113,6 +115,8 @@ void write_device(const SimDeviceSpec& in, Message& out) {
   } else {
     out.set_encoder_rad(in.encoder);
   }
+  if (in.load != 0) out.set_load_kg(in.load);
+  if (in.calibrate) out.set_calibrate(true);
   write_keys(in.start, kPointKeys, *out.mutable_start_m());
 }
 
@@ -292,8 +296,17 @@ void read_seat(const pb::Seat& in, std::size_t dof, const std::string& path, Mes
       validator.error(child_path(path, "environment"), "is for SLAVE seats and for tool { slave { } }");
     read_hand(in.hand(), child_path(path, "hand"), validator, out.hand);
     if (in.has_assist()) out.assist = {in.assist().force_n(), in.assist().in_contact()};
+    if (in.has_motion_scale()) out.motion_scale = in.motion_scale();
+    out.force_separation = in.force_separation();
+    if (out.force_separation && !out.device.calibrate)
+      validator.error(child_path(path, "force_separation"),
+                      "needs device { calibrate: true }: only measured weight and friction are taken out", "true");
   } else {
     if (in.has_assist()) validator.error(child_path(path, "assist"), "is for MASTER seats: a slave follows no hand");
+    if (in.has_force_separation())
+      validator.error(child_path(path, "force_separation"), "is for MASTER seats: a slave has no hand");
+    if (in.has_motion_scale())
+      validator.error(child_path(path, "motion_scale"), "is for MASTER seats: scale the hands that move the slave");
     if (in.has_role()) validator.error(child_path(path, "role"), "is for MASTER seats: a slave has no role");
     if (in.has_hand()) validator.error(child_path(path, "hand"), "is for MASTER seats: a slave has no hand");
     read_environment(in.environment(), dof, child_path(path, "environment"), validator, out.environment);
@@ -333,6 +346,8 @@ void write_seat(const SeatSpec& in, pb::Seat& out) {
       out.mutable_assist()->set_force_n(in.assist.force);
       out.mutable_assist()->set_in_contact(in.assist.in_contact);
     }
+    if (in.motion_scale != 1) out.set_motion_scale(in.motion_scale);
+    if (in.force_separation) out.set_force_separation(true);
   } else {
     write_environment(in.environment, *out.mutable_environment());
   }

@@ -284,6 +284,15 @@ void check_law(const pb::Scene& in, MessageValidator& validator, const SceneSpec
       validator.error(
           child_path(child_path("", "seat", i), "assist"),
           "needs channel { law: REPLICA }, under which clients know the leader's hand; remove it or write force_n: 0");
+  const LawKind law = scene.channel.law;
+  for (int i = 0; i < in.seat_size(); ++i)
+    if (in.seat(i).force_separation() && (joints || law == LawKind::kTdpa || law == LawKind::kWave))
+      validator.error(child_path(child_path("", "seat", i), "force_separation"),
+                      "needs port: TIP and a law that sends positions: REPLICA, SET_POSITION, PD or RAW", "true");
+  for (int i = 0; joints && i < in.seat_size(); ++i)
+    if (in.seat(i).motion_scale() != 0 && in.seat(i).motion_scale() != 1)
+      validator.error(child_path(child_path("", "seat", i), "motion_scale"),
+                      "needs port: TIP, whose origin is the working pose; remove it or write 1");
   for (int t = 0; t < in.tool_size(); ++t)
     if (in.tool(t).contacts() == pb::Tool::ESTIMATED && scene.channel.law != LawKind::kReplica)
       validator.error(child_path(child_path("", "tool", t), "contacts"),

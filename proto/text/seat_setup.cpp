@@ -167,6 +167,8 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
       validator.error("channel.law", "is REPLICA, which needs port: TIP");
     check_gate(out.gate, out.tick_hz, "gate", validator);
     read_seat(in.seat(), out.dof, "seat", validator, out.seat);
+    if (out.seat.motion_scale != 1 && out.port == PortSpace::kJoint)
+      validator.error("seat.motion_scale", "needs port: TIP");
     out.seat.tool = in.tool_index();
     read_environment(in.environment(), out.dof, "environment", validator, out.environment);
     read_ties(in, validator, out);

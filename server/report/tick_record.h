@@ -14,7 +14,7 @@ using Triple = std::array<double, 3>;
 struct SeatRecord {
   double alpha = 0;              ///< authority over the first tool that it follows
   AxisArray q{};                 ///< joints of the device [rad] or [m]
-  Triple x{}, f_cmd{}, f_out{};  ///< tip [m]; commanded before the gate, and delivered [N]
+  Triple x{}, f_cmd{}, f_out{};  ///< tip [m]; force commanded before the gate, and delivered [N]; as the tool sees them
   EnergyArray e_in{}, e_out{};   ///< energy at the client's end [nJ]
   double dissipated_j = 0, refused_j = 0, margin_min_j = 0, delivered_j = 0;
   std::uint32_t leader = 0;  ///< number of the master that leads this seat, from 1; 0: none

@@ -26,6 +26,7 @@ LeadingHands::LeadingHands(const SceneSpec& scene, double dt) noexcept
       masters_(scene.masters()),
       axes_(scene.port == PortSpace::kTip ? scene.dof : 0) {
   hands_.fill(control::LeadingHand(dt));
+  for (std::size_t h = 0; h < masters_; ++h) motion_scale_[h] = scene.seats[h].motion_scale;
 }
 
 void LeadingHands::step(std::uint32_t tick, const std::array<bool, kSeatsMax>& present,
@@ -42,9 +43,11 @@ void LeadingHands::step(std::uint32_t tick, const std::array<bool, kSeatsMax>& p
   }
   for (std::size_t i = 0; i < masters_; ++i) {
     const std::size_t leader = leader_of(i, tools[seats[i].coupled_tools().front()].authority);
-    ghosts_[i] = leader < masters_ ? ghost_of(hands_[leader], static_cast<std::uint32_t>(leader + 1),
-                                              seats[leader].last_state().telemetry.x)
-                                   : wire::Ghost{};
+    ghosts_[i] = {};
+    if (leader >= masters_) continue;
+    std::array<double, 3> tip = seats[leader].last_state().telemetry.x;
+    for (double& x : tip) x *= motion_scale_[leader];
+    ghosts_[i] = ghost_of(hands_[leader], static_cast<std::uint32_t>(leader + 1), tip);
   }
 }
 

@@ -34,6 +34,7 @@ class LeadingHands {
 
   bool predicts_;  ///< law `replica`
   std::size_t masters_, axes_;
+  std::array<double, kMastersMax> motion_scale_{};  ///< of each hand
   std::array<control::LeadingHand, kMastersMax> hands_{};
   std::array<wire::Ghost, kMastersMax> ghosts_{};
 };

@@ -18,7 +18,7 @@ std::vector<std::unique_ptr<control::ChannelEnd>> ends_of(const SeatSetup& s, co
   for (std::size_t j = 0; j < tools; ++j)
     ends.push_back(setup::make_channel(s.channel, control::Side::kServer, s.dof, scale,
                                        s.gate.force_max * share_of_force(s.seat.role), s.coupling.k_c, !s.unsafe_gains,
-                                       k_s));
+                                       k_s, s.seat.motion_scale));
   return ends;
 }
 

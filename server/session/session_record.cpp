@@ -4,11 +4,16 @@
 
 namespace tandem::server {
 
-void record_seat(const wire::StateMessage& said, SeatRecord& r) noexcept {
+void record_seat(const wire::StateMessage& said, double scale, SeatRecord& r) noexcept {
   r.q = said.telemetry.q;
   r.x = said.telemetry.x;
   r.f_cmd = said.telemetry.f_cmd;
   r.f_out = said.telemetry.f_out;
+  for (std::size_t k = 0; scale != 1 && k < 3; ++k) {
+    r.x[k] *= scale;
+    r.f_cmd[k] /= scale;
+    r.f_out[k] /= scale;
+  }
   r.e_in = said.port.e_in;
   r.e_out = said.telemetry.e_out;
   r.dissipated_j = said.telemetry.dissipated_j;
@@ -49,7 +54,7 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
       for (std::size_t k = 0; k < 3; ++k) r.ghost[k] = ghost.x[k];
       r.alpha = session.hub().authority(i);
     }
-    record_seat(m, r);
+    record_seat(m, scene.seats[i].motion_scale, r);
   }
   for (std::size_t j = 0; j < scene.tools.size(); ++j) {
     const Tool& tool = session.tool(j);

@@ -213,7 +213,8 @@ void SharedControl::step_targets(std::uint32_t tick, const LeadingHands& hands) 
 }
 
 void SharedControl::grant_following(std::size_t i) noexcept {
-  const double effort_max = scene_->gate.force_max * share_of_force(scene_->seats[i].role);
+  const double effort_max =
+      scene_->gate.force_max * share_of_force(scene_->seats[i].role) / scene_->seats[i].motion_scale;
   for (std::size_t j = 0; j < tools_.size(); ++j)
     hub_.grant_following(i, j, seats_[i].last_sample(j).x, effort_max, seats_[i].end(j));
 }

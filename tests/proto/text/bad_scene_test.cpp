@@ -106,6 +106,37 @@ TEST(BadScene, EveryToolHasOneSlave) {
              "seat[3].tool", "served by seat[2] already");
 }
 
+TEST(BadScene, ScalesMotionAndSeparatesForcesOnlyForMastersAtTheTip) {
+  const auto seat = [](const std::string& keys) {
+    return with("hand { model: RELAXED } }", "hand { model: RELAXED } " + keys + " }");
+  };
+  const auto scene =
+      parse_scene(seat("motion_scale: 0.5 device { load_kg: 0.1 calibrate: true } force_separation: true"), "s");
+  ASSERT_TRUE(scene) << to_text(scene.error());
+  EXPECT_EQ(scene->seats[0].motion_scale, 1) << "none by default";
+  EXPECT_EQ(scene->seats[1].motion_scale, 0.5);
+  EXPECT_EQ(scene->seats[1].device.load, 0.1);
+  EXPECT_TRUE(scene->seats[1].device.calibrate);
+  EXPECT_TRUE(scene->seats[1].force_separation);
+  const std::string listing = effective_scene_text(*scene);
+  for (const char* key :
+       {"seat[1].motion_scale", "seat[1].device.load_kg", "seat[1].device.calibrate", "seat[1].force_separation"})
+    EXPECT_NE(listing.find(key), std::string::npos) << key;
+  expect_one(seat("motion_scale: @0.09"), "seat[1].motion_scale", "must be in [0.1, 4]");
+  expect_one(seat("motion_scale: @4.1"), "seat[1].motion_scale", "must be in [0.1, 4]");
+  expect_one(seat("device { load_kg: @0.6 }"), "seat[1].device.load_kg", "must be in [0, 0.5] kg");
+  expect_one(seat("force_separation: @true"), "seat[1].force_separation", "needs device { calibrate: true }");
+  expect_one(seat("device { calibrate: true } force_separation: @true") + "channel { law: WAVE }\n",
+             "seat[1].force_separation", "a law that sends positions");
+  const std::string joints = "port: JOINT channel { law: SET_POSITION }\n";
+  expect_one(seat("motion_scale: @0.5") + joints, "seat[1].motion_scale", "needs port: TIP");
+  const auto slave = [](const std::string& keys) {
+    return with(" slave { model: TOUCH }", "") + "seat { name: \"slave\" kind: SLAVE tool: \"tool\" " + keys + " }\n";
+  };
+  expect_one(slave("motion_scale: @2"), "seat[2].motion_scale", "is for MASTER seats");
+  expect_one(slave("device { calibrate: true } force_separation: @true"), "seat[2].force_separation", "is for MASTER");
+}
+
 TEST(BadScene, AllowsAnAssistOnlyForMastersOfLawReplica) {
   const auto assisted = [](const std::string& assist) {
     return with("hand { model: RELAXED } }", "hand { model: RELAXED } " + assist + " }");

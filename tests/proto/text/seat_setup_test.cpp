@@ -50,6 +50,10 @@ void expect_same(const SeatSetup& a, const SeatSetup& b) {
   EXPECT_EQ(a.seat.hand.model, b.seat.hand.model);
   EXPECT_EQ(a.seat.assist.force, b.seat.assist.force);
   EXPECT_EQ(a.seat.assist.in_contact, b.seat.assist.in_contact);
+  EXPECT_EQ(a.seat.motion_scale, b.seat.motion_scale);
+  EXPECT_EQ(a.seat.force_separation, b.seat.force_separation);
+  EXPECT_EQ(a.seat.device.load, b.seat.device.load);
+  EXPECT_EQ(a.seat.device.calibrate, b.seat.device.calibrate);
   EXPECT_EQ(a.seat.hand.from, b.seat.hand.from);
   EXPECT_EQ(a.seat.hand.until, b.seat.hand.until);
   EXPECT_EQ(a.seat.hand.relaxed_b, b.seat.hand.relaxed_b);
@@ -221,6 +225,10 @@ TEST(SeatSetup, IsCheckedAgainstTheLimitsOfFiles) {
   refused([&](SeatSetup& s) { s.gate.local_hold = 0.51; }, "gate.local_hold_ms");
   refused([&](SeatSetup& s) { s.channel.b_rel = -1; }, "channel.b_rel_n_s_m");
   refused([&](SeatSetup& s) { s.seat.assist.force = 3.1; }, "seat.assist.force_n");
+  refused([&](SeatSetup& s) { s.seat.motion_scale = 0.05; }, "seat.motion_scale");
+  refused([&](SeatSetup& s) { s.seat.motion_scale = nan; }, "seat.motion_scale");
+  refused([&](SeatSetup& s) { s.seat.device.load = -1; }, "seat.device.load_kg");
+  refused([&](SeatSetup& s) { s.seat.force_separation = true; }, "seat.force_separation");
   refused([&](SeatSetup& s) { s.seat.assist.force = nan; }, "seat.assist.force_n");
   refused([&](SeatSetup& s) { s.m_s = 0; }, "m_s_kg");
   refused([&](SeatSetup& s) { s.b_s = nan; }, "b_s_n_s_m");
