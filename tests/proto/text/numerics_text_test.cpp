@@ -1,4 +1,4 @@
-// The message numerics of a scene: what it accepts, what it refuses and with which words, and its way to a client.
+// The message numerics of a scene: accepted values, refusals with their words, and its way to a client.
 #include <array>
 
 #include "proto/text/seat_setup.h"
