@@ -76,6 +76,7 @@ control::ToolCopy::Params copy_params(const SeatSetup& setup, const control::Vir
           .force_max = setup.gate.force_max * share_of_force(setup.seat.role) / scale,
           .of_several = !setup.further.empty(),
           .dt = 1.0 / setup.tick_hz,
+          .numerics = setup::numerics(setup.numerics),
           .assist = {.force = setup.seat.assist.force / scale, .in_contact = setup.seat.assist.in_contact}};
 }
 

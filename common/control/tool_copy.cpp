@@ -17,7 +17,7 @@ Assist::Params assist_of(const ToolCopy::Params& p) noexcept {
 
 ToolCopy::ToolCopy(const Params& params) noexcept
     : p_(params),
-      tool_(params.tool, params.axes, params.contacts),
+      tool_(params.tool, params.axes, params.contacts, params.numerics),
       received_contacts_({params.axes, params.v_app, params.k_c, params.dt}),
       assist_(assist_of(params)),
       offset_({.axes = params.axes, .hold = params.offset_hold, .v_app = params.v_app, .dt = params.dt}) {
@@ -67,10 +67,15 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
     pulls[a].damper(part * reference.b[a], reference.rate[a]);
   }
   const VirtualTool before = tool_;
-  tool_.step(p_.dt, pulls);
-  if (!pay_for_dampers(pulls, before, end)) {
-    tool_ = before;
-    tool_.step(p_.dt, without_dampers);
+  VirtualTool::Parts parts;
+  if (tool_.in_parts()) [[unlikely]] {
+    parts = advance_in_parts(pulls, without_dampers, before, end);
+  } else {
+    tool_.step(p_.dt, pulls);
+    if (!pay_for_dampers(pulls, before, end)) {
+      tool_ = before;
+      tool_.step(p_.dt, without_dampers);
+    }
   }
   // Share of the copy's motion that does not come from this hand. It includes, as a share, the force that the hand
   // feels and the copy does not.
@@ -80,6 +85,8 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
     dissipated_[a] = (p_.tool.b + 0.5 * reference.k[a] * p_.dt) * v * v * p_.dt;
     show(a, place(hand, a), others * (tool_.x(a) - before.x(a)), end);
   }
+  if (tool_.in_parts()) [[unlikely]]
+    for (std::size_t a = 0; a < p_.axes; ++a) dissipated_[a] = tool_.heat(parts, a, p_.tool.b, reference.k[a], p_.dt);
   return wanted_;
 }
 
@@ -128,10 +135,28 @@ void ToolCopy::apply_assist(const AxisArray& hand, double authority, ChannelEnd&
     if (end.pay(a, cost[a])) assist_.move(a, step[a]);
 }
 
+/// Takes the tick by the numerics of the tool. The work of the dampers is that of all parts.
+VirtualTool::Parts ToolCopy::advance_in_parts(const VirtualTool::Pulls& pulls,
+                                              const VirtualTool::Pulls& without_dampers, const VirtualTool& before,
+                                              ChannelEnd& end) noexcept {
+  const VirtualTool::Parts parts = tool_.step_in_parts(p_.dt, pulls);
+  AxisArray cost{};
+  for (std::size_t a = 0; a < p_.axes; ++a)
+    cost[a] = pulls[a].b_velocity * (tool_.x(a) - before.x(a)) - pulls[a].b * parts.squares[a];
+  if (pay_in_all_axes(cost, end)) return parts;
+  tool_ = before;
+  return tool_.step_in_parts(p_.dt, without_dampers);
+}
+
 bool ToolCopy::pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before, ChannelEnd& end) noexcept {
   AxisArray cost{};
-  for (std::size_t a = 0; a < p_.axes; ++a) {
+  for (std::size_t a = 0; a < p_.axes; ++a)
     cost[a] = (pulls[a].b_velocity - pulls[a].b * tool_.v(a)) * (tool_.x(a) - before.x(a));
+  return pay_in_all_axes(cost, end);
+}
+
+bool ToolCopy::pay_in_all_axes(const AxisArray& cost, ChannelEnd& end) noexcept {
+  for (std::size_t a = 0; a < p_.axes; ++a) {
     if (cost[a] > 0 && !(cost[a] < end.ledger(a).margin())) {
       end.note_refused(cost[a]);
       return false;

@@ -47,6 +47,7 @@ class ToolCopy {
     double force_max = 3.3;    ///< of the gate [N]
     bool of_several = false;   ///< the hand also feels other tools
     double dt = 0.001;         ///< duration of a tick [s]
+    Numerics numerics;         ///< those of the server's tool
     Assist::Params assist;     ///< bound and conditions; its axes, k_c and dt are replaced by those of the copy
   };
   explicit ToolCopy(const Params& params) noexcept;
@@ -94,8 +95,12 @@ class ToolCopy {
     return hand[axis] - offset_[axis] - assist_.shift(axis);
   }
   void apply_received_contacts(ChannelEnd& end) noexcept;
+  [[nodiscard]] VirtualTool::Parts advance_in_parts(const VirtualTool::Pulls& pulls,
+                                                    const VirtualTool::Pulls& without_dampers,
+                                                    const VirtualTool& before, ChannelEnd& end) noexcept;
   [[nodiscard]] bool pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before,
                                      ChannelEnd& end) noexcept;
+  [[nodiscard]] bool pay_in_all_axes(const AxisArray& cost, ChannelEnd& end) noexcept;
   void show(std::size_t axis, double hand, double others, ChannelEnd& end) noexcept;
 
   Params p_;

@@ -38,7 +38,7 @@ void VirtualTool::rest_at(const AxisArray& x) noexcept {
   v_ = surface_force_ = surface_k_ = surface_b_ = {};
 }
 
-bool VirtualTool::step(double dt, const Pulls& pulls) noexcept {
+bool VirtualTool::implicit_step(double dt, const Pulls& pulls) noexcept {
   Equations free;
   Vector3 velocity{};
   for (std::size_t a = 0; a < kAxes; ++a) {

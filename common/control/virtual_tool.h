@@ -5,6 +5,7 @@
 
 #include "common/base/axes.h"
 #include "common/control/contact.h"
+#include "common/control/numerics.h"
 #include "common/control/pull.h"
 
 namespace tandem::control {
@@ -12,7 +13,7 @@ namespace tandem::control {
 /// A tool without a device: a mass that touches its surfaces itself. The server steps one per tool and every client
 /// steps a copy of it, with this same code. The step is implicit: springs, dampers, surfaces and their friction act at
 /// its end. No step therefore creates energy, for any gains [Stramigioli, LNCIS 266, 2001]. Several surfaces are solved
-/// together.
+/// together. Other `Numerics` are possible (virtual_tool_numerics.cpp).
 class VirtualTool {
  public:
   static constexpr std::size_t kAxes = 3;
@@ -25,9 +26,22 @@ class VirtualTool {
   /// Springs and dampers on the tool, per axis.
   using Pulls = std::array<Pull, kAxes>;
 
+  /// Account of a tick that was taken in several parts or by another integrator.
+  struct Parts {
+    bool finite = false;                  ///< false: the tool stayed where it was, at rest
+    std::array<double, kAxes> squares{};  ///< sum of v^2 h over the parts, per axis [m^2/s]
+  };
+
   /// @param axes  1 to 3; the other axes stay at 0
-  VirtualTool(const Gains& gains, std::size_t axes, const ContactSet& contacts = {}) noexcept
-      : gains_(gains), axes_(axes), own_contacts_(contacts.size()), contacts_(contacts) {}
+  /// @param numerics  surfaces with friction need an implicit Euler step in double
+  VirtualTool(const Gains& gains, std::size_t axes, const ContactSet& contacts = {},
+              const Numerics& numerics = {}) noexcept
+      : gains_(gains),
+        axes_(axes),
+        own_contacts_(static_cast<std::uint8_t>(contacts.size())),
+        in_parts_(!numerics.is_default()),
+        numerics_(numerics),
+        contacts_(contacts) {}
 
   /// Replaces the surfaces received from the server; those of the constructor stay. Surfaces beyond the capacity are
   /// omitted.
@@ -37,7 +51,17 @@ class VirtualTool {
   void rest_at(const AxisArray& x) noexcept;
   /// Advances by one step of length `dt` [s]. If the result is not finite, the tool stays where it was, at rest.
   /// @return whether the result was finite.
-  bool step(double dt, const Pulls& pulls) noexcept TANDEM_REALTIME;
+  bool step(double dt, const Pulls& pulls) noexcept TANDEM_REALTIME {
+    return in_parts_ ? step_in_parts(dt, pulls).finite : implicit_step(dt, pulls);
+  }
+  /// Advances likewise by the numerics of this tool. @return what an energy account needs
+  Parts step_in_parts(double dt, const Pulls& pulls) noexcept TANDEM_REALTIME;
+  /// Returns the heat of one axis in these parts that an account may spend [J]. It is zero for numerics without a proof
+  /// of passivity. @param b, k  of the dampers, and of the springs whose implicit step also dissipates
+  [[nodiscard]] double heat(const Parts& parts, std::size_t axis, double b, double k, double dt) const noexcept;
+  /// Whether accounts need `step_in_parts` and `heat`.
+  [[nodiscard]] bool in_parts() const noexcept { return in_parts_; }
+  [[nodiscard]] const Numerics& numerics() const noexcept { return numerics_; }
 
   /// Position [m].
   [[nodiscard]] double x(std::size_t axis) const noexcept { return x_[axis]; }
@@ -64,6 +88,12 @@ class VirtualTool {
   [[nodiscard]] double surface_energy() const noexcept;
 
  private:
+  /// Advances by one implicit step, the default.
+  bool implicit_step(double dt, const Pulls& pulls) noexcept;
+  /// Advances by one step of the integrator in numbers of type S.
+  template <class S>
+  bool linear_step(double dt, const Pulls& pulls) noexcept;
+  void feel_surfaces() noexcept;
   /// The equations of one step: matrix v' = rhs.
   struct Equations {
     std::array<std::array<double, kAxes>, kAxes> matrix{};
@@ -88,7 +118,9 @@ class VirtualTool {
 
   Gains gains_;
   std::size_t axes_;
-  std::size_t own_contacts_;  ///< number of leading entries of `contacts_` that come from the constructor
+  std::uint8_t own_contacts_;  ///< number of leading entries of `contacts_` that come from the constructor
+  bool in_parts_;
+  Numerics numerics_;
   ContactSet contacts_;
   std::array<double, kAxes> x_{}, v_{};
   std::array<double, kAxes> surface_force_{}, surface_k_{}, surface_b_{};

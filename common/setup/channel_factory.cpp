@@ -58,6 +58,15 @@ static_assert(static_cast<int>(HandCouplingKind::kAveragePosition) ==
               control::kHandCouplings == static_cast<std::size_t>(HandCouplingKind::kAveragePosition) + 1);
 control::HandCoupling hand_coupling(HandCouplingKind kind) noexcept { return static_cast<control::HandCoupling>(kind); }
 
+static_assert(static_cast<int>(IntegratorKind::kExact) == static_cast<int>(control::Integrator::kExact) &&
+              control::kIntegrators == static_cast<std::size_t>(IntegratorKind::kExact) + 1);
+static_assert(static_cast<int>(PrecisionKind::kFloat) == static_cast<int>(control::Precision::kFloat));
+static_assert(kSubstepsMax == control::kSubstepsMax);
+control::Numerics numerics(const NumericsSpec& spec) noexcept {
+  return {static_cast<control::Integrator>(spec.integrator), static_cast<control::Precision>(spec.precision),
+          static_cast<std::uint8_t>(spec.substeps)};
+}
+
 control::ContactSet contacts(const EnvironmentSpec& environment) noexcept {
   control::ContactSet all;
   if (const auto& w = environment.wall) {

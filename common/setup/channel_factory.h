@@ -8,6 +8,7 @@
 #include "common/control/contact.h"
 #include "common/control/flow_sources.h"
 #include "common/control/hand_coupling.h"
+#include "common/control/numerics.h"
 #include "proto/spec/scene_spec.h"
 
 /// Builds the control laws from a scene. Both ends of a channel use this code, so they cannot differ.
@@ -17,6 +18,9 @@ namespace tandem::setup {
 [[nodiscard]] control::FlowSourceMode flow_source_mode(MfsMode mode) noexcept;
 
 [[nodiscard]] control::HandCoupling hand_coupling(HandCouplingKind kind) noexcept;
+
+/// Returns how a simulated tool and its copies are stepped.
+[[nodiscard]] control::Numerics numerics(const NumericsSpec& spec) noexcept;
 
 /// Returns the surfaces of the scene's own environment, for a virtual tool and its copies.
 [[nodiscard]] control::ContactSet contacts(const EnvironmentSpec& environment) noexcept;

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   tandem::netsim::add_test_command(root);
   tandem::netsim::add_sweep_command(root);
   tandem::netsim::add_feel_command(root);
+  tandem::netsim::add_tradeoff_command(root);
   tandem::netsim::add_proxy_command(root);
   tandem::netsim::add_control_command(root);
   tandem::netsim::add_profiles_command(root);

@@ -268,6 +268,25 @@ struct PhaseSpec {
   bool contact = false;  ///< the report evaluates contact forces
 };
 
+/// Integrators of a simulated tool (common/control/numerics.h).
+enum class IntegratorKind : std::uint8_t { kImplicitEuler, kImplicitMidpoint, kSemiImplicitEuler, kRk4, kExact };
+/// Numbers in which a simulated tool is stepped.
+enum class PrecisionKind : std::uint8_t { kDouble, kFloat };
+/// Largest number of steps per tick.
+inline constexpr std::uint32_t kSubstepsMax = 64;
+/// How the server steps a simulated tool, and every client its copy.
+struct NumericsSpec {
+  IntegratorKind integrator = IntegratorKind::kImplicitEuler;  ///< method of one step
+  PrecisionKind precision = PrecisionKind::kDouble;            ///< numbers of one step
+  std::uint32_t substeps = 1;                                  ///< steps per tick, 1 to kSubstepsMax
+  /// Whether no step creates energy for any gains and surfaces.
+  [[nodiscard]] bool keeps_proof() const noexcept {
+    return integrator == IntegratorKind::kImplicitEuler && precision == PrecisionKind::kDouble;
+  }
+  /// Whether this is the default, one implicit step per tick.
+  [[nodiscard]] bool is_default() const noexcept { return keeps_proof() && substeps == 1; }
+};
+
 /// A validated scene.
 struct SceneSpec {
   std::string name;                                           ///< name
@@ -282,6 +301,7 @@ struct SceneSpec {
   ChannelSpec channel;                    ///< channel of every seat
   CouplingSpec coupling;                  ///< coupling of every master's device
   GateSpec gate;                          ///< force gate of every seat
+  NumericsSpec numerics;                  ///< steps of the simulated tools
   std::vector<SeatSpec> seats;            ///< masters first, then slaves
   std::vector<ToolSpec> tools;            ///< at least one
   std::vector<AuthorityRow> authority;    ///< one per tool

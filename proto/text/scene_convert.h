@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "proto/schema/scene.pb.h"
 #include "proto/spec/scene_spec.h"
 #include "proto/text/message_validator.h"
+#include "proto/text/scene_text.h"
 
 /// Private to proto/text: conversion between tandem::pb and SceneSpec of the parts that scene files and seat setups
 /// share. `read_*` accept messages that did or did not pass check_limits. Absent values keep the default, and
@@ -15,6 +17,7 @@ namespace tandem {
 void read_channel(const pb::Channel& in, const std::string& path, text::MessageValidator& validator, ChannelSpec& out);
 void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out);
 void read_gate(const pb::Gate& in, GateSpec& out);
+void read_numerics(const pb::Numerics& in, NumericsSpec& out);
 constexpr double kE0Max = 10;  ///< largest e0 in the schemas of scene and seat [J]
 /// Smallest initial ledger energy that does not deadlock the channel at its start: F_max^2 / (2 k_min) [J].
 [[nodiscard]] double e0_min(const ChannelSpec& channel, const GateSpec& gate) noexcept;
@@ -45,6 +48,12 @@ void write_environment(const EnvironmentSpec& in, pb::Environment& out);
 void write_channel(const ChannelSpec& in, pb::Channel& out);
 void write_coupling(const CouplingSpec& in, pb::DeviceCoupling& out);
 void write_gate(const GateSpec& in, pb::Gate& out);
+/// Returns the conflict of the numerics with the tools and the law of a scene; empty if there is none.
+[[nodiscard]] std::optional<LawProblem> numerics_problem(const SceneSpec& scene);
+/// Rejects friction that the numerics do not solve. @param whose  owner of the surfaces, for the message
+void check_friction(const NumericsSpec& numerics, const EnvironmentSpec& environment, const std::string& whose,
+                    text::MessageValidator& validator);
+void write_numerics(const NumericsSpec& in, pb::Numerics& out);
 void write_seat(const SeatSpec& in, pb::Seat& out);
 void write_slave(const SimDeviceSpec& device, const EnvironmentSpec& environment, pb::Slave& out);
 

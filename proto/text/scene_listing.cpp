@@ -35,6 +35,7 @@ pb::Scene to_proto(const SceneSpec& scene) {
   write_channel(scene.channel, *out.mutable_channel());
   write_coupling(scene.coupling, *out.mutable_device_coupling());
   write_gate(scene.gate, *out.mutable_gate());
+  write_numerics(scene.numerics, *out.mutable_numerics());
   for (const auto& seat : scene.seats) {
     auto& s = *out.add_seat();
     write_seat(seat, s);

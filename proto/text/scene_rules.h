@@ -22,5 +22,7 @@ void check_law(const pb::Scene& in, text::MessageValidator& validator, const Sce
 /// reduces each master's spring to the limit of its device. There k_c is a request, and only a device with almost no
 /// renderable stiffness is an error.
 void check_passivity(const pb::Scene& in, text::MessageValidator& validator, const SceneSpec& scene);
+/// Checks whether the numerics solve the friction of surfaces and keep the proof of passivity.
+void check_numerics(text::MessageValidator& validator, const SceneSpec& scene);
 
 }  // namespace tandem::rules

@@ -78,6 +78,7 @@ std::optional<LawProblem> coupling_problem(const SceneSpec& scene) {
 
 std::optional<LawProblem> law_problem(const SceneSpec& scene) {
   if (auto problem = coupling_problem(scene)) return problem;
+  if (auto problem = numerics_problem(scene)) return problem;
   if (scene.channel.e0 > kE0Max)  // reachable by choose_law only: scene files have a lower maximum
     return LawProblem{"gate.force_max_n", "force_max_n^2 / (2 k_min_n_m) = " + text::number_text(scene.channel.e0) +
                                               " J must be at most " + text::number_text(kE0Max) +
@@ -105,6 +106,7 @@ std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::st
   read_channel(in.channel(), "channel", validator, out.channel);
   read_coupling(in.device_coupling(), out.coupling);
   read_gate(in.gate(), out.gate);
+  read_numerics(in.numerics(), out.numerics);
   resolve_e0(in.channel(), "channel", validator, out.gate, out.channel);
   check_gate(out.gate, out.tick_hz, "gate", validator);
   rules::read_seats_and_tools(in, validator, out);
@@ -113,6 +115,7 @@ std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::st
   rules::read_phases(in, validator, out);
   rules::check_law(in, validator, out);
   rules::check_passivity(in, validator, out);
+  rules::check_numerics(validator, out);
   if (!validator.ok()) return std::unexpected(validator.take());
   return out;
 }

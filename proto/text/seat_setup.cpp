@@ -45,6 +45,7 @@ void read_ties(const pb::SeatSetup& in, MessageValidator& validator, SeatSetup& 
     read.tool = tie.tool_index();
     text::read_keys(tie, kCoupledToolKeys, read);
     read_environment(tie.environment(), out.dof, text::child_path(path, "environment"), validator, read.environment);
+    check_friction(out.numerics, read.environment, path, validator);
     if (read.tool <= before)
       validator.error(text::child_path(path, "tool_index"),
                       "must be above that of the tool before, " + std::to_string(before));
@@ -74,6 +75,7 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   }
   setup.coupling = scene.coupling;
   setup.gate = scene.gate;
+  setup.numerics = scene.numerics;
   setup.alpha_slew = scene.alpha_slew;
   setup.seat = scene.seats[seat];
   if (setup.seat.kind == SeatKind::kSlave && setup.seat.tool < scene.tools.size())
@@ -123,6 +125,7 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   write_coupling(setup.coupling, *message.mutable_device_coupling());
   write_gate(setup.gate, *message.mutable_gate());
   write_seat(setup.seat, *message.mutable_seat());
+  write_numerics(setup.numerics, *message.mutable_numerics());
   message.set_tool_index(static_cast<std::uint32_t>(setup.seat.tool));
   for (std::size_t axis = 0; axis < setup.dof && axis < kAxesMax; ++axis)
     message.add_axis_scale(setup.axis_scale[axis]);
@@ -162,6 +165,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     read_channel(in.channel(), "channel", validator, out.channel);
     read_coupling(in.device_coupling(), out.coupling);
     read_gate(in.gate(), out.gate);
+    read_numerics(in.numerics(), out.numerics);
     resolve_e0(in.channel(), "channel", validator, out.gate, out.channel);
     if (out.channel.law == LawKind::kReplica && out.port == PortSpace::kJoint)
       validator.error("channel.law", "is REPLICA, which needs port: TIP");
@@ -171,6 +175,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
       validator.error("seat.motion_scale", "needs port: TIP");
     out.seat.tool = in.tool_index();
     read_environment(in.environment(), out.dof, "environment", validator, out.environment);
+    check_friction(out.numerics, out.environment, "the tool of this seat", validator);
     read_ties(in, validator, out);
     for (std::size_t axis = 0; axis < out.dof; ++axis) out.axis_scale[axis] = in.axis_scale(static_cast<int>(axis));
     out.masters.assign(in.master().begin(), in.master().end());

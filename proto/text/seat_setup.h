@@ -41,6 +41,7 @@ struct SeatSetup {
   double stiffness_asked = 400;
   double m_s = 0.02,                 ///< mass of the tool this seat follows [kg]
       b_s = 0.2;                     ///< damping of that tool [N s/m]
+  NumericsSpec numerics;             ///< steps of all simulated tools
   EnvironmentSpec environment;       ///< of that tool: a master of law REPLICA simulates it
   double weight = 1;                 ///< weight of that tool's force in the force on this seat, C_ji (0, 1]
   std::vector<CoupledTool> further;  ///< masters of law REPLICA: the other tools, in the scene's order

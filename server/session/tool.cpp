@@ -19,10 +19,12 @@ Tool::Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::Stepp
       slave_(std::move(slave)),
       received_contacts_({scene.dof, scene.channel.v_app, scene.coupling.k_c, 1.0 / scene.tick_hz}) {
   if (spec_->is_virtual) {
-    body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_, setup::contacts(spec_->environment));
+    body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_, setup::contacts(spec_->environment),
+                  setup::numerics(scene.numerics));
     rest_at({spec_->slave.start.x, spec_->slave.start.y, spec_->slave.start.z});
   } else if (spec_->remote && scene.channel.law == LawKind::kReplica) {
-    body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_);
+    body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_, control::ContactSet{},
+                  setup::numerics(scene.numerics));
     if (spec_->contacts == ContactsMode::kEstimated) source_ = std::make_unique<EstimatedPlane>(dof_);
   } else if (slave_) {
     map_ = hal::PortMap(scene.port, dof_, slave_->caps().joints);
@@ -55,7 +57,8 @@ void Tool::update_contacts(ToolView view) noexcept {
        std::span{wanted.item}.first(std::min<std::size_t>(wanted.size, kLocalContactsMax))) {
     const bool known =
         std::ranges::any_of(contacts_.all(), [&](const LocalContact& other) { return other.id == contact.id; });
-    if (known || !is_surface(contact, dof_) || !in_range(contact)) {
+    const bool rubs_in_vain = contact.mu > 0 && !body_->numerics().keeps_proof();  // only that step solves friction
+    if (known || rubs_in_vain || !is_surface(contact, dof_) || !in_range(contact)) {
       ++contacts_refused_;
       continue;
     }
@@ -71,7 +74,13 @@ void Tool::step_body(double dt, const control::EscHub::Efforts& seats, bool brak
     pulls[a] = seats[a];
     if (braked) pulls[a].damper(kBrake, 0);
   }
-  if (!body_->step(dt, pulls)) ++not_finite_;
+  control::VirtualTool::Parts parts;
+  if (body_->in_parts()) [[unlikely]] {
+    parts = body_->step_in_parts(dt, pulls);
+    if (!parts.finite) ++not_finite_;
+  } else if (!body_->step(dt, pulls)) {
+    ++not_finite_;
+  }
   for (std::size_t a = 0; a < dof_; ++a) {
     const double v = body_->v(a);
     port_.moved[a] = body_->x(a) - port_.x[a];
@@ -80,6 +89,9 @@ void Tool::step_body(double dt, const control::EscHub::Efforts& seats, bool brak
     port_.dissipated[a] = (spec_->b_s + pulls[a].b + 0.5 * pulls[a].k * dt) * v * v * dt;
     port_.surface_force[a] = body_->surface_force()[a];
   }
+  if (body_->in_parts()) [[unlikely]]
+    for (std::size_t a = 0; a < dof_; ++a)
+      port_.dissipated[a] = body_->heat(parts, a, spec_->b_s + pulls[a].b, pulls[a].k, dt);
 }
 
 void Tool::step(double dt, const control::EscHub::Efforts& seats, bool braked) noexcept {

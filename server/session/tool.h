@@ -42,7 +42,8 @@ class Tool {
   [[nodiscard]] bool has_contact_source() const noexcept { return source_ != nullptr; }
   /// Surfaces of this tick.
   [[nodiscard]] const LocalContactList& contacts() const noexcept { return contacts_; }
-  /// Number of rejected surfaces: duplicates, invalid ones and values out of range.
+  /// Number of rejected surfaces: duplicates, invalid ones, values out of range, and friction
+  /// that the numerics of the tool do not solve.
   [[nodiscard]] std::uint64_t contacts_refused() const noexcept { return contacts_refused_; }
 
   /// Advances the simulated slave by `dt`, with its command held.

@@ -45,7 +45,7 @@ void check_headers(const fs::path& include) {
   EXPECT_EQ(shown, (std::vector<std::string>{"tandem/client.h", "tandem/control.h", "tandem/hal.h", "tandem/netsim.h",
                                              "tandem/testing.h"}));
   EXPECT_GT(headers, 20U);
-  EXPECT_LE(headers, 84U) << "the public headers show more of the sources than before";
+  EXPECT_LE(headers, 85U) << "the public headers show more of the sources than before";
   const Done done =
       shell(std::string(TANDEM_COMPILER) + " -std=c++23 -fsyntax-only -Wall -Wextra -Wpedantic -Werror -I " +
             quoted(include) + " -isystem /usr/include/eigen3 " + quoted(kPlace / "all_headers.cpp"));

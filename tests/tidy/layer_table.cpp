@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 41> kLayers{{
+const std::array<Layer, 42> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -156,6 +156,11 @@ const std::array<Layer, 41> kLayers{{
      {"common/base", "hal", "netsim/feel", "netsim/system", "proto", "server"},
      {"Eigen", "json"},
      "what hands feel is measured in the simulation: no files, clocks or threads; those belong to netsim/app"},
+    {"netsim/tradeoff",
+     {"common/base", "common/control", "common/setup", "netsim/plot", "netsim/tradeoff", "proto/spec"},
+     {},
+     "numerics of the simulated tool are judged by pure functions: no session, files or clocks; those belong to "
+     "netsim/app"},
     {"netsim/scenario",
      {"common/base", "hal/sim/recorded_motion.h", "netsim/feel/observed_feel.h", "netsim/profiles", "netsim/scenario",
       "netsim/system", "proto", "server"},
