@@ -64,8 +64,8 @@ inline constexpr std::array<CellNumberRow, kCellNumberCount> kCellNumbers{{
     {CellNumber::kEngagedShare, "engaged_share", "Engaged share", "Share of the time in which the leader was engaged.",
      "1", "%", 100, 3, true, false},
     {CellNumber::kUnstable, "unstable", "Unstable",
-     "Share of the seeds in which a hand moved faster than 1.5 m/s, or a motor's force above 1 Hz exceeded 0.2 N RMS "
-     "while no hand intended to move.",
+     "Share of the seeds in which a hand moved faster than 1.5 m/s, the tool was more than 250 mm from the hands, or a "
+     "motor's force above 1 Hz exceeded 0.2 N RMS while no hand intended to move.",
      "1", "%", 100, 3, false, false},
 }};
 

@@ -41,7 +41,10 @@ double motor_energy(const FeelTrace& trace, std::size_t hands) {
   return largest;
 }
 
-bool unstable(const FeelTrace& trace, const TaskTimes& times) {
+/// Returns whether a hand moved too fast, oscillates in the rest, or the tool left the hands.
+bool unstable(const FeelTrace& trace, const TaskTimes& times, const std::vector<hal::Vec3>& hands) {
+  for (std::size_t i = 0; i < hands.size(); ++i)
+    if (!((trace.tool[i] - hands[i]).norm() <= kUnstableDistance)) return true;
   return std::ranges::any_of(trace.hands, [&](const FeelTrace::Hand& hand) {
     const double fastest = 1e3 * largest_step_per_ms(hand.x, trace.tick_hz);
     return !(fastest <= kUnstableSpeed) || !(limit_cycle(trace, hand, times.cycle, times.end) <= kUnstableForce);
@@ -108,17 +111,18 @@ CellValues values_of(const FeelTrace& trace, const TaskTimes& times) {
   CellValues v;
   v.fill(kNaN);
   if (trace.rows() == 0 || trace.hands.empty()) return v;
+  const std::vector<hal::Vec3> hands = weighted_hands(trace);
   if (times.contact) {
     put_contact(trace, times, v);
   } else {
-    put_motion(trace, times, weighted_hands(trace), v);
+    put_motion(trace, times, hands, v);
   }
   FeelValues exposure;
   put_exposure(exposure_of(trace, kExposedFrom), exposure);
   v[static_cast<std::size_t>(CellNumber::kEngagedShare)] = exposure.at("engaged_share");
   v[static_cast<std::size_t>(CellNumber::kMotorEnergy)] = motor_energy(trace, trace.hands.size());
   v[static_cast<std::size_t>(CellNumber::kLeaderEnergy)] = motor_energy(trace, 1);
-  v[static_cast<std::size_t>(CellNumber::kUnstable)] = unstable(trace, times) ? 1 : 0;
+  v[static_cast<std::size_t>(CellNumber::kUnstable)] = unstable(trace, times, hands) ? 1 : 0;
   return v;
 }
 

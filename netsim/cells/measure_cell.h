@@ -30,8 +30,9 @@ struct CellResult {
   [[nodiscard]] bool sound() const noexcept;
 };
 
-/// Limits of an unstable run: force above 1 Hz [N RMS] in the rest, speed of a hand [m/s] at any time.
-inline constexpr double kUnstableForce = 0.2, kUnstableSpeed = 1.5;
+/// Limits of an unstable run: force above 1 Hz [N RMS] in the rest; speed of a hand [m/s] and distance of the tool from
+/// the weighted mean of the hands [m] at any time.
+inline constexpr double kUnstableForce = 0.2, kUnstableSpeed = 1.5, kUnstableDistance = 0.25;
 
 /// Returns the numbers of a trace. @param times  of its task
 [[nodiscard]] CellValues values_of(const FeelTrace& trace, const TaskTimes& times);
