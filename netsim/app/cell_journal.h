@@ -15,7 +15,7 @@ namespace tandem::netsim {
 /// the next one removes. A write that fails, such as on a full disk, is undone.
 class CellJournal {
  public:
-  /// What results depend on: two sweeps with equal identities give equal results.
+  /// Values that results depend on: two sweeps with equal identities give equal results.
   struct Identity {
     std::string program;    ///< program_digest
     std::string cells;      ///< LoadedCells::digest

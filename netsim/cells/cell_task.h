@@ -21,7 +21,7 @@ struct TaskTimes {
   bool contact = false;          ///< whether the tool touches a wall
 };
 
-/// What all cells of a file share.
+/// Input that all cells of a file share.
 struct CellInput {
   SceneSpec scene;                                                 ///< scene of the file
   std::shared_ptr<const hal::sim::RecordedMotion> recording = {};  ///< CellTask::kRecorded

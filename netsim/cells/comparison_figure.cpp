@@ -8,6 +8,7 @@ namespace tandem::netsim {
 namespace {
 
 constexpr double kTrackingShown = 0.04;  // [m]; larger errors leave the panel
+constexpr double kUnstableShown = 0.5;   // share of the seeds; a cell with more is in no curve
 constexpr std::size_t kInks = 8;         // series0 to series7 of netsim/plot/plot_style.h
 
 /// Returns whether only law, coupling, task and delay of a cell differ from the ordinary ones.
@@ -25,7 +26,7 @@ std::vector<plot::Curve> curves_of(const ComparisonResult& c, CellTask task, Cel
     const Cell& cell = c.cells[i];
     const std::string name = ordinary(cell) && cell.task == task ? name_of(cell) : std::string();
     const double value = c.of(i, number).median;
-    if (name.empty() || std::isnan(value)) continue;
+    if (name.empty() || std::isnan(value) || c.of(i, CellNumber::kUnstable).median > kUnstableShown) continue;
     auto curve = std::ranges::find(curves, name, &plot::Curve::label);
     if (curve == curves.end()) {
       plot::Curve added;

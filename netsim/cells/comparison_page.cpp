@@ -36,14 +36,14 @@ std::string introduction(const ComparisonResult& c, const std::string& version) 
           words(repeat_command(file, 1)) +
           "</code>; the number of a cell appears on pointing at its square, and the last table "
           "has the whole command of each.</p>\n<nav>";
-  html += "<a href=\"#numbers\">What the numbers are</a><a href=\"#default\">The default against all others</a>";
+  html += "<a href=\"#numbers\">Definitions of the numbers</a><a href=\"#default\">The default against all others</a>";
   for (std::size_t g = 0; g < c.spec.grids.size(); ++g)
     html += "<a href=\"#grid-" + c.spec.grids[g].name + "\">" + words(c.spec.grids[g].name) + "</a>";
   return html + "<a href=\"#all\">All cells</a></nav>\n";
 }
 
 std::string definitions() {
-  std::string html = "<h2 id=\"numbers\">What the numbers are</h2>\n<table class=\"words\"><tbody>\n";
+  std::string html = "<h2 id=\"numbers\">Definitions of the numbers</h2>\n<table class=\"words\"><tbody>\n";
   for (const CellNumberRow& row : kCellNumbers)
     html += "<tr><th>" + std::string(row.title) + " [" + std::string(row.unit) + "]</th><td>" + words(row.definition) +
             "</td></tr>\n";
@@ -60,7 +60,8 @@ std::string figures(const ComparisonResult& c) {
     html += demo::to_html({anchor, title, caption, std::move(figure)}, "comparison");
   };
   add("laws", "Laws over the delay",
-      "Medians. Two hands, all authority at the leader, no jitter and no loss. Errors above 40 mm leave the panel.",
+      "Medians. Two hands, all authority at the leader, no jitter and no loss. Errors above 40 mm leave the panel. "
+      "Cells in which most seeds are unstable are left out.",
       laws_figure(c));
   add("couplings", "Couplings between hands over the delay", "Medians, law pd, in the same conditions.",
       couplings_figure(c));

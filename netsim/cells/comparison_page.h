@@ -18,7 +18,8 @@ namespace tandem::netsim {
 [[nodiscard]] std::string heat_style();
 
 /// Returns the curves over the delay of every law with coupling ESC: tracking in task FREE, and stiffness felt in task
-/// WALL, with two hands, all authority at the leader, and no other impairment. A panel without numbers is left out.
+/// WALL, with two hands, all authority at the leader, and no other impairment. Cells of which most seeds are unstable,
+/// and panels without numbers, are left out.
 [[nodiscard]] plot::Figure laws_figure(const ComparisonResult& comparison);
 /// Returns the same of every coupling of law PD: tracking and drag in task FREE.
 [[nodiscard]] plot::Figure couplings_figure(const ComparisonResult& comparison);

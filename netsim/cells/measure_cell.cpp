@@ -25,7 +25,7 @@ std::vector<hal::Vec3> weighted_hands(const FeelTrace& trace) {
       out[i] += hand.alpha[i] * hand.x[i];
       sum += hand.alpha[i];
     }
-    out[i] = sum > 0 ? hal::Vec3(out[i] / sum) : trace.tool[i];  // HELD: nobody moves the tool
+    out[i] = sum > 0 ? hal::Vec3(out[i] / sum) : trace.tool[i];  // HELD: the tool is braked
   }
   return out;
 }

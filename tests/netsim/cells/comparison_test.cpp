@@ -127,7 +127,7 @@ TEST(ComparisonFigure, DrawsOneCurvePerLaw) {
       [](const Cell& cell, std::uint64_t) { return 0.001 * cell.delay_ms + 0.001; });
   const plot::Figure figure = laws_figure(c);
   ASSERT_EQ(figure.panels.size(), 2u);
-  ASSERT_EQ(figure.panels[0].curves.size(), 3u);
+  ASSERT_EQ(figure.panels[0].curves.size(), 2u) << "raw is unstable";
   EXPECT_EQ(figure.panels[0].curves[0].label, "replica");
   EXPECT_NEAR(figure.panels[0].curves[0].points[1].y, 21, 1e-9) << "mm";
   ASSERT_EQ(figure.panels[1].curves.size(), 2u);
