@@ -12,6 +12,7 @@
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/sweep.h"
+#include "netsim/app/sweep_cells.h"
 #include "netsim/app/test_progress.h"
 #include "netsim/system/session_notes.h"
 #include "proto/io/scene_file.h"
@@ -25,6 +26,9 @@ struct SweepArguments {
   std::uint64_t seed = 1;
   double seeds = 1, jobs = 0, duration_s = 0;
   bool quiet = false;
+  std::string cells, resume, html, figure;
+  double cell = 0;
+  bool list = false;
 };
 
 int sweep_usage_error(const std::string& mistake) { return io::report_usage_error("tandem-netsim sweep", mistake); }
@@ -81,8 +85,47 @@ SweepSpec understand(const SweepArguments& a, io::UsageErrors& mistakes) {
   return spec;
 }
 
-int sweep_command(const SweepArguments& a) {
+/// Runs the cells of a file; rejects options of a map.
+int sweep_of_cells(const SweepArguments& a) {
   io::UsageErrors mistakes;
+  const auto excluded = [&](const char* option, bool given) {
+    if (given) mistakes.add(std::string(option) + ": is for a map of one scene; the file of --cells decides it");
+  };
+  excluded("scene", !a.scene.empty());
+  excluded("--delay", !a.delay.empty());
+  excluded("--jitter", !a.jitter.empty());
+  excluded("--loss", !a.loss.empty());
+  excluded("--metric", a.metric != SweepArguments{}.metric);
+  excluded("--seed", a.seed != 1);
+  excluded("--seeds", a.seeds != 1);
+  excluded("--duration", a.duration_s > 0);
+  excluded("--channel", !a.channel.empty());
+  excluded("--coupling", !a.coupling.empty());
+  excluded("--mfs", !a.mfs.empty());
+  if (!a.json.empty()) mistakes.add("--json: is for a map of one scene; with --cells use --csv or --html");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim sweep");
+  return sweep_cells({.cells = a.cells,
+                      .resume = a.resume,
+                      .csv = a.csv,
+                      .html = a.html,
+                      .figure = a.figure,
+                      .cell = a.cell,
+                      .jobs = a.jobs,
+                      .quiet = a.quiet});
+}
+
+int sweep_command(const SweepArguments& a) {
+  if (a.list) return list_shipped_cells();
+  if (!a.cells.empty()) return sweep_of_cells(a);
+  io::UsageErrors mistakes;
+  if (a.scene.empty())
+    mistakes.add("nothing to sweep: name a scene, or a file of cells by --cells, such as --cells comparison");
+  for (const auto& [option, given] : {std::pair{"--cell", a.cell > 0},
+                                      {"--resume", !a.resume.empty()},
+                                      {"--html", !a.html.empty()},
+                                      {"--figure", !a.figure.empty()}})
+    if (given) mistakes.add(std::string(option) + ": is for a file of cells; add --cells FILE");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim sweep");
   SweepSpec spec = understand(a, mistakes);
   for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
     mistakes.output_file(option, *file);
@@ -117,11 +160,11 @@ int sweep_command(const SweepArguments& a) {
 }  // namespace
 
 void add_sweep_command(const io::Command& root) {
-  const auto [command, a] =
-      root.add_command("sweep", "Runs a scene over a grid of networks and prints a map of one number.", sweep_command);
+  const auto [command, a] = root.add_command(
+      "sweep", "Runs a scene over a grid of networks and maps one number, or compares laws over a file of cells.",
+      sweep_command);
   command.add_option("scene", a.scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
-      .value_name(" ")
-      .required();
+      .value_name(" ");
   command.add_option("--delay", a.delay, "constant delays, each direction [ms], 0 to 60000").value_name("MS,MS,...");
   command
       .add_option("--jitter", a.jitter,
@@ -148,6 +191,27 @@ void add_sweep_command(const io::Command& root) {
   command.add_option("--coupling", a.coupling, coupling_help()).check(io::one_of(coupling_names()));
   command.add_option("--mfs", a.mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       .check(io::one_of({"open", "tank", "seed", "seed_signed"}));
+  command
+      .add_option(
+          "--cells", a.cells,
+          "instead of a scene: a file of cells, or the name of a shipped one (--list): laws, couplings, networks "
+          "and tasks")
+      .value_name("FILE");
+  command.add_flag("--list", a.list, "lists the shipped files of cells");
+  command.add_option("--cell", a.cell, "with --cells: this cell only, and all its numbers")
+      .check(io::whole_number_in(1, 20'000))
+      .value_name("N");
+  command
+      .add_option("--resume", a.resume,
+                  "with --cells: keeps every finished cell in this file, and continues from it. Results of another "
+                  "program or of other cells are rejected")
+      .value_name("FILE");
+  command.add_option("--html", a.html, "with --cells: writes tables and heat maps as one page; `-`: to standard output")
+      .value_name("FILE|-");
+  command
+      .add_option("--figure", a.figure,
+                  "with --cells: writes tracking and stiffness over the delay as SVG; `-`: to standard output")
+      .value_name("FILE|-");
   command.add_option("--json", a.json, "writes all points and seeds; `-`: to standard output").value_name("FILE|-");
   command.add_option("--csv", a.csv, "writes one row per point; `-`: to standard output").value_name("FILE|-");
   command.add_flag("--quiet", a.quiet, "no progress, and no map beside --json - or --csv -");
@@ -158,7 +222,9 @@ void add_sweep_command(const io::Command& root) {
       "  tandem-netsim sweep free_motion --delay 0,20,50,100 --loss 0,5,20\n"
       "  tandem-netsim sweep contact --delay 0,10,20,40 --jitter 0,5 --metric force_error_rms_n --seeds 5 --csv "
       "map.csv\n"
-      "  tandem-netsim sweep contact --delay 0,50,100,200 --channel raw");
+      "  tandem-netsim sweep contact --delay 0,50,100,200 --channel raw\n"
+      "  tandem-netsim sweep --cells comparison --resume comparison.cells --csv comparison.csv --html comparison.html\n"
+      "  tandem-netsim sweep --cells comparison --cell 17");
 }
 
 }  // namespace tandem::netsim

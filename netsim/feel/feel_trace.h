@@ -19,6 +19,10 @@ struct FeelTrace {
     std::vector<hal::Vec3> f;      ///< delivered by the motor to the hand
     std::vector<hal::Vec3> f_cmd;  ///< commanded before the force gate
     std::vector<char> engaged;
+    std::vector<double> alpha;  ///< authority over the tool [0, 1]
+    /// Work of the motor on the hand in the tick: delivered force times the motion of the tip [J]. The first row has
+    /// that of its own tick only.
+    std::vector<double> work;
     double force_max = 0;              ///< largest force that motor and gate allow this seat [N]
     std::vector<std::uint32_t> trips;  ///< trips of the force gate since the start
   };
@@ -26,10 +30,11 @@ struct FeelTrace {
   double one_way_s = 0;   ///< half of the leader's median round trip, without the server's tick [s]
   std::vector<double> t;  ///< session time [s]
   std::vector<Hand> hands;
-  std::vector<hal::Vec3> tool;   ///< tip of the tool
-  std::vector<hal::Vec3> f_env;  ///< force of the environment on the tool
-  std::vector<char> held;        ///< whether the tool is braked (HELD)
-  std::string trouble;           ///< why there is no result; empty: the session ran
+  std::vector<hal::Vec3> tool;      ///< tip of the tool
+  std::vector<hal::Vec3> f_env;     ///< force of the environment on the tool
+  std::vector<char> held;           ///< whether the tool is braked (HELD)
+  std::string trouble;              ///< why there is no result; empty: the session ran
+  std::vector<std::string> broken;  ///< invariants that the law promises and the run broke, without repetition
 
   [[nodiscard]] std::size_t rows() const noexcept { return t.size(); }
 

@@ -18,12 +18,6 @@ constexpr double kReserve = 0.85;                                               
 constexpr double kSlopeLow = 0.15,
                  kSlopeHigh = 0.9;  // of the motor's force, or of the largest force if that is smaller
 
-double depth_of(const FeelSetup& setup) {
-  const SceneSpec& s = setup.scene;
-  const double force = std::min(s.gate.force_max, s.seats[0].device.force_peak);
-  return std::clamp(kReserve * force * (1 / kFirmK + 1 / s.coupling.k_c), kDepthMin, kDepthMax);
-}
-
 ProbeRun press(const FeelSetup& setup, std::uint64_t seed, double wall, double depth, double pressed, double length) {
   const DrawnHand hand{setup.hands, seed, 0};
   return {.length = length,
@@ -50,29 +44,31 @@ double stiffness(const FeelTrace& trace) {
   return slope(std::span{x}.first(end), std::span{felt}.first(end), low, high);
 }
 
-/// Means while the hand holds still.
-struct Held {
-  double felt = 0, difference = 0;  ///< [N]
-  double stiffness = 0;             ///< force on the hand over its depth [N/m]
-};
-Held held(const FeelTrace& trace, double end) {
-  const double felt = mean(pressing(trace.part(trace.hands[0].f, kSteady, end)));
-  const double tool = mean(pressing(trace.part(trace.f_env, kSteady, end)));
-  return {felt, std::abs(felt - tool), felt / mean(along_x(trace.part(trace.hands[0].x, kSteady, end)))};
+}  // namespace
+
+double press_depth(const FeelSetup& setup) {
+  const SceneSpec& s = setup.scene;
+  const double force = std::min(s.gate.force_max, s.seats[0].device.force_peak);
+  return std::clamp(kReserve * force * (1 / kFirmK + 1 / s.coupling.k_c), kDepthMin, kDepthMax);
 }
 
-}  // namespace
+HeldPress held_press(const FeelTrace& trace, double from, double to) {
+  const double felt = mean(pressing(trace.part(trace.hands[0].f, from, to)));
+  const double tool = mean(pressing(trace.part(trace.f_env, from, to)));
+  return {felt, std::abs(felt - tool), felt / mean(along_x(trace.part(trace.hands[0].x, from, to)))};
+}
 
 ProbeResult probe_press(const FeelSetup& setup, std::uint64_t seed) {
   ProbeResult result;
-  const double depth = depth_of(setup);
+  const double depth = press_depth(setup);
   const ProbeRun on_bone = press(setup, seed, kBone, depth, kPressed, kBoneEnd);
   ProbeRun undisturbed = on_bone;
   undisturbed.perfect_network = true;
   const FeelTrace bone = run_part(setup, on_bone, seed, result);
   const FeelTrace tissue = run_part(setup, press(setup, seed, kTissue, depth, kPressed, kTissueEnd), seed, result);
   const FeelTrace wanted = run_part(setup, undisturbed, seed, result);
-  const Held bone_held = held(bone, kBoneEnd), tissue_held = held(tissue, kTissueEnd);
+  const HeldPress bone_held = held_press(bone, kSteady, kBoneEnd),
+                  tissue_held = held_press(tissue, kSteady, kTissueEnd);
   FeelValues& v = result.values;
   v["stiffness_felt_n_m"] =
       stiffness(run_part(setup, press(setup, seed, kBone, kPressDeep, kSlowly, kSlowly), seed, result));
@@ -81,7 +77,7 @@ ProbeResult probe_press(const FeelSetup& setup, std::uint64_t seed) {
   v["stiffness_bone_held_n_m"] = bone_held.stiffness;
   v["stiffness_tissue_held_n_m"] = tissue_held.stiffness;
   v["force_got_n"] = bone_held.felt;
-  v["force_wanted_n"] = held(wanted, kBoneEnd).felt;
+  v["force_wanted_n"] = held_press(wanted, kSteady, kBoneEnd).felt;
   v["force_share"] = v["force_got_n"] / v["force_wanted_n"];
   v["tool_felt_bone_n"] = bone_held.difference;
   v["tool_felt_tissue_n"] = tissue_held.difference;

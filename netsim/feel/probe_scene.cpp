@@ -9,7 +9,11 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr const char* kNames[] = {"leader", "follower"};
+/// Returns the name of a hand's seat: leader, follower, follower-2, follower-3, ...
+std::string name_of_hand(std::size_t hand) {
+  if (hand == 0) return "leader";
+  return hand == 1 ? "follower" : "follower-" + std::to_string(hand);
+}
 
 SimDeviceSpec placed(SimDeviceSpec device, const ProbeRun& run) {
   device.start = {run.start_x, 0, 0};
@@ -29,6 +33,8 @@ void add_row(FeelTrace& trace, const Simulation& simulation) {
     hand.f.push_back(vector_of(seat.f_out));
     hand.f_cmd.push_back(vector_of(seat.f_cmd));
     hand.engaged.push_back(seat.engaged ? 1 : 0);
+    hand.alpha.push_back(seat.alpha);
+    hand.work.push_back(simulation.client(i).motor_work());
     hand.trips.push_back(simulation.client(i).program().gate_trips());
   }
   const server::ToolRecord& tool = record.tools[0];
@@ -57,7 +63,7 @@ SimulationConfig simulation_config_of(const FeelSetup& setup, const ProbeRun& ru
   const std::size_t masters = given.masters();
   for (std::size_t i = 0; i < run.hands.size(); ++i) {
     SeatSpec seat = given.seats[std::min(i, masters - 1)];
-    seat.name = kNames[i];
+    seat.name = name_of_hand(i);
     seat.role = i == 0 ? Role::kInstructor : Role::kTrainee;
     seat.required = true;
     seat.device = placed(seat.device, run);
@@ -82,7 +88,8 @@ SimulationConfig simulation_config_of(const FeelSetup& setup, const ProbeRun& ru
   scene.tools.push_back(std::move(tool));
   AuthorityRow row;
   row.alpha[0] = run.share;
-  row.alpha[1] = 1 - run.share;
+  const double others = std::max(1.0, static_cast<double>(run.hands.size()) - 1);
+  for (std::size_t i = 1; i < std::max<std::size_t>(2, run.hands.size()); ++i) row.alpha[i] = (1 - run.share) / others;
   scene.authority = {row};
   if (run.hand_over_at > 0) {
     AuthorityRow other;
@@ -119,6 +126,9 @@ FeelTrace run_probe(const FeelSetup& setup, const ProbeRun& run, std::uint64_t s
     });
   }
   trace.trouble = simulation.trouble();
+  for (const server::Violation& violation : simulation.violations().list())
+    if (!violation.expected && std::ranges::find(trace.broken, violation.invariant) == trace.broken.end())
+      trace.broken.push_back(violation.invariant);
   if (trace.rows() == 0 && trace.trouble.empty()) trace.trouble = "the session never ran";
   trace.one_way_s = std::max(0.0, 0.5 * (link_reports(simulation)[0].rtt_p50_ms * 1e-3 - 1 / trace.tick_hz));
   return trace;

@@ -35,14 +35,14 @@ struct ProbePush {
   double length = 0.1;  ///< [s]
 };
 
-/// One run of the simulation from which a number is taken. Hand 0 leads; hand 1, if present, follows.
+/// One run of the simulation from which a number is taken. Hand 0 leads; the others, if present, follow.
 struct ProbeRun {
   double length = 10;                 ///< session time [s]
   double start_x = 0;                 ///< start position of tips and tool [m]
-  std::vector<ProbeHand> hands = {};  ///< one or two
+  std::vector<ProbeHand> hands = {};  ///< 1 to kMastersMax
   EnvironmentSpec environment = {};   ///< environment of the tool
   std::vector<ProbePush> pushes = {};
-  double share = 1;              ///< authority of hand 0; hand 1 has the rest
+  double share = 1;              ///< authority of hand 0; the others share the rest equally
   double hand_over_at = 0;       ///< time at which hand 1 receives all authority [s]; 0: never
   bool frictionless = false;     ///< devices and tool without Coulomb friction
   bool perfect_network = false;  ///< replaces the network to be measured

@@ -64,8 +64,8 @@ hal::Vec3 kick_path(double t) {
           0};
 }
 
-double limit_cycle(const FeelTrace& trace, const FeelTrace::Hand& hand) {
-  return rms_above(trace.part(hand.f, kCycleFrom, kCycleEnd), kCycleBand, trace.tick_hz);
+double limit_cycle(const FeelTrace& trace, const FeelTrace::Hand& hand, double from, double to) {
+  return rms_above(trace.part(hand.f, from, to), kCycleBand, trace.tick_hz);
 }
 
 }  // namespace tandem::netsim

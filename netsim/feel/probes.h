@@ -101,12 +101,24 @@ inline constexpr double kFirmK = 1000, kFirmB = 10, kFirmM = 0.1;
 inline constexpr double kPressFront = 0.010, kPressTouch = 2;
 [[nodiscard]] IntendedPath press_path(double depth, double pressed);
 
+/// Returns the depth of that press [m]: as deep as this coupling and these motors can render without saturation, 3 to
+/// 20 mm.
+[[nodiscard]] double press_depth(const FeelSetup& setup);
+/// Means while hand 0 holds still in contact.
+struct HeldPress {
+  double felt = 0, difference = 0;  ///< force on the hand, and the tool's force minus felt [N]
+  double stiffness = 0;             ///< force on the hand over its depth [N/m]
+};
+/// Returns the means of the rows with session times in [from, to); NaN without rows.
+[[nodiscard]] HeldPress held_press(const FeelTrace& trace, double from, double to);
+
 /// Limit cycles of hands at rest: the force above kCycleBand [Hz] from kCycleFrom to kCycleEnd [s], after a kick.
 inline constexpr double kCycleFrom = 7.5, kCycleEnd = 12.5, kCycleBand = 1;
 /// Path of a kick along x: 30 mm within 0.3 s, and back from kKickBack [s] on.
 inline constexpr double kKickBack = 2;
 [[nodiscard]] hal::Vec3 kick_path(double t);
-/// Returns the RMS force on a hand of the trace in a limit cycle [N].
-[[nodiscard]] double limit_cycle(const FeelTrace& trace, const FeelTrace::Hand& hand);
+/// Returns the RMS force on a hand of the trace in a limit cycle [N], in [from, to) of the session time [s].
+[[nodiscard]] double limit_cycle(const FeelTrace& trace, const FeelTrace::Hand& hand, double from = kCycleFrom,
+                                 double to = kCycleEnd);
 
 }  // namespace tandem::netsim

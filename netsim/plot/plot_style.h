@@ -29,6 +29,9 @@ svg .trainee { stroke: var(--trainee); stroke-dasharray: 6 2.5; } svg .alpha, sv
 svg .second { stroke: var(--trainee); stroke-dasharray: 7 3; } svg .third { stroke: var(--third); stroke-dasharray: 2.5 2.5; stroke-width: 2; }
 svg .box { fill: var(--panel); stroke: var(--rule); } svg .cloud { stroke-dasharray: 4 3; } svg .wall { fill: var(--grid); stroke: var(--soft); }
 svg .wire { stroke: var(--soft); } svg .tip.trainer { fill: var(--trainer); } svg .tip.trainee { fill: var(--trainee); } svg .tip.slave { fill: var(--slave); }
+svg .series0 { stroke: var(--trainer); stroke-width: 2.6; } svg .series1 { stroke: var(--trainee); } svg .series2 { stroke: var(--third); }
+svg .series3 { stroke: var(--mark); } svg .series4 { stroke: var(--trainee); stroke-dasharray: 7 3; } svg .series5 { stroke: var(--soft); stroke-dasharray: 2.5 2.5; }
+svg .series6 { stroke: var(--third); stroke-dasharray: 7 3; } svg .series7 { stroke: var(--mark); stroke-dasharray: 2.5 2.5; }
 svg .rug { fill: var(--missed); } svg .up { stroke: var(--trainer); stroke-width: 1.1; } svg .down { stroke: var(--trainee); stroke-width: 1.1; }
 )css";
 

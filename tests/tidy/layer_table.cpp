@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 42> kLayers{{
+const std::array<Layer, 43> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -161,6 +161,13 @@ const std::array<Layer, 42> kLayers{{
      {},
      "numerics of the simulated tool are judged by pure functions: no session, files or clocks; those belong to "
      "netsim/app"},
+    {"netsim/cells",
+     {"common/base", "common/setup", "hal/sim", "netsim/cells", "netsim/demo/captioned_figure.h",
+      "netsim/demo/report_style.h", "netsim/feel", "netsim/plot", "proto/spec", "proto/text"},
+     {"json"},
+     "cells of a comparison are measured by the probes and reported by plots: no files, clocks or threads; those "
+     "belong "
+     "to netsim/app"},
     {"netsim/scenario",
      {"common/base", "hal/sim/recorded_motion.h", "netsim/feel/observed_feel.h", "netsim/profiles", "netsim/scenario",
       "netsim/system", "proto", "server"},
