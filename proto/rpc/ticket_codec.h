@@ -27,9 +27,9 @@ struct TicketContent {
 
 /// A ticket with its signature.
 struct SignedTicket {
-  std::uint32_t version = 0;         ///< of the format
-  std::uint32_t kid = 0;             ///< names the key
-  std::vector<std::byte> content;    ///< an encoded TicketContent; not authenticated before its signature is verified
+  std::uint32_t version = 0;       ///< of the format
+  std::uint32_t kid = 0;           ///< names the key
+  std::vector<std::byte> content;  ///< an encoded TicketContent; not authenticated before its signature is verified
   std::array<std::byte, 64> signature{};
 
   friend bool operator==(const SignedTicket&, const SignedTicket&) = default;

@@ -7,6 +7,7 @@
 
 #include "common/auth/base32.h"
 #include "proto/rpc/ticket_codec.h"
+#include "tests/common/auth/edited_ticket.h"
 #include "tests/common/auth/support.h"
 
 namespace tandem::auth {
@@ -204,12 +205,9 @@ TEST(Ticket, RejectsEveryFlippedBit) {
 
 TEST(Ticket, RejectsAnEditedRoleByItsSignature) {
   const auto key = test::ticket_key();
-  auto ticket = *rpc::decode_signed_ticket(signed_sample(key));
-  auto content = *rpc::decode_ticket_content(ticket.content);
-  content.role = static_cast<std::uint32_t>(AccessRole::kInstructor);
-  ticket.content = rpc::encode(content);
-  EXPECT_EQ(claimed_role(rpc::encode(ticket)), AccessRole::kInstructor);
-  EXPECT_EQ(rule_of(rpc::encode(ticket), key, sample_use(sample_ticket())), TicketCheck::kSignature);
+  const auto edited = test::with_role(signed_sample(key), AccessRole::kInstructor);
+  EXPECT_EQ(claimed_role(edited), AccessRole::kInstructor);
+  EXPECT_EQ(rule_of(edited, key, sample_use(sample_ticket())), TicketCheck::kSignature);
 }
 
 TEST(Ticket, RefusesToSignFieldsOutOfRange) {
