@@ -26,7 +26,7 @@ namespace tandem::client {
 /// Options of a request to a server: a seat, a link test, a console or the session list.
 struct JoinOptions {
   io::SocketAddress server = {};
-  std::string seat = {};     ///< empty without `console`: link test (proto/wire/link_test_report.h)
+  std::string seat = {};     ///< empty without `console`: link test (proto/wire/link_test_messages.h)
   std::string session = {};  ///< name, code or id; empty: the only session of the server
   std::string ticket = {};   ///< output of `tandem-server ticket`; empty: none
   std::string state = {};    ///< state directory with this workstation's key; empty: the default directory

@@ -81,7 +81,7 @@ std::expected<rpc::Hello, JoinError> make_hello(ServerConnection& server) {
     if (!ticket) return join_failure("--ticket: " + ticket.error());
     hello.credential = rpc::TicketCredential{{ticket->begin(), ticket->end()}};
     if (options.session.empty()) {
-      hello.session = auth::claimed_session(*ticket);
+      hello.session = auth::claimed_session(*ticket).value_or(auth::Id16{});
     } else if (by_name) {  // the server checks that the ticket is for this session
       const auto found = find_session(server, id, is_id, code);
       if (!found) return std::unexpected(found.error());

@@ -87,7 +87,7 @@ const ClientStatus& SeatStatusRecorder::update(Time now, const Seat& seat) noexc
               .delivered_j = t.delivered_j,
               .margin_min_j = t.margin_min_j,
               .given_after_loss_max_j = seat.gate().tank().given_max()};
-  s.gate_trips = sample.gate_trips;
+  s.gate_trips = sample.telemetry.gate_trips;
   const control::OvertemperatureGuard& guard = seat.guards().overtemperature();
   s.motors = {
       .hot = guard.hot(), .latched = guard.latched(), .hot_trips = guard.trips_total(), .heat_max = s.motors.heat_max};

@@ -15,9 +15,7 @@ double s(std::int64_t ns) { return seconds(Duration{ns}); }
 }  // namespace
 
 LinkTest::LinkTest(const SeatSetup& setup, const transport::SecureChannel::Params& link)
-    : setup_(setup),
-      tick_length_(from_seconds(1.0 / setup.tick_hz)),
-      channel_(link, wire::Codec{setup.dof, setup.port}) {}
+    : setup_(setup), tick_length_(from_seconds(1.0 / setup.tick_hz)), channel_(link, wire::Codec{body_layout(setup)}) {}
 
 void LinkTest::on_datagram(Time arrived, std::span<const std::byte> bytes) noexcept {
   transport::SecureChannel& link = channel_.link();
@@ -29,22 +27,22 @@ void LinkTest::on_datagram(Time arrived, std::span<const std::byte> bytes) noexc
     return link.accept_other();
   }
   if (opened->type == wire::Type::kPathChallenge) return channel_.on_path_challenge(opened->plaintext);
-  if (opened->type != wire::Type::kForce) return link.drop_body();
-  const auto decoded = channel_.codec().decode_force(opened->plaintext);
+  if (opened->type != wire::Type::kLinkReport) return link.drop_body();
+  const auto decoded = channel_.codec().decode_link_report(opened->plaintext);
   if (!decoded) return link.drop_body();
   down_size_ = bytes.size();
   if (!opened->newer) return;
   const std::uint64_t known = link.timing().rtt_samples();
   link.accept(arrived, *opened, decoded->preamble);
   if (link.timing().rtt_samples() > known) rtt_min_ = std::min(rtt_min_, link.timing().rtt());
-  report_ = wire::link_test_report_of(decoded->message);
+  report_ = decoded->message;
   echo_newest_ = decoded->preamble.echo_counter;
   transit_.add(arrived, decoded->preamble.tick * tick_length_);
   const std::optional<Time> before = newest_;
   newest_ = arrived;
-  if (stopped_) return;  // without STATE from this client, gaps and pauses have no meaning
-  // The echo age is the time for which the server had received nothing when it sent this FORCE. Its maximum is the
-  // longest gap towards the server.
+  if (stopped_) return;  // without LINK_PROBE from this client, gaps and pauses have no meaning
+  // The echo age is the time for which the server had received nothing when it sent this LINK_REPORT. Its maximum is
+  // the longest gap towards the server.
   echo_age_max_ = std::max<Duration>(echo_age_max_, std::chrono::microseconds(decoded->preamble.echo_age_us));
   if (before && arrived - *before > from_seconds(setup_.gate.silence_limit)) ++pauses_;
 }
@@ -55,7 +53,7 @@ void LinkTest::on_tick(Time now, Duration late, std::uint32_t missed, Duration w
   channel_.link().tick(now);
   if (stopped_) return;
   ticks_.add(late, missed, wall_offset);
-  state_due_ = !closed_;
+  probe_due_ = !closed_;
 }
 
 std::optional<std::size_t> LinkTest::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
@@ -64,8 +62,8 @@ std::optional<std::size_t> LinkTest::poll_transmit(Time now, std::span<std::byte
     ++path_answers_;
     return channel_.seal_answer(now, tick_, buffer);
   }
-  if (std::exchange(state_due_, false)) {
-    const auto size = channel_.seal(now, tick_, wire::Type::kState, state_, buffer);
+  if (std::exchange(probe_due_, false)) {
+    const auto size = channel_.seal(now, tick_, wire::Type::kLinkProbe, wire::LinkProbe{}, buffer);
     up_size_ = size.value_or(up_size_);
     return size;
   }
@@ -77,7 +75,7 @@ std::optional<std::size_t> LinkTest::poll_transmit(Time now, std::span<std::byte
 void LinkTest::stop_sending(Time now) noexcept {
   if (stopped_) return;
   stopped_ = now;
-  state_due_ = false;
+  probe_due_ = false;
   gap_until_stop_ = channel_.link().longest_gap(now);
   if (newest_ && now - *newest_ > from_seconds(setup_.gate.silence_limit)) ++pauses_;
 }
@@ -85,7 +83,7 @@ void LinkTest::stop_sending(Time now) noexcept {
 void LinkTest::leave() noexcept {
   if (leaving_) return;
   leaving_ = true;
-  state_due_ = false;
+  probe_due_ = false;
   close_due_ = closed_ ? 0 : kCloseRepeats;
 }
 
@@ -119,10 +117,10 @@ LinkTestResult LinkTest::findings(Time now) const {
               .lost = l.lost(),
               .reordered = l.late,
               .longest_gap = seconds(stopped_ ? gap_until_stop_ : channel_.link().longest_gap(now))};
-    if (report_ && report_->acted > 0) {
+    if (report_ && report_->used > 0) {
       // Counters also count PATH_RESPONSE datagrams.
       const std::uint64_t sent = echo_newest_ + 1 - std::min(path_answers_, echo_newest_);
-      const std::uint64_t arrived = std::uint64_t{report_->acted} + report_->late;
+      const std::uint64_t arrived = std::uint64_t{report_->used} + report_->late;
       f.up = {.sent = sent,
               .lost = sent > arrived ? sent - arrived : 0,
               .reordered = report_->late,

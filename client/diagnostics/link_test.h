@@ -10,7 +10,7 @@
 #include "common/base/time.h"
 #include "common/transport/secure_channel.h"
 #include "proto/text/seat_setup.h"
-#include "proto/wire/link_test_report.h"
+#include "proto/wire/link_test_messages.h"
 #include "proto/wire/wire_messages.h"
 
 namespace tandem::client {
@@ -36,7 +36,7 @@ struct LinkTestResult {
 
   std::optional<double> rtt_min{}, rtt_p50{}, rtt_p99{},
       rtt_max{};                   ///< round trip without the time either end waits for its tick [s]
-  std::optional<double> jitter{};  ///< 99th percentile of the delay of a FORCE relative to the fastest one [s]
+  std::optional<double> jitter{};  ///< 99th percentile of the delay of a LINK_REPORT relative to the fastest one [s]
   std::uint32_t pauses = 0;        ///< silences longer than the gate's limit; each would have released the force
   double silent_at_end = 0;        ///< time since the newest datagram when the test stopped [s]
   double silence_limit = 0, loop_age_max = 0;  ///< limits of the scene's gate [s]
@@ -49,8 +49,8 @@ struct LinkTestResult {
   double wake_p99 = 0, wake_max = 0;                          ///< lateness of this client's ticks [s]
 };
 
-/// Client end of a link test (proto/wire/link_test_report.h): sends STATE at the scene's rate and measures loss, delay
-/// and jitter of both directions. Sans-I/O; no heap after construction.
+/// Client end of a link test (proto/wire/link_test_messages.h): sends LINK_PROBE at the scene's rate and measures loss,
+/// delay and jitter of both directions. Sans-I/O; no heap after construction.
 class LinkTest {
  public:
   LinkTest(const SeatSetup& setup, const transport::SecureChannel::Params& link);
@@ -63,7 +63,8 @@ class LinkTest {
   /// @param wall_offset  wall clock minus monotonic clock
   void on_tick(Time now, Duration late, std::uint32_t missed, Duration wall_offset) noexcept;
   [[nodiscard]] std::optional<std::size_t> poll_transmit(Time now, std::span<std::byte> buffer) noexcept;
-  /// Ends the sending of STATE; datagrams still in flight are received and counted. Gaps and pauses count until now.
+  /// Ends the sending of LINK_PROBE; datagrams still in flight are received and counted. Gaps and pauses count until
+  /// now.
   void stop_sending(Time now) noexcept;
   /// Ends the test: sends CLOSE three times, so that the server stops sending.
   void leave() noexcept;
@@ -71,7 +72,7 @@ class LinkTest {
   [[nodiscard]] bool finished() const noexcept { return leaving_ && close_due_ == 0; }
   /// True if the server ended the connection.
   [[nodiscard]] bool closed() const noexcept { return closed_; }
-  /// Time since the newest FORCE, or since the first tick if none arrived.
+  /// Time since the newest LINK_REPORT, or since the first tick if none arrived.
   [[nodiscard]] Duration silence(Time now) const noexcept;
   [[nodiscard]] LinkTestResult findings(Time now) const;
 
@@ -79,21 +80,20 @@ class LinkTest {
   SeatSetup setup_;
   Duration tick_length_;
   ClientChannel channel_;
-  wire::StateMessage state_{};
   std::optional<Time> began_;
   std::uint32_t tick_ = 0;
   std::size_t up_size_ = 0, down_size_ = 0;
-  bool state_due_ = false, leaving_ = false, closed_ = false;
+  bool probe_due_ = false, leaving_ = false, closed_ = false;
   std::optional<Time> stopped_;
   Duration gap_until_stop_{};
   unsigned close_due_ = 0;
   std::uint64_t path_answers_ = 0;  ///< PATH_RESPONSE datagrams sent
 
   // Received from the server.
-  std::optional<wire::LinkTestReport> report_;
-  std::uint64_t echo_newest_ = 0;  ///< echoed counter in the FORCE of `report_`
+  std::optional<wire::LinkReport> report_;
+  std::uint64_t echo_newest_ = 0;  ///< echoed counter in the message of `report_`
   Duration echo_age_max_{}, rtt_min_ = Duration::max();
-  std::optional<Time> newest_;  ///< arrival of the newest FORCE
+  std::optional<Time> newest_;  ///< arrival of the newest LINK_REPORT
   std::uint32_t pauses_ = 0;
 
   TransitTime transit_;

@@ -41,7 +41,7 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const transport:
     : setup_(setup::with_limited_stiffness(setup, device_facts(caps))),  // the client limits it, whatever it receives
       dt_(1.0 / setup.tick_hz),
       command_life_(command_lifetime(from_seconds(dt_))),
-      channel_(link, wire::Codec{setup.dof, setup.port, setup.further.size()}),
+      channel_(link, wire::Codec{body_layout(setup)}),
       tools_(setup_),
       coupling_(make_coupling(setup_)),
       gate_(gate_params(setup, caps)),
@@ -50,6 +50,7 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const transport:
       separation_(setup, caps),
       guards_(setup, caps.joints),
       clock_(dt_, setup.clock_runs_while_stopped),
+      telemetry_(setup.tick_hz),
       requests_(setup) {}
 
 Seat::Connection Seat::prepare(const transport::SecureChannel::Params& link) const {
@@ -67,6 +68,7 @@ void Seat::reconnect(Connection& next) noexcept {
   rest();
   tools_.clear_received();
   clock_.on_reconnect();
+  telemetry_.restart();
   requests_.on_reconnect();
   close_out_.on_reconnect();
   state_.seat_tick = 0;
@@ -207,7 +209,8 @@ void Seat::fill_state(Time now, bool homed, const AxisArray& wanted) noexcept {
   const control::GatePhase phase = gate_.phase();
   const bool guard_latched = guards_.latched() && phase == control::GatePhase::kZero;
   state_.gate = wire_state(guard_latched ? control::GatePhase::kLatched : phase);  // both wait for a reset of the gate
-  state_.gate_trips = gate_.trips();
+  t.gate_trips = gate_.trips();
+  state_.with_telemetry = telemetry_.due(tick_, force().telemetry_every_tick);
   state_.engaged = engaged;
   state_.ready = homed && phase != control::GatePhase::kLatched && phase != control::GatePhase::kFault &&
                  !guards_.inhibit() && !close_out_.leaving() && !requests_.locally_stopped() &&

@@ -15,6 +15,7 @@
 #include "client/seat/seat_guards.h"
 #include "client/seat/seat_requests.h"
 #include "client/seat/session_clock.h"
+#include "client/seat/telemetry_pace.h"
 #include "client/seat/tool_channels.h"
 #include "common/base/time.h"
 #include "common/control/force_gate.h"
@@ -70,7 +71,7 @@ class Seat {
   [[nodiscard]] SeatRequests& requests() noexcept { return requests_; }
   [[nodiscard]] const SeatRequests& requests() const noexcept { return requests_; }
   /// Sets the number of ticks of this client that began late so far. The seat sends it to the server for its status.
-  void set_late_ticks(std::uint32_t total) noexcept { state_.late_ticks = total; }
+  void set_late_ticks(std::uint32_t total) noexcept { state_.telemetry.late_ticks = total; }
   /// Leaves the session: the gate ramps the force to zero, then the seat sends three CLOSE datagrams.
   void leave() noexcept { close_out_.leave(); }
 
@@ -117,6 +118,7 @@ class Seat {
   ForceSeparation separation_;
   SeatGuards guards_;
   SessionClock clock_;
+  TelemetryPace telemetry_;
   SeatRequests requests_;
   CloseOut close_out_;
   wire::StateMessage state_{};

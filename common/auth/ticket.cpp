@@ -5,29 +5,24 @@
 #include "common/auth/base32.h"
 #include "common/base/format.h"
 #include "common/base/raw_bytes.h"
+#include "proto/rpc/ticket_codec.h"
 
 namespace tandem::auth {
 namespace {
 
-constexpr std::size_t kSigned = 128;
-constexpr std::size_t kVersionAt = 0, kRoleAt = 1, kForceAt = 2, kKidAt = 4, kTicketAt = 8, kSessionAt = 24,
-                      kWorkstationAt = 40, kSeatAt = 72, kNotBeforeAt = 104, kNotAfterAt = 112, kEpochAt = 120;
-static_assert(kSeatAt + Ticket::kSeatMax == kNotBeforeAt && kEpochAt + 8 == kSigned &&
-              kSigned + sizeof(Signature) == kTicketSize);
 /// Domain separation: a signature under this key can only mean a ticket. The zero ends the label.
-constexpr std::string_view kDomain{"tandem ticket v1\0", 17};
+constexpr std::string_view kDomain{"tandem ticket v2\0", 17};
 constexpr std::string_view kTicketPrefix = "ticket:";
+static_assert(sizeof(Signature) == sizeof(rpc::SignedTicket::signature));
 
-template <class T>
-void put(std::span<std::byte> out, std::size_t at, T value) noexcept {
-  for (std::size_t i = 0; i < sizeof(T); ++i)
-    out[at + i] = static_cast<std::byte>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xffU);
-}
-template <class T>
-T get(std::span<const std::byte> in, std::size_t at) noexcept {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) value |= std::to_integer<std::uint64_t>(in[at + i]) << (8 * i);
-  return static_cast<T>(value);
+/// Whether the bytes have the length and the first byte of format 1, the fixed layout before Protocol Buffers.
+bool is_format_1(std::span<const std::byte> bytes) noexcept { return bytes.size() == 192 && bytes[0] == std::byte{1}; }
+
+/// Returns the bytes that are signed: the label, then the content.
+std::vector<std::byte> message_to_sign(std::span<const std::byte> content) {
+  std::vector<std::byte> message(kDomain.size() + content.size());
+  std::ranges::copy(content, std::ranges::copy(bytes_of(kDomain), message.begin()).out);
+  return message;
 }
 
 bool legal_seat(std::string_view seat) noexcept {
@@ -52,22 +47,27 @@ std::string wrong_field(const Ticket& t) {
   return {};
 }
 
-Ticket read(std::span<const std::byte> in) {
-  Ticket t;
-  t.role = static_cast<AccessRole>(get<std::uint8_t>(in, kRoleAt));
-  t.force_scale = get<std::uint16_t>(in, kForceAt);
-  const auto take = [&](std::size_t at, auto& out) {
-    std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(at), out.size(), out.begin());
-  };
-  take(kTicketAt, t.ticket_id);
-  take(kSessionAt, t.session_id);
-  take(kWorkstationAt, t.workstation.sha256);
-  const std::string_view seat = text_of(in.subspan(kSeatAt, Ticket::kSeatMax));
-  t.seat = seat.substr(0, seat.find('\0'));
-  t.not_before = get<std::int64_t>(in, kNotBeforeAt);
-  t.not_after = get<std::int64_t>(in, kNotAfterAt);
-  t.epoch_min = get<std::uint64_t>(in, kEpochAt);
+/// Returns the content of a ticket, or the field that is out of range.
+std::expected<Ticket, std::string> read(const rpc::TicketContent& in) {
+  if (in.role >= kAccessRoles || in.force_scale > Ticket::kFullForce)
+    return std::unexpected("role or force_scale is out of range");
+  Ticket t{.ticket_id = in.ticket_id,
+           .session_id = in.session_id,
+           .seat = in.seat,
+           .role = static_cast<AccessRole>(in.role),
+           .workstation = {in.workstation},
+           .force_scale = static_cast<std::uint16_t>(in.force_scale),
+           .not_before = in.not_before,
+           .not_after = in.not_after,
+           .epoch_min = in.epoch_min};
+  if (std::string wrong = wrong_field(t); !wrong.empty()) return std::unexpected(std::move(wrong));
   return t;
+}
+
+/// Returns the content that a ticket claims, without a check of its signature.
+std::optional<rpc::TicketContent> claimed_content(std::span<const std::byte> bytes) {
+  const auto ticket = rpc::decode_signed_ticket(bytes);
+  return ticket ? rpc::decode_ticket_content(ticket->content) : std::nullopt;
 }
 
 /// Returns "2 s", "5 min" or "3 h", rounded down.
@@ -82,8 +82,10 @@ struct Words {
 };
 /// In the order of TicketCheck.
 constexpr std::array<Words, kTicketChecks> kWords{{
-    {"length", "this is no ticket: it has the wrong length; copy it again, whole"},
-    {"version", "the ticket is of another version of Tandem; ask for a new one"},
+    {"format", "this is no ticket: its bytes are incomplete or damaged; copy it again, whole"},
+    {"version",
+     "the ticket is of another version of Tandem, this server reads version 2; ask for a new one, which `tandem-server "
+     "ticket` of this release makes"},
     {"key", "the ticket was made by another server, or before this server got new keys; ask for a new one"},
     {"signature", "the ticket was changed after it was made; ask for a new one"},
     {"content", "the ticket has invalid contents; ask for a new one"},
@@ -102,40 +104,36 @@ constexpr std::array<Words, kTicketChecks> kWords{{
 
 std::expected<TicketBytes, std::string> sign_ticket(const Ticket& ticket, const TicketKey& key) {
   if (std::string wrong = wrong_field(ticket); !wrong.empty()) return std::unexpected(std::move(wrong));
-  TicketBytes out{};
-  put(out, kVersionAt, Ticket::kVersion);
-  put(out, kRoleAt, static_cast<std::uint8_t>(ticket.role));
-  put(out, kForceAt, ticket.force_scale);
-  put(out, kKidAt, key.verifier().kid);
-  const auto give = [&](std::size_t at, const auto& in) {
-    std::ranges::copy(in, out.begin() + static_cast<std::ptrdiff_t>(at));
-  };
-  give(kTicketAt, ticket.ticket_id);
-  give(kSessionAt, ticket.session_id);
-  give(kWorkstationAt, ticket.workstation.sha256);
-  give(kSeatAt, bytes_of(ticket.seat));
-  put(out, kNotBeforeAt, ticket.not_before);
-  put(out, kNotAfterAt, ticket.not_after);
-  put(out, kEpochAt, ticket.epoch_min);
-  std::array<std::byte, kDomain.size() + kSigned> message;
-  std::ranges::copy(bytes_of(kDomain), message.begin());
-  std::copy_n(out.begin(), kSigned, message.begin() + kDomain.size());
-  std::ranges::copy(key.sign(message), out.begin() + kSigned);
-  return out;
+  rpc::SignedTicket out{.version = Ticket::kVersion,
+                        .kid = key.verifier().kid,
+                        .content = rpc::encode(rpc::TicketContent{.role = static_cast<std::uint32_t>(ticket.role),
+                                                                  .force_scale = ticket.force_scale,
+                                                                  .ticket_id = ticket.ticket_id,
+                                                                  .session_id = ticket.session_id,
+                                                                  .workstation = ticket.workstation.sha256,
+                                                                  .seat = ticket.seat,
+                                                                  .not_before = ticket.not_before,
+                                                                  .not_after = ticket.not_after,
+                                                                  .epoch_min = ticket.epoch_min})};
+  out.signature = key.sign(message_to_sign(out.content));
+  return rpc::encode(out);
 }
 
-std::string ticket_text(const TicketBytes& ticket) { return std::string(kTicketPrefix) + to_base32(ticket); }
+std::string ticket_text(std::span<const std::byte> ticket) { return std::string(kTicketPrefix) + to_base32(ticket); }
 
 std::expected<TicketBytes, std::string> ticket_from_text(std::string_view text) {
   if (!text.starts_with(kTicketPrefix))
     return std::unexpected("a ticket begins with `ticket:`, as tandem-server ticket prints it");
-  const auto bytes = from_base32(text.substr(kTicketPrefix.size()));
+  auto bytes = from_base32(text.substr(kTicketPrefix.size()));
   if (!bytes) return std::unexpected("a character of the ticket is wrong or missing; copy it again, whole");
-  if (bytes->size() != kTicketSize)
-    return std::unexpected(format("the ticket has %zu of %zu bytes; copy it again, whole", bytes->size(), kTicketSize));
-  TicketBytes out;
-  std::ranges::copy(*bytes, out.begin());
-  return out;
+  if (is_format_1(*bytes))
+    return std::unexpected(
+        "the ticket was made by an older version of Tandem, format 1, this version reads format 2; ask for a new one, "
+        "which `tandem-server ticket` of the same release makes");
+  if (!claimed_content(*bytes))
+    return std::unexpected(
+        format("the %zu bytes of the ticket are incomplete or damaged; copy it again, whole", bytes->size()));
+  return std::move(*bytes);
 }
 
 std::string_view name_of(TicketCheck rule) noexcept {
@@ -143,15 +141,14 @@ std::string_view name_of(TicketCheck rule) noexcept {
   return i < kTicketChecks ? kWords[i].name : "?";
 }
 
-Id16 claimed_session(const TicketBytes& ticket) noexcept {
-  Id16 id;
-  std::copy_n(ticket.begin() + 24, id.size(), id.begin());
-  return id;
+std::optional<Id16> claimed_session(std::span<const std::byte> bytes) {
+  const auto content = claimed_content(bytes);
+  return content ? std::optional{content->session_id} : std::nullopt;
 }
 
-std::optional<AccessRole> claimed_role(std::span<const std::byte> bytes) noexcept {
-  const auto role = bytes.size() == kTicketSize ? std::to_integer<std::uint8_t>(bytes[1]) : kAccessRoles;
-  return role < kAccessRoles ? std::optional(static_cast<AccessRole>(role)) : std::nullopt;
+std::optional<AccessRole> claimed_role(std::span<const std::byte> bytes) {
+  const auto content = claimed_content(bytes);
+  return content && content->role < kAccessRoles ? std::optional{static_cast<AccessRole>(content->role)} : std::nullopt;
 }
 
 std::string to_text(const TicketError& fault) {
@@ -177,21 +174,18 @@ std::expected<Ticket, TicketError> check_ticket(std::span<const std::byte> bytes
   const auto broken = [](TicketCheck rule, std::int64_t seconds = 0, std::string detail = {}) {
     return std::unexpected(TicketError{rule, seconds, std::move(detail)});
   };
-  if (bytes.size() != kTicketSize) return broken(TicketCheck::kLength);
-  if (get<std::uint8_t>(bytes, kVersionAt) != Ticket::kVersion) return broken(TicketCheck::kVersion);
-  if (get<std::uint32_t>(bytes, kKidAt) != key.kid) return broken(TicketCheck::kKey);
-  std::array<std::byte, kDomain.size() + kSigned> message;
-  std::ranges::copy(bytes_of(kDomain), message.begin());
-  std::copy_n(bytes.begin(), kSigned, message.begin() + kDomain.size());
-  Signature signature;
-  std::copy_n(bytes.begin() + kSigned, signature.size(), signature.begin());
-  if (!key.verifies(message, signature)) return broken(TicketCheck::kSignature);
+  if (is_format_1(bytes)) return broken(TicketCheck::kVersion);
+  const auto ticket = rpc::decode_signed_ticket(bytes);
+  if (!ticket) return broken(TicketCheck::kFormat);
+  if (ticket->version != Ticket::kVersion) return broken(TicketCheck::kVersion);
+  if (ticket->kid != key.kid) return broken(TicketCheck::kKey);
+  if (!key.verifies(message_to_sign(ticket->content), ticket->signature)) return broken(TicketCheck::kSignature);
 
-  Ticket t = read(bytes);
-  if (std::string wrong = wrong_field(t); !wrong.empty()) return broken(TicketCheck::kContent, 0, std::move(wrong));
-  const auto rest = bytes.subspan(kSeatAt + t.seat.size(), Ticket::kSeatMax - t.seat.size());
-  if (!std::ranges::all_of(rest, [](std::byte b) { return b == std::byte{0}; }))
-    return broken(TicketCheck::kContent, 0, "bytes after the seat's name");
+  const auto content = rpc::decode_ticket_content(ticket->content);
+  if (!content) return broken(TicketCheck::kContent, 0, "not the encoding of a ticket");
+  auto read_ticket = read(*content);
+  if (!read_ticket) return broken(TicketCheck::kContent, 0, std::move(read_ticket.error()));
+  const Ticket& t = *read_ticket;
   if (use.now < t.not_before) return broken(TicketCheck::kNotYet, t.not_before - use.now);
   if (use.now > t.not_after) return broken(TicketCheck::kExpired, use.now - t.not_after);
   if (t.workstation != use.workstation) return broken(TicketCheck::kWorkstation);

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/auth/key_fingerprint.h"
 #include "common/auth/ticket_key.h"
@@ -20,7 +21,7 @@ using Id16 = std::array<std::byte, 16>;
 /// The right of one workstation to join one seat of one session, once. All times are seconds since 1970, UTC, on the
 /// server's clock. The server both signs and checks, so clocks of other machines do not matter.
 struct Ticket {
-  static constexpr std::uint8_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;  ///< of the format
   static constexpr std::size_t kSeatMax = 32;
   static constexpr std::int64_t kLifeMax = std::int64_t{12} * 3600;  ///< [s]
   static constexpr std::uint16_t kFullForce = 1000;
@@ -39,29 +40,26 @@ struct Ticket {
   friend bool operator==(const Ticket&, const Ticket&) = default;
 };
 
-/// Layout, numbers little-endian; every ticket consists of exactly these bytes:
-///   0 u8 version = 1 | 1 u8 role | 2 u16 force_scale | 4 u32 kid | 8 ticket_id 16 | 24 session_id 16 |
-///   40 workstation 32 | 72 seat 32, padded with zeros | 104 i64 not_before | 112 i64 not_after | 120 u64 epoch_min |
-///   128 signature 64: Ed25519 over "tandem ticket v1\0" and bytes 0 ... 127.
-inline constexpr std::size_t kTicketSize = 192;
-using TicketBytes = std::array<std::byte, kTicketSize>;
+/// An encoded SignedTicket (proto/schema/ticket.proto), at most 256 bytes.
+using TicketBytes = std::vector<std::byte>;
 
 /// @return the ticket, or the field that is out of range (nothing was signed then)
 [[nodiscard]] std::expected<TicketBytes, std::string> sign_ticket(const Ticket& ticket, const TicketKey& key);
 
 /// Text form of a ticket for users: `ticket:` and base32.
-[[nodiscard]] std::string ticket_text(const TicketBytes& ticket);
+[[nodiscard]] std::string ticket_text(std::span<const std::byte> ticket);
+/// @return the ticket, or the error with the next step: no ticket, damaged, or of another version
 [[nodiscard]] std::expected<TicketBytes, std::string> ticket_from_text(std::string_view text);
 
-/// Returns the session named in a ticket; not authenticated.
-[[nodiscard]] Id16 claimed_session(const TicketBytes& ticket) noexcept;
+/// Returns the session named in a ticket; not authenticated. nullopt: no ticket.
+[[nodiscard]] std::optional<Id16> claimed_session(std::span<const std::byte> bytes);
 
-/// Returns the role named in a ticket; not authenticated. nullopt: wrong length or unknown role.
-[[nodiscard]] std::optional<AccessRole> claimed_role(std::span<const std::byte> bytes) noexcept;
+/// Returns the role named in a ticket; not authenticated. nullopt: no ticket, or an unknown role.
+[[nodiscard]] std::optional<AccessRole> claimed_role(std::span<const std::byte> bytes);
 
 /// The rule that a ticket violates.
 enum class TicketCheck : std::uint8_t {
-  kLength,  ///< not 192 bytes
+  kFormat,  ///< not the encoding of a ticket
   kVersion,
   kKey,  ///< signed with a key that this server does not have
   kSignature,
@@ -80,7 +78,7 @@ inline constexpr std::size_t kTicketChecks = 14;
 
 /// The violated rule with details.
 struct TicketError {
-  TicketCheck rule = TicketCheck::kLength;
+  TicketCheck rule = TicketCheck::kFormat;
   std::int64_t seconds = 0;  ///< [s] kExpired: since expiry; kNotYet: until validity
   std::string detail;        ///< the ticket's seat or role, where that helps
 

@@ -11,7 +11,7 @@
 
 /// The clear header of a datagram (FORMAT.md), little-endian:
 ///
-///      0  u8   version (4 bits) = 1 | type (4 bits)
+///      0  u8   version (4 bits) = 2 | type (4 bits)
 ///      1  u8   key phase: number of the key, modulo 256
 ///      2  u16  zero
 ///      4  u32  connection id, chosen by the receiver of this datagram
@@ -22,7 +22,7 @@ namespace tandem::transport {
 inline constexpr std::size_t kHeaderSize = 16;
 inline constexpr std::size_t kTagSize = 16;
 inline constexpr std::size_t kDatagramMax = 1200;  ///< IPv6 minimum MTU 1280 - 40 - 8 - 32 for tunnels
-inline constexpr std::uint8_t kVersion = 1;
+inline constexpr std::uint8_t kVersion = 2;
 
 struct Header {
   wire::Type type = wire::Type::kPing;
@@ -59,7 +59,7 @@ inline void write_header(const Header& h, std::span<std::byte, kHeaderSize> out)
   if (datagram.size() < kHeaderSize + kTagSize || datagram.size() > kDatagramMax) return std::nullopt;
   const auto first = std::to_integer<std::uint8_t>(datagram[0]);
   const auto type = static_cast<std::uint8_t>(first & 0x0f);
-  if (first >> 4 != kVersion || type < 3 || type > 9) return std::nullopt;
+  if (first >> 4 != kVersion || type < wire::kFirstType || type > wire::kLastType) return std::nullopt;
   if (datagram[2] != std::byte{0} || datagram[3] != std::byte{0}) return std::nullopt;
   return Header{static_cast<wire::Type>(type), std::to_integer<std::uint8_t>(datagram[1]),
                 detail::get<std::uint32_t>(&datagram[4]), detail::get<std::uint64_t>(&datagram[8])};

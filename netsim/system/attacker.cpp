@@ -34,7 +34,7 @@ std::span<const std::byte> Attacker::random_bytes(std::uint32_t cid) noexcept {
       random_bytes_[j] = static_cast<std::byte>(word >> (8 * (j - i)));
   }
   if (drawn >> 63 != 0 && size >= transport::kHeaderSize) {
-    const auto type = static_cast<wire::Type>(1 + (drawn >> 32) % 9);
+    const auto type = static_cast<wire::Type>(1 + (drawn >> 32) % wire::kLastType);
     transport::write_header({type, 0, cid, drawn >> 8}, std::span{random_bytes_}.first<transport::kHeaderSize>());
   }
   return std::span{random_bytes_}.first(size);

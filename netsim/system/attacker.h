@@ -10,6 +10,7 @@
 #include "common/transport/aead.h"
 #include "common/transport/datagram.h"
 #include "netsim/models/path_spec.h"
+#include "proto/text/seat_setup.h"
 #include "proto/wire/wire_codec.h"
 
 namespace tandem::netsim {
@@ -21,7 +22,7 @@ class Attacker {
   /// @param seat  whose datagrams are attacked; `scene` says how many masters share authority
   Attacker(RandomKey key, const SceneSpec& scene, std::size_t seat)
       : key_(key),
-        codec_(scene.dof, scene.port),
+        codec_(body_layout(seat_setup(scene, seat))),
         seat_index_(seat % kMastersMax),
         masters_(static_cast<std::uint32_t>(scene.masters())) {}
 

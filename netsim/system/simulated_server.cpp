@@ -105,6 +105,7 @@ std::string SimulatedServer::make_session(Time now, const server::Checkpoint* fr
   const auto& scene = config_->scene;
   session_ = from == nullptr ? std::make_unique<server::Session>(scene, std::move(*slaves), scale_)
                              : std::make_unique<server::Session>(scene, std::move(*slaves), scale_, *from);
+  session_->set_telemetry_every_tick(config_->telemetry_every_tick);
   for (std::size_t j = 0; config_->contact_source && j < scene.tools.size(); ++j)
     session_->set_contact_source(j, config_->contact_source(j));
   return {};

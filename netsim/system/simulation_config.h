@@ -45,6 +45,8 @@ struct SimulationConfig {
   std::function<std::unique_ptr<server::ContactSource>(std::size_t tool)> contact_source = {};
   /// Returns `heap_count()`, and 0 if it is null.
   [[nodiscard]] std::uint64_t heap_taken() const noexcept { return heap_count != nullptr ? heap_count() : 0; }
+  /// Clients send telemetry at every tick. False: at 60 Hz, as to a live server that records nothing.
+  bool telemetry_every_tick = true;
   bool keep_record = true;  ///< false: Simulation::record() stays empty; for runs that only judge invariants
 };
 

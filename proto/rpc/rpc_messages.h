@@ -19,7 +19,7 @@
 namespace tandem::rpc {
 
 inline constexpr std::uint32_t kFrameVersion = 1;     ///< version of the frames
-inline constexpr std::uint32_t kProtocolVersion = 1;  ///< version of the whole protocol: handshake, frames, datagrams
+inline constexpr std::uint32_t kProtocolVersion = 2;  ///< version of the whole protocol: handshake, frames, datagrams
 inline constexpr std::size_t kFrameMax = 65536;       ///< one frame without its length [bytes]
 inline constexpr std::size_t kTextMax = 480;          ///< texts for display [bytes of UTF-8 without control characters]
 inline constexpr double kLatencyMax = 1;              ///< of a device [s]

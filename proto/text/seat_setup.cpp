@@ -115,6 +115,17 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   return setup;
 }
 
+wire::BodyLayout body_layout(const SeatSetup& setup) noexcept {
+  const bool master = setup.seat.kind == SeatKind::kMaster;
+  return wire::BodyLayout{.axes = setup.dof,
+                          .port = setup.port,
+                          .further = setup.further.size(),
+                          .tool_copies = master && setup.channel.law == LawKind::kReplica,
+                          .environment = !master,
+                          .exact = setup.channel.mfs == MfsMode::kSeed || setup.channel.mfs == MfsMode::kSeedSigned}
+      .valid();
+}
+
 std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   pb::SeatSetup message;
   text::write_keys(setup, kSetupKeys, message);

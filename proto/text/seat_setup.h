@@ -12,6 +12,7 @@
 #include "common/base/axes.h"
 #include "proto/spec/input_error.h"
 #include "proto/spec/scene_spec.h"
+#include "proto/wire/body_layout.h"
 #include "proto/wire/wire_messages.h"
 
 namespace tandem {
@@ -58,6 +59,9 @@ struct SeatSetup {
   double alpha_slew = 1;        ///< largest change of authority [1/s], for display; infinity: in one step
   bool may_end_pauses = false;  ///< no seat has role INSTRUCTOR: a role that may pause may also end its own pause
 };
+
+/// The layout of the STATEs and FORCEs of this seat. Both ends of its datagrams use this function.
+[[nodiscard]] wire::BodyLayout body_layout(const SeatSetup& setup) noexcept;
 
 /// The part of a scene that belongs to one seat; axis_scale is left at 1. @pre seat < scene.seats.size()
 [[nodiscard]] SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat);

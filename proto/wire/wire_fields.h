@@ -19,7 +19,8 @@ namespace tandem::wire {
 
 static_assert(std::endian::native == std::endian::little, "values are copied as they lie in memory");
 
-/// Wire type of a field, the low three bits of its tag. A nested message is encoded like a packed array.
+/// Wire type of a field, the low three bits of its tag. A nested message and bytes are encoded like a packed
+/// array.
 enum class Encoding : std::uint32_t { kFixed64 = 1, kPacked = 2, kFixed32 = 5 };
 constexpr std::uint32_t tag(std::uint32_t number, Encoding encoding) noexcept {
   return number << 3 | static_cast<std::uint32_t>(encoding);
@@ -69,6 +70,12 @@ class FieldWriter {
   }
 
   void message(std::uint32_t number, std::size_t bytes) noexcept { array(number, bytes); }
+  /// Writes a field of `count` zeros.
+  void zeros(std::uint32_t number, std::size_t count) noexcept {
+    array(number, count);
+    std::memset(at_, 0, count);
+    at_ += count;
+  }
   void singles(std::uint32_t number, const std::array<float, 3>& in, float) noexcept {
     array(number, sizeof in);
     copy(in.data(), in.size());
@@ -149,6 +156,10 @@ class FieldReader {
   }
 
   void message(std::uint32_t number, std::size_t bytes) noexcept { array(number, bytes); }
+  void zeros(std::uint32_t number, std::size_t count) noexcept {
+    array(number, count);
+    for (std::size_t i = 0; i < count; ++i) differs_ |= get<std::uint8_t>();
+  }
   /// @param limit  largest magnitude
   void singles(std::uint32_t number, std::array<float, 3>& out, float limit) noexcept {
     array(number, sizeof out);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "proto/wire/force_flags.h"
+#include "proto/wire/message_words.h"
 #include "proto/wire/wire_codec.h"
 #include "proto/wire/wire_fields.h"
 
@@ -26,49 +26,65 @@ static decltype(auto) with_axes(std::size_t axes, Work&& work) noexcept {
   return axes == kThree ? work(kThree) : work(axes);
 }
 
-/// Enumerators and flags of a message in their wire form.
-struct StateWords {
-  std::uint32_t gate = 0, flags = 0;
-};
+/// Enumerators and flags of a FORCE in their wire form.
 struct ForceWords {
   std::uint32_t session = 0, flags = 0, surfaces = 0;
   bool surfaces_present = false;
   bool ghost = false;
 };
 
-template <class Values, class Message, class Words, class Axes>
-static void walk_state(Values& v, Message& s, Words& words, Axes axes, double position_max) noexcept {
-  v.doubles(1, s.port.x, axes, position_max);
-  v.doubles(2, s.port.v, axes, kVelocityMax);
-  v.doubles(3, s.port.f, axes, kEffortMax);
+/// Position, velocity and effort of a port in single precision; in double precision behind all other fields.
+template <class Values, class Port, class Axes>
+[[gnu::always_inline]] static inline void walk_single(Values& v, Port& port, Axes axes, double position_max) noexcept {
+  v.floats(1, port.x, axes, position_max);
+  v.floats(2, port.v, axes, kVelocityMax);
+  v.floats(3, port.f, axes, kEffortMax);
+}
+template <class Values, class Port, class Axes>
+static void walk_exact(Values& v, std::uint32_t first, Port& port, Axes axes, double position_max) noexcept {
+  v.doubles(first, port.x, axes, position_max);
+  v.doubles(first + 1, port.v, axes, kVelocityMax);
+  v.doubles(first + 2, port.f, axes, kEffortMax);
+}
+inline constexpr std::uint32_t kExactState = 11, kExactForce = 17;  ///< numbers of the first exact fields
+
+template <class Values, class Message, class Word, class Axes>
+[[gnu::always_inline]] static inline void walk_state(Values& v, Message& s, Word& flags, Axes axes,
+                                                     const BodyLayout& layout, double position_max) noexcept {
+  if (!layout.exact) walk_single(v, s.port, axes, position_max);
   v.energies(4, s.port.e_in, axes, kEnergyMax);
-  v.floats(5, s.telemetry.q, axes, kPositionMaxRad);
-  v.floats(6, s.telemetry.x, kThree, kPositionMaxM);
-  v.floats(7, s.telemetry.f_cmd, kThree, kEffortMax);
-  v.floats(8, s.telemetry.f_out, kThree, kEffortMax);
-  v.energies(9, s.telemetry.e_out, axes, kEnergyMax);
-  v.number32(10, s.telemetry.dissipated_j, -kJouleMax, kJouleMax);
-  v.number32(11, s.telemetry.refused_j, -kJouleMax, kJouleMax);
-  v.number32(12, s.telemetry.delivered_j, -kJouleMax, kJouleMax);
-  v.number32(13, s.telemetry.margin_min_j, -kJouleMax, kJouleMax);
-  v.word(14, words.gate, static_cast<std::uint32_t>(GateState::kFault));
-  v.word(15, words.flags, 15);
-  v.word(16, s.gate_trips);
-  v.word(17, s.late_ticks);
-  v.word(18, s.seat_tick);
-  v.floats(19, s.telemetry.f_env, kThree, kEffortMax);
-  v.number32(20, s.telemetry.penetration_m, -kPositionMaxM, kPositionMaxM);
-  v.number32(21, s.telemetry.down_loss_percent, 0, 100);
-  v.number32(22, s.telemetry.down_longest_gap_ms, 0, kMillisecondsMax);
-  v.number32(23, s.telemetry.down_age_p99_ms, 0, kMillisecondsMax);
-  v.word(24, s.resume_stop);
-  v.floats(25, s.port.a, axes, kAccelerationMax);
+  v.word(5, flags, kStateFlagsMax);
+  v.word(6, s.seat_tick);
+  v.word(7, s.resume_stop);
+  if (layout.tool_copies) v.floats(8, s.port.a, axes, kAccelerationMax);
+}
+
+template <class Values, class Telemetry, class Axes>
+static void walk_telemetry(Values& v, Telemetry& t, Axes axes, const BodyLayout& layout) noexcept {
+  v.message(10, telemetry_body(layout));
+  v.floats(1, t.q, axes, kPositionMaxRad);
+  v.floats(2, t.x, kThree, kPositionMaxM);
+  v.floats(3, t.f_cmd, kThree, kEffortMax);
+  v.floats(4, t.f_out, kThree, kEffortMax);
+  v.energies(5, t.e_out, axes, kEnergyMax);
+  v.number32(6, t.dissipated_j, -kJouleMax, kJouleMax);
+  v.number32(7, t.refused_j, -kJouleMax, kJouleMax);
+  v.number32(8, t.delivered_j, -kJouleMax, kJouleMax);
+  v.number32(9, t.margin_min_j, -kJouleMax, kJouleMax);
+  v.number32(10, t.down_loss_percent, 0, 100);
+  v.number32(11, t.down_longest_gap_ms, 0, kMillisecondsMax);
+  v.number32(12, t.down_age_p99_ms, 0, kMillisecondsMax);
+  v.word(13, t.gate_trips);
+  v.word(14, t.late_ticks);
+  if (!layout.environment) return;
+  v.floats(15, t.f_env, kThree, kEffortMax);
+  v.number32(16, t.penetration_m, -kPositionMaxM, kPositionMaxM);
 }
 
 template <class Values, class Sample>
 static void walk_further_sample(Values& v, Sample& s, std::size_t axes, double position_max) noexcept {
-  v.message(26, tool_state_body(axes));
-  v.doubles(1, s.x, axes, position_max);
+  v.message(9, tool_state_body(axes));
+  v.floats(1, s.x, axes, position_max);
   v.floats(2, s.v, axes, kVelocityMax);
   v.floats(3, s.f, axes, kEffortMax);
   v.floats(4, s.a, axes, kAccelerationMax);
@@ -77,7 +93,7 @@ static void walk_further_sample(Values& v, Sample& s, std::size_t axes, double p
 
 template <class Values, class Contact>
 static void walk_contact(Values& v, Contact& c) noexcept {
-  v.message(17, kContactBody);
+  v.message(16, kContactBody);
   v.word(1, c.id);
   v.singles(2, c.point, LocalContact::kPointMax);
   v.singles(3, c.normal, 2);
@@ -97,8 +113,8 @@ static bool are_surfaces(const LocalContactList& contacts, std::size_t axes) noe
 
 template <class Values, class Force, class Word>
 static void walk_further_force(Values& v, Force& t, Word& word, std::size_t axes, double position_max) noexcept {
-  v.message(13, tool_force_body(axes));
-  v.doubles(1, t.port.x, axes, position_max);
+  v.message(12, tool_force_body(axes));
+  v.floats(1, t.port.x, axes, position_max);
   v.floats(2, t.port.v, axes, kVelocityMax);
   v.floats(3, t.port.f, axes, kEffortMax);
   v.energies(4, t.port.e_in, axes, kEnergyMax);
@@ -107,27 +123,32 @@ static void walk_further_force(Values& v, Force& t, Word& word, std::size_t axes
 }
 
 template <class Values, class Message, class Words, class Axes>
-[[gnu::always_inline]] static inline void walk_force(Values& v, Message& f, Words& words, Axes axes,
+[[gnu::always_inline]] static inline void walk_force(Values& v, Message& f, Words& words, Axes axes, bool exact,
                                                      double position_max) noexcept {
-  v.doubles(1, f.port.x, axes, position_max);
-  v.doubles(2, f.port.v, axes, kVelocityMax);
-  v.doubles(3, f.port.f, axes, kEffortMax);
+  if (!exact) walk_single(v, f.port, axes, position_max);
   v.energies(4, f.port.e_in, axes, kEnergyMax);
-  v.word(5, words.session, static_cast<std::uint32_t>(SessionState::kOverloaded));
+  v.word(5, words.session, kSessionWordMax);
   v.word(6, words.flags, kForceFlagsMax);
   v.word(7, f.session_tick);
   v.word(8, f.authority_version);
-  v.word(9, f.missing, kSeatsMax);
-  v.number64(10, f.alpha, 0, 1);
-  v.word(11, f.stops);
+  v.number64(9, f.alpha, 0, 1);
+  v.word(10, f.stops);
   if (words.surfaces_present) [[unlikely]]
-    v.word(12, words.surfaces, kSurfacesMax);
+    v.word(11, words.surfaces, kSurfacesMax);
+  if (exact) [[unlikely]]
+    walk_exact(v, kExactForce, f.port, axes, position_max);
 }
 template <class Values, class Message>
 static void walk_ghost(Values& v, Message& f) noexcept {
-  v.word(14, f.ghost.leader, kMastersMax);
-  v.singles(15, f.ghost.x, kPositionMaxM);
-  v.singles(16, f.ghost.v, kVelocityMax);
+  v.word(13, f.ghost.leader, kMastersMax);
+  v.singles(14, f.ghost.x, kPositionMaxM);
+  v.singles(15, f.ghost.v, kVelocityMax);
+}
+
+template <class Values, class Message>
+static void walk_link_report(Values& v, Message& r) noexcept {
+  v.word(1, r.used);
+  v.word(2, r.late);
 }
 
 template <class Values, class Message>
@@ -139,14 +160,11 @@ static void walk_authority(Values& v, Message& a) noexcept {
 }
 
 template <class Axes>
-static void read_state(FieldReader& values, StateMessage& out, Axes axes, double position_max) noexcept {
-  StateWords words;
-  walk_state(values, out, words, axes, position_max);
-  out.gate = static_cast<GateState>(words.gate);
-  out.ready = (words.flags & 1U) != 0;
-  out.engaged = (words.flags & 2U) != 0;
-  out.stop = (words.flags & 4U) != 0;
-  out.stop_all = (words.flags & 8U) != 0;
+static void read_state(FieldReader& values, StateMessage& out, Axes axes, const BodyLayout& layout,
+                       double position_max) noexcept {
+  std::uint32_t flags = 0;
+  walk_state(values, out, flags, axes, layout, position_max);
+  values.require(read_state_flags(flags, out));
 }
 
 /// Decodes a surfaces word: number of contacts of this tool that follow, and relative stiffness of its slave's spring.

@@ -21,8 +21,11 @@ enum class Type : std::uint8_t {
   kPathResponse = 6,
   kPing = 7,
   kClose = 8,
-  kAuthority = 9
+  kAuthority = 9,
+  kLinkProbe = 10,
+  kLinkReport = 11
 };
+inline constexpr std::uint8_t kFirstType = 3, kLastType = 11;
 
 using tandem::PortSample;
 
@@ -33,7 +36,8 @@ enum class GateState : std::uint8_t { kOff, kZero, kRampIn, kActive, kReleasing,
   return gate <= GateState::kFault ? kNames[static_cast<std::size_t>(gate)] : "?";
 }
 
-/// Values of a seat for screens and reports; no control law uses them. Single precision on the wire.
+/// Values of a seat for screens and reports; no control law uses them. Single precision on the wire. STATE carries them
+/// at 60 Hz, and at every tick while the server records the session (ForceMessage::telemetry_every_tick).
 struct Telemetry {
   AxisArray q{};                   ///< joints [rad] or [m]
   std::array<double, 3> x{};       ///< tip [m]
@@ -49,21 +53,23 @@ struct Telemetry {
   double refused_j = 0;            ///< energy the ledger refused, cumulative [J]
   double delivered_j = 0;   ///< energy that the motor delivered to the hand, cumulative [J], sampled-device pairing
   double margin_min_j = 0;  ///< smallest ledger margin so far [J]
+  std::uint32_t gate_trips = 0;
+  std::uint32_t late_ticks = 0;
 };
+inline constexpr double kTelemetryHz = 60;  ///< rate of telemetry while no report, trace or recording is on [Hz]
 
 /// Client to server, every tick, 1 kHz. No reply but FORCE.
 struct StateMessage {
   PortSample port;
   Telemetry telemetry;
+  bool with_telemetry = true;  ///< this datagram carries `telemetry`
   GateState gate = GateState::kOff;
   bool ready = false;             ///< the device delivers valid readings and waits for engagement
   bool engaged = false;           ///< the port sample may act on tools
   bool stop = false;              ///< local stop by the operator: the seat is not engaged while it lasts
   bool stop_all = false;          ///< request to stop or pause the session, per role; held until FORCE counts it
   std::uint32_t resume_stop = 0;  ///< number of the stop that the operator requests to end; 0: none
-  std::uint32_t gate_trips = 0;
-  std::uint32_t late_ticks = 0;
-  std::uint32_t seat_tick = 0;  ///< session tick at which the sample was taken; 0 before engagement
+  std::uint32_t seat_tick = 0;    ///< session tick at which the sample was taken; 0 before engagement
 };
 
 /// State of a session. In kPaused and kStopped no seat is engaged until a participant or console resumes. In
@@ -116,6 +122,7 @@ struct ForceMessage : ToolForce {
   TransferNotice transfer = TransferNotice::kNone;
   std::uint32_t transfer_ticks = 0;  ///< until authority begins to move, at most kTransferNoticeTicks; 0 unless pending
   TransferParties transfer_parties;
+  bool telemetry_every_tick = true;  ///< the server records: each STATE should carry telemetry
   bool touching = false;  ///< the slave of the tool that this seat follows touches something; for display only
   Ghost ghost;            ///< law REPLICA; leader of the first tool
 };

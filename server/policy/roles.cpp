@@ -66,6 +66,8 @@ bool allowed(AccessRole role, wire::Type from_client) noexcept {
     case wire::Type::kForce:
     case wire::Type::kPathChallenge:
     case wire::Type::kPing:
+    case wire::Type::kLinkProbe:  // of link-test peers, which have no role
+    case wire::Type::kLinkReport:
       return false;
   }
   return false;

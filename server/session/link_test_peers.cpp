@@ -47,8 +47,8 @@ bool LinkTestPeers::on_datagram(Time now, const PeerAddress& from, std::uint32_t
   Connection& connection = *found->connection;
   const auto opened = connection.open(now, from, bytes, codec_);
   if (!opened) return true;
-  if (opened->type == wire::Type::kState) {
-    const auto decoded = codec_.decode_state(opened->plaintext);
+  if (opened->type == wire::Type::kLinkProbe) {
+    const auto decoded = codec_.decode_link_probe(opened->plaintext);
     if (!decoded) {
       connection.link().drop_body();
     } else if (opened->newer) {
@@ -84,12 +84,11 @@ std::optional<Transmit> LinkTestPeers::poll_transmit(Time now, std::uint32_t tic
       continue;
     }
     const transport::SecureChannelStats& s = v.connection->link().stats();
-    const wire::LinkTestReport report{static_cast<std::uint32_t>(s.accepted), static_cast<std::uint32_t>(s.late)};
-    const Transmit out =
-        session_end_->sends_close()
-            ? v.connection->seal(now, tick, wire::Type::kClose, wire::CloseMessage{session_end_->reason()}, codec_,
-                                 buffer)
-            : v.connection->seal(now, tick, wire::Type::kForce, wire::to_force_message(report), codec_, buffer);
+    const wire::LinkReport report{static_cast<std::uint32_t>(s.accepted), static_cast<std::uint32_t>(s.late)};
+    const Transmit out = session_end_->sends_close()
+                             ? v.connection->seal(now, tick, wire::Type::kClose,
+                                                  wire::CloseMessage{session_end_->reason()}, codec_, buffer)
+                             : v.connection->seal(now, tick, wire::Type::kLinkReport, report, codec_, buffer);
     if (out.size > 0) return out;
   }
   return std::nullopt;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include "proto/wire/link_test_report.h"
 #include "proto/wire/wire_codec.h"
 #include "server/session/close_out.h"
 #include "server/session/connection.h"
@@ -13,15 +12,16 @@
 
 namespace tandem::server {
 
-/// Clients that test their link to this server (proto/wire/link_test_report.h). Their data reaches no seat, tool or
-/// report. The session sends one FORCE per tick to each of them, at its validated address.
+/// Clients that test their link to this server (proto/wire/link_test_messages.h). Their data reaches no seat, tool or
+/// report. The session sends one LINK_REPORT per tick to each of them, at its validated address.
 class LinkTestPeers {
  public:
   static constexpr std::size_t kMax = 4;
 
+  /// @param layout       of the scene's first seat
   /// @param session_end  close-out of the session; must outlive this
-  LinkTestPeers(std::size_t dof, PortSpace port, Duration tick, const CloseOut& session_end)
-      : codec_(dof, port), tick_(tick), session_end_(&session_end) {}
+  LinkTestPeers(const wire::BodyLayout& layout, Duration tick, const CloseOut& session_end)
+      : codec_(layout), tick_(tick), session_end_(&session_end) {}
 
   /// Admits a peer to a free slot.
   /// @param link  in: the peer's channel; out: the channel that the slot held before
@@ -37,7 +37,7 @@ class LinkTestPeers {
   /// @return false if `cid` is not a link-test peer's
   bool on_datagram(Time now, const PeerAddress& from, std::uint32_t cid, std::span<const std::byte> bytes,
                    PathTokens& tokens) noexcept TANDEM_REALTIME;
-  /// Removes peers that have been silent for more than 2 s, and marks a FORCE as due for the others.
+  /// Removes peers that have been silent for more than 2 s, and marks a LINK_REPORT as due for the others.
   void on_tick(Time now) noexcept TANDEM_REALTIME;
 
   /// Writes the next datagram, CLOSE at the end of the session; nullopt if none is due.

@@ -51,7 +51,7 @@ SeatEndpoint::SeatEndpoint(const SceneSpec& scene, std::size_t seat, const AxisA
     coupling_index_[tie.tool] = static_cast<std::uint8_t>(coupled_tools_.size());
     coupled_tools_.push_back(tie.tool);
   }
-  codec_.configure(scene.dof, scene.port, setup.further.size());
+  codec_.configure(body_layout(setup));
   further_rx_.resize(setup.further.size());
   further_next_.resize(setup.further.size());
   further_tx_.resize(setup.further.size());
@@ -91,8 +91,7 @@ SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& fr
   };
   switch (opened->type) {
     case wire::Type::kState: {
-      const auto preamble = further_next_.empty() ? codec_.decode_state(opened->plaintext, *next_)
-                                                  : codec_.decode_state(opened->plaintext, *next_, further_next_);
+      const auto preamble = codec_.decode_state(opened->plaintext, *next_, further_next_);
       if (!preamble) {
         offence();
         break;
@@ -103,6 +102,7 @@ SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& fr
       if (jumped && alive(now) && rx_->engaged && next_->engaged) misbehaviour_.report_misbehaviour(now);
       heard.accepted_state = true;
       connection_->on_accepted_message(now, from, *opened, *preamble, tokens);
+      if (!next_->with_telemetry) next_->telemetry = rx_->telemetry;
       std::swap(rx_, next_);
       further_rx_.swap(further_next_);
       ++generation_;

@@ -29,7 +29,8 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       clock_(scene.tick_hz),
       audit_(clock_),
       participants_(seats_, clock_, audit_),
-      link_test_peers_(scene.dof, scene.port, from_seconds(1.0 / scene.tick_hz), participants_.closing().session),
+      link_test_peers_(body_layout(seat_setup(scene, 0)), from_seconds(1.0 / scene.tick_hz),
+                       participants_.closing().session),
       control_(scene, std::move(slaves), scale, seats_, participants_.present()),
       start_(scene, seats_, participants_.present(), clock_),
       stop_(scene, participants_, start_, audit_),
@@ -185,6 +186,7 @@ void Session::fill_force_messages(Time now) noexcept {
     m.session_tick = clock_.session_tick();
     m.authority_version = authority_.version();
     m.missing = missing_now;
+    m.telemetry_every_tick = telemetry_every_tick_;
     m.stops = stop_.latch().stops();
     authority_.fill_notice(i, timeline_waits, m);
   }

@@ -69,6 +69,9 @@ class Session {
   [[nodiscard]] LinkTestPeers& link_test_peers() noexcept { return link_test_peers_; }
 
   void on_datagram(Time now, const PeerAddress& from, std::span<const std::byte> bytes) noexcept;
+  /// Sets whether clients send telemetry at every tick (default), or at wire::kTelemetryHz. A session whose ticks
+  /// nothing records does not need more. No law uses telemetry.
+  void set_telemetry_every_tick(bool on) noexcept { telemetry_every_tick_ = on; }
   /// Random tokens for path challenges. The thread that runs the session fills the store before the first datagram and
   /// between ticks.
   [[nodiscard]] PathTokens& path_tokens() noexcept { return path_tokens_; }
@@ -128,6 +131,7 @@ class Session {
   Checkpoint::Hash scene_hash_;
   std::uint64_t epoch_ = 1;
   std::uint64_t unmatched_datagrams_ = 0;
+  bool telemetry_every_tick_ = true;
   TickRecord record_{};
 };
 

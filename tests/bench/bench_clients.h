@@ -20,8 +20,7 @@ namespace tandem::bench {
 /// fields of FORCE that it must echo.
 class BareClient {
  public:
-  BareClient(const netsim::SimulatedJoin& joined)
-      : link_(joined.channel_params), codec_(joined.setup.dof, joined.setup.port) {
+  BareClient(const netsim::SimulatedJoin& joined) : link_(joined.channel_params), codec_(body_layout(joined.setup)) {
     state_.ready = true;
   }
 

@@ -132,7 +132,8 @@ class Crowd {
   std::vector<io::Fd> sockets_;
 };
 
-constexpr std::size_t kStateBytes = wire::state_size(3) + 32, kForceBytes = wire::force_size(3) + 32;
+constexpr wire::BodyLayout kThreeAxes{.axes = 3, .port = PortSpace::kTip};
+constexpr std::size_t kStateBytes = wire::state_size(kThreeAxes, false) + 32, kForceBytes = wire::force_size(3) + 32;
 
 /// Returns the CPU time of the echo's thread per datagram pair [ns].
 double echo_cost(std::size_t clients, Duration length) {

@@ -2,6 +2,7 @@
 // because a peer with a key may send any content. Each accepted message is finite and in range, and encodes to as many
 // bytes as it was decoded from.
 #include <cmath>
+#include <utility>
 
 #include "common/transport/secure_channel.h"
 #include "proto/wire/wire_codec.h"
@@ -36,10 +37,14 @@ void expect_same(wire::Codec& codec, const wire::Decoded<Message>& decoded, std:
   FUZZ_EXPECT(size == in.size());
 }
 
+/// Port, and whether the seat is a MASTER of law REPLICA (else a SLAVE).
+constexpr std::pair<PortSpace, bool> kSeats[]{
+    {PortSpace::kTip, true}, {PortSpace::kTip, false}, {PortSpace::kJoint, false}};
+
 void as_insider(std::span<const std::byte> plain) {
   for (const std::size_t axes : {1, 3, 7})
-    for (const PortSpace port : {PortSpace::kTip, PortSpace::kJoint}) {
-      wire::Codec codec{axes, port};
+    for (const auto& [port, seat] : kSeats) {
+      wire::Codec codec{wire::BodyLayout{.axes = axes, .port = port, .tool_copies = seat, .environment = !seat}};
       const double position_max = port == PortSpace::kTip ? wire::kPositionMaxM : wire::kPositionMaxRad;
       if (const auto m = codec.decode_state(plain)) {
         expect_sound(m->message.port, axes, position_max);
@@ -59,6 +64,8 @@ void as_insider(std::span<const std::byte> plain) {
       if (const auto m = codec.decode_path(plain)) expect_same(codec, m, plain);
       if (const auto m = codec.decode_close(plain)) expect_same(codec, m, plain);
       if (const auto m = codec.decode_ping(plain)) expect_same(codec, m, plain);
+      if (const auto m = codec.decode_link_probe(plain)) expect_same(codec, m, plain);
+      if (const auto m = codec.decode_link_report(plain)) expect_same(codec, m, plain);
     }
 }
 

@@ -1,7 +1,10 @@
 // Fuzzes tickets as bytes and as text, and the enrolment strings and session codes that users type. No input has a
 // valid signature. Each accepted input keeps its value when it is converted to text and back.
+#include <algorithm>
+
 #include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
+#include "proto/rpc/ticket_codec.h"
 #include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -12,12 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   use.now = 1'700'000'000;
   const auto in = fuzz::bytes(data, size);
   FUZZ_EXPECT(!auth::check_ticket(in, key.verifier(), use));
-  if (size == auth::kTicketSize) {
-    auth::TicketBytes ticket;
-    std::ranges::copy(in, ticket.begin());
-    const auto back = auth::ticket_from_text(auth::ticket_text(ticket));
-    FUZZ_EXPECT(back && *back == ticket);
-  }
+  if (const auto ticket = rpc::decode_signed_ticket(in)) FUZZ_EXPECT(std::ranges::equal(rpc::encode(*ticket), in));
+  if (const auto content = rpc::decode_ticket_content(in)) FUZZ_EXPECT(std::ranges::equal(rpc::encode(*content), in));
+  static_cast<void>(auth::claimed_role(in));
   const auto text = fuzz::text(data, size);
   if (const auto ticket = auth::ticket_from_text(text)) {
     const auto back = auth::ticket_from_text(auth::ticket_text(*ticket));

@@ -213,7 +213,7 @@ class Insider {
     }
     core_.emplace(given->setup, device_->caps(), given->link);
     link_ = given->link;
-    codec_.configure(given->setup.dof, given->setup.port);
+    codec_.configure(body_layout(given->setup));
     socket_ = std::move(*io::connect_udp(given->udp));
   }
   /// Runs one millisecond as an honest client.

@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "server/session/link_test_peers.h"
+#include "tests/common/auth/edited_ticket.h"
 #include "tests/io/live_server.h"
 
 namespace tandem::server::test {
@@ -95,10 +96,10 @@ TEST(Consoles, NeedASingleUseTicketForTheirSessionAndWorkstation) {
                                                      kTimeout)),
             ErrorCode::kTicket);
   auto raised = std::get<rpc::TicketCredential>(live_server.ticket(key, AccessRole::kRecorder));
-  raised.bytes[1] = static_cast<std::byte>(AccessRole::kOperator);
-  EXPECT_NE(text_of(ask(raised)).find("changed"), std::string::npos) << "a role raised by an edited byte";
+  raised.bytes = auth::test::with_role(raised.bytes, AccessRole::kOperator);
+  EXPECT_NE(text_of(ask(raised)).find("changed"), std::string::npos) << "a role raised by an edit";
   auto lowered = std::get<rpc::TicketCredential>(live_server.ticket(key, AccessRole::kRecorder));
-  lowered.bytes[1] = static_cast<std::byte>(AccessRole::kTrainee);
+  lowered.bytes = auth::test::with_role(lowered.bytes, AccessRole::kTrainee);
   EXPECT_EQ(reason_of(ask(lowered)), ErrorCode::kNotAllowed) << "a trainee needs a seat";
 }
 

@@ -22,11 +22,11 @@ const std::array<Layer, 43> kLayers{{
      "common/transport sees time and bytes: base, the datagram structs, OpenSSL, libsodium and libipsec-mb, no "
      "sockets, threads, clocks"},
     {"common/auth",
-     {"common/base", "common/auth", "common/transport/digest.h", "proto/spec/registry_spec.h",
-      "proto/spec/access_role.h"},
+     {"common/base", "common/auth", "common/transport/digest.h", "proto/rpc/ticket_codec.h",
+      "proto/spec/registry_spec.h", "proto/spec/access_role.h"},
      {"openssl", "sodium"},
-     "common/auth decides over values it is given: base, digests, the plain rows of the registry, OpenSSL and "
-     "libsodium"},
+     "common/auth decides over values it is given: base, digests, encoded tickets, the plain rows of the registry, "
+     "OpenSSL and libsodium"},
     {"common/auth/io",
      {"common/base", "common/io", "common/auth", "proto/rpc/rpc_codec.h", "proto/rpc/rpc_messages.h",
       "proto/text/registry_text.h", "proto/spec/registry_spec.h"},

@@ -88,8 +88,8 @@ void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {
   seat.ever_taken = seat.ever_taken || port.taken();
   seat.alpha = session_.record().seats[i].alpha;
   seat.margin_j = heard.telemetry.margin_min_j;
-  seat.gate_trips = heard.gate_trips;
-  seat.late_ticks = heard.late_ticks;
+  seat.gate_trips = heard.telemetry.gate_trips;
+  seat.late_ticks = heard.telemetry.late_ticks;
   seat.link.down = {heard.telemetry.down_loss_percent, heard.telemetry.down_longest_gap_ms,
                     heard.telemetry.down_age_p99_ms};
   if (const transport::SecureChannel* link = port.link()) {  // the last values of a seat that was left remain

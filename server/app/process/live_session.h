@@ -37,6 +37,10 @@ class LiveSession {
     checkpoints_.attach(std::move(mailbox), epoch, scene_->tick_hz);
   }
 
+  /// Sets whether a report or trace is made of the records, before a shard serves the session. Without one, clients
+  /// send telemetry at 60 Hz.
+  void set_recorded(bool on) noexcept { session_.set_telemetry_every_tick(on); }
+
   // ---- Any thread ----
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
   [[nodiscard]] const SeatCatalogue& seat_catalogue() const noexcept { return session_.seat_catalogue(); }

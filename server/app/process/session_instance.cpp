@@ -70,7 +70,9 @@ SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves,
       queue_(kQueueTicks),
       recorder_(plan.scene, queue_, trace_),
       live_session_(std::make_unique<LiveSession>(plan.scene, std::move(slaves), slot, queue_,
-                                                  kept != nullptr ? &kept->checkpoint : nullptr)) {}
+                                                  kept != nullptr ? &kept->checkpoint : nullptr)) {
+  live_session_->set_recorded(!plan.json.empty() || !plan.trace.empty() || !plan.reports.empty());
+}
 
 std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> SessionInstance::open(
     const SessionOptions& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code, const SessionSnapshot* kept) {

@@ -75,7 +75,7 @@ TEST(SeatSocket, SendsEachDatagramOfTheSeatOnce) {
 
 TEST(SeatSocket, PassesAReceivedDatagramToTheSeat) {
   SeatOnLoopback at;
-  const wire::Codec codec{at.setup.dof, at.setup.port, at.setup.further.size()};
+  const wire::Codec codec{body_layout(at.setup)};
   ClientChannel server{{transport::Direction::kToClient, 2, 1}, codec};
   std::array<std::byte, transport::kDatagramMax> buffer;
   const auto size = server.seal(kBegin, 0, wire::Type::kClose, wire::CloseMessage{wire::CloseReason::kDone}, buffer);

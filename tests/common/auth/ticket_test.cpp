@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "common/auth/base32.h"
-#include "common/transport/digest.h"
+#include "proto/rpc/ticket_codec.h"
+#include "tests/common/auth/edited_ticket.h"
 #include "tests/common/auth/support.h"
 
 namespace tandem::auth {
@@ -38,23 +42,83 @@ TEST(Ticket, SurvivesARoundTrip) {
   EXPECT_EQ(ticket_from_text(ticket_text(signed_sample(key))), signed_sample(key));
 }
 
+/// The sample ticket as another program writes it: ticket.proto by hand and Ed25519 of Python's `cryptography`.
 TEST(Ticket, HasTheDocumentedLayout) {
+  EXPECT_EQ(to_hex(signed_sample(test::ticket_key())),
+            "08021556475aa71a62080110f4031a100102030405060708090a0b0c0d0e0f10221032333435363738393a3b3c"
+            "3d3e3f40412a206465666768696a6b6c6d6e6f707172737475767778797a7b7c7d7e7f80818283320774726169"
+            "6e65653880a4a7da064090c0a7da0648072240a69804cbdd76ae0e0f817c1554c4aa5c6d1da5a8ac31ad99f52e"
+            "78f36f7a9e14a2d29308c5d0ae22e07b82514c004bed8070ea7f23cdc6a155106d3bf57a6c08");
+}
+
+TEST(Ticket, NeverExceedsItsLargestSize) {
+  Ticket t = sample_ticket();
+  t.role = AccessRole::kRecorder;
+  t.seat = std::string(Ticket::kSeatMax, 'z');
+  t.force_scale = Ticket::kFullForce;
+  t.not_before = std::numeric_limits<std::int64_t>::max() - Ticket::kLifeMax;
+  t.not_after = std::numeric_limits<std::int64_t>::max();
+  t.epoch_min = ~std::uint64_t{0};
+  const auto bytes = sign_ticket(t, test::ticket_key());
+  ASSERT_TRUE(bytes);
+  EXPECT_LE(bytes->size(), rpc::kSignedTicketMax);
+  EXPECT_EQ(ticket_from_text(ticket_text(*bytes)), *bytes);
+}
+
+/// Format 1: 192 bytes at fixed offsets, which begin with 1.
+TEST(Ticket, RejectsFormat1WithARemedy) {
   const auto key = test::ticket_key();
-  const auto bytes = signed_sample(key);
-  const auto hex = to_hex(bytes);
-  const auto at = [&](std::size_t from, std::size_t count) { return hex.substr(2 * from, 2 * count); };
-  EXPECT_EQ(at(0, 1), "01");    // version
-  EXPECT_EQ(at(1, 1), "01");    // trainee
-  EXPECT_EQ(at(2, 2), "f401");  // 500
-  EXPECT_EQ(at(8, 16), "0102030405060708090a0b0c0d0e0f10");
-  EXPECT_EQ(at(24, 4), "32333435");           // session: 50, 51, ...
-  EXPECT_EQ(at(40, 4), "64656667");           // workstation: 100, 101, ...
-  EXPECT_EQ(at(72, 8), "747261696e656500");   // "trainee", zero
-  EXPECT_EQ(at(104, 8), "00d2496b00000000");  // 1 800 000 000
-  EXPECT_EQ(at(120, 8), "0700000000000000");
-  // The first test key of RFC 8032 has other bytes; our key is identified by the SHA-256 of its public key.
-  const auto hash = transport::sha256(key.verifier().key);
-  EXPECT_EQ(at(4, 4), to_hex(std::span(hash).first(4)));
+  std::vector<std::byte> old(192, std::byte{7});
+  old[0] = std::byte{1};
+  EXPECT_EQ(rule_of(old, key, sample_use(sample_ticket())), TicketCheck::kVersion);
+  EXPECT_NE(to_text(TicketError{TicketCheck::kVersion, 0, {}}).find("`tandem-server ticket`"), std::string::npos);
+  const auto text = ticket_from_text("ticket:" + to_base32(old));
+  ASSERT_FALSE(text);
+  EXPECT_NE(text.error().find("format 1"), std::string::npos) << text.error();
+  EXPECT_NE(text.error().find("ask for a new one, which `tandem-server ticket`"), std::string::npos) << text.error();
+}
+
+TEST(Ticket, RejectsALaterFormatByItsVersion) {
+  const auto key = test::ticket_key();
+  auto ticket = *rpc::decode_signed_ticket(signed_sample(key));
+  ticket.version = 3;
+  EXPECT_EQ(rule_of(rpc::encode(ticket), key, sample_use(sample_ticket())), TicketCheck::kVersion);
+}
+
+/// A signer with the server's key can write any content; each value has one encoding, and ranges hold.
+TEST(Ticket, RejectsSignedContentThatIsNoTicket) {
+  const auto key = test::ticket_key();
+  const auto resigned = [&](std::vector<std::byte> content) {
+    auto ticket = *rpc::decode_signed_ticket(signed_sample(key));
+    std::vector<std::byte> message;
+    for (const char c : std::string("tandem ticket v2") + '\0') message.push_back(static_cast<std::byte>(c));
+    message.insert(message.end(), content.begin(), content.end());
+    ticket.signature = key.sign(message);
+    ticket.content = std::move(content);
+    return rpc::encode(ticket);
+  };
+  const TicketUse use = sample_use(sample_ticket());
+  const auto content = rpc::decode_signed_ticket(signed_sample(key))->content;
+  EXPECT_TRUE(check_ticket(resigned(content), key.verifier(), use));
+  auto unknown = content;
+  unknown.insert(unknown.end(), {std::byte{0x50}, std::byte{1}});  // field 10
+  EXPECT_EQ(rule_of(resigned(unknown), key, use), TicketCheck::kContent);
+  auto repeated = content;
+  repeated.insert(repeated.end(), {std::byte{0x48}, std::byte{7}});  // epoch_min again
+  EXPECT_EQ(rule_of(resigned(repeated), key, use), TicketCheck::kContent);
+  EXPECT_EQ(rule_of(resigned({}), key, use), TicketCheck::kContent);
+  const auto with = [&](auto change) {
+    auto c = *rpc::decode_ticket_content(content);
+    change(c);
+    return rule_of(resigned(rpc::encode(c)), key, use);
+  };
+  EXPECT_EQ(with([](rpc::TicketContent& c) { c.role = 6; }), TicketCheck::kContent);
+  EXPECT_EQ(with([](rpc::TicketContent& c) { c.role = 257; }), TicketCheck::kContent) << "1 in the lowest byte";
+  EXPECT_EQ(with([](rpc::TicketContent& c) { c.force_scale = 65536 + 500; }), TicketCheck::kContent);
+  EXPECT_EQ(with([](rpc::TicketContent& c) { c.seat = "a b"; }), TicketCheck::kContent);
+  EXPECT_EQ(with([](rpc::TicketContent& c) { c.not_before = -1; }), TicketCheck::kContent);
+  EXPECT_EQ(with([](rpc::TicketContent& c) { c.not_before = std::numeric_limits<std::int64_t>::min(); }),
+            TicketCheck::kContent);
 }
 
 TEST(TicketKey, IsEd25519OfRfc8032) {
@@ -82,8 +146,8 @@ TEST(Ticket, ReportsTheNameOfTheBrokenRule) {
     return u;
   };
   const TicketUse right = sample_use(ticket);
-  EXPECT_EQ(rule_of(std::span(bytes).first(191), key, right), TicketCheck::kLength);
-  EXPECT_EQ(rule_of({}, key, right), TicketCheck::kLength);
+  for (std::size_t cut = 0; cut < bytes.size(); ++cut)
+    EXPECT_EQ(rule_of(std::span(bytes).first(cut), key, right), TicketCheck::kFormat) << cut;
   EXPECT_EQ(rule_of(bytes, test::ticket_key(1), right), TicketCheck::kKey);
   EXPECT_EQ(rule_of(bytes, key, use([](TicketUse& u) { u.workstation.sha256[31] ^= std::byte{1}; })),
             TicketCheck::kWorkstation);
@@ -120,22 +184,30 @@ TEST(Ticket, RejectsEveryFlippedBit) {
   const auto key = test::ticket_key();
   const TicketUse use = sample_use(sample_ticket());
   const auto bytes = signed_sample(key);
-  for (std::size_t bit = 0; bit < 8 * kTicketSize; ++bit) {
+  // Layout: 08 version, 15 kid, 1a length content, 22 40 signature.
+  const std::size_t content_at = 9, content_size = rpc::decode_signed_ticket(bytes)->content.size();
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     auto changed = bytes;
-    changed[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    const std::size_t at = bit / 8;
+    changed[at] ^= static_cast<std::byte>(1U << bit % 8);
     const TicketCheck rule = rule_of(changed, key, use);
-    EXPECT_EQ(rule, bit < 8                 ? TicketCheck::kVersion
-                    : bit >= 32 && bit < 64 ? TicketCheck::kKey
-                                            : TicketCheck::kSignature)
-        << "bit " << bit;
+    const bool in_content = at >= content_at && at < content_at + content_size;
+    const bool in_signature = at >= bytes.size() - sizeof(Signature);
+    if (in_content || in_signature) {
+      EXPECT_EQ(rule, TicketCheck::kSignature) << "bit " << bit;
+    } else if (at >= 3 && at < 7) {
+      EXPECT_EQ(rule, TicketCheck::kKey) << "bit " << bit;
+    } else {
+      EXPECT_TRUE(rule == TicketCheck::kFormat || rule == TicketCheck::kVersion) << "bit " << bit;
+    }
   }
 }
 
 TEST(Ticket, RejectsAnEditedRoleByItsSignature) {
   const auto key = test::ticket_key();
-  auto bytes = signed_sample(key);
-  bytes[1] = static_cast<std::byte>(AccessRole::kInstructor);
-  EXPECT_EQ(rule_of(bytes, key, sample_use(sample_ticket())), TicketCheck::kSignature);
+  const auto edited = test::with_role(signed_sample(key), AccessRole::kInstructor);
+  EXPECT_EQ(claimed_role(edited), AccessRole::kInstructor);
+  EXPECT_EQ(rule_of(edited, key, sample_use(sample_ticket())), TicketCheck::kSignature);
 }
 
 TEST(Ticket, RefusesToSignFieldsOutOfRange) {
@@ -164,10 +236,11 @@ TEST(Ticket, RejectsRandomBytes) {
   RandomStream random(9);
   const std::uint64_t count = test::seeds(2000);
   for (std::uint64_t i = 0; i < count; ++i) {
-    auto bytes = test::random_bytes(random, i % 4 == 0 ? random.below(400) : kTicketSize);
-    if (bytes.size() > 8 && i % 2 == 0) {  // so that some reach the signature check
-      bytes[0] = std::byte{1};
-      for (std::size_t k = 0; k < 4; ++k) bytes[4 + k] = static_cast<std::byte>(key.verifier().kid >> (8 * k) & 0xff);
+    auto bytes = test::random_bytes(random, random.below(400));
+    if (i % 2 == 0) {  // so that some reach the signature check
+      rpc::SignedTicket ticket{.version = Ticket::kVersion, .kid = key.verifier().kid, .content = bytes};
+      std::ranges::copy(test::random_bytes(random, sizeof ticket.signature), ticket.signature.begin());
+      bytes = rpc::encode(ticket);
     }
     EXPECT_FALSE(check_ticket(bytes, key.verifier(), sample_use(sample_ticket())));
   }
@@ -175,7 +248,7 @@ TEST(Ticket, RejectsRandomBytes) {
 
 TEST(Ticket, ReportsTheErrorInItsText) {
   const std::string text = ticket_text(signed_sample(test::ticket_key()));
-  EXPECT_EQ(text.size(), 7 + base32_length(kTicketSize));
+  EXPECT_EQ(text.size(), 7 + base32_length(signed_sample(test::ticket_key()).size()));
   EXPECT_FALSE(ticket_from_text(text.substr(1)));
   EXPECT_FALSE(ticket_from_text(text.substr(0, text.size() - 8)));
   EXPECT_FALSE(ticket_from_text(text + "!"));

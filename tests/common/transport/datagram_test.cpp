@@ -16,7 +16,7 @@ std::vector<std::byte> with_header(const Header& h, std::size_t size = 64) {
 
 TEST(Header, HasTheDocumentedByteLayout) {
   const auto bytes = with_header({wire::Type::kState, 3, 0x04030201, 0x0c0b0a0908070605});
-  EXPECT_EQ(bytes[0], std::byte{0x13});
+  EXPECT_EQ(bytes[0], std::byte{0x23});
   EXPECT_EQ(bytes[1], std::byte{3});
   EXPECT_EQ(bytes[2], std::byte{0});
   EXPECT_EQ(bytes[3], std::byte{0});
@@ -33,7 +33,7 @@ TEST(Header, RejectsUnknownVersionsAndTypes) {
   for (unsigned first = 0; first < 256; ++first) {
     auto bytes = with_header({});
     bytes[0] = static_cast<std::byte>(first);
-    const bool good = (first >> 4) == 1 && (first & 15) >= 3 && (first & 15) <= 9;
+    const bool good = (first >> 4) == 2 && (first & 15) >= 3 && (first & 15) <= 11;
     EXPECT_EQ(read_header(bytes).has_value(), good) << first;
   }
 }

@@ -6,9 +6,9 @@
 import { createDecipheriv, createHmac } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 
-const VERSION = 1;
+const VERSION = 2;
 const LOWEST_TYPE = 3;
-const HIGHEST_TYPE = 9;
+const HIGHEST_TYPE = 11;
 const HEADER_BYTES = 16;
 const TAG_BYTES = 16;
 const SMALLEST_DATAGRAM = HEADER_BYTES + TAG_BYTES;

@@ -37,7 +37,7 @@ TEST(WireCodec, RoundTripsState) {
       const auto sent = samples::state(random, axes);
       Buffer buffer;
       const auto size = codec.encode(preamble, sent, buffer);
-      ASSERT_EQ(size, state_size(axes));
+      ASSERT_EQ(size, state_size(samples::tip(axes), true));
       const auto got = codec.decode_state(view(buffer, size));
       ASSERT_TRUE(got.has_value()) << static_cast<int>(got.error());
       expect_same(got->preamble, preamble);
@@ -57,9 +57,10 @@ TEST(WireCodec, RoundTripsState) {
       EXPECT_EQ(got->message.stop, sent.stop);
       EXPECT_EQ(got->message.stop_all, sent.stop_all);
       EXPECT_EQ(got->message.resume_stop, sent.resume_stop);
-      EXPECT_EQ(got->message.port.a, sent.port.a);
-      EXPECT_EQ(got->message.gate_trips, sent.gate_trips);
-      EXPECT_EQ(got->message.late_ticks, sent.late_ticks);
+      EXPECT_EQ(got->message.port.a, axes <= 3 ? sent.port.a : AxisArray{});
+      EXPECT_EQ(got->message.telemetry.gate_trips, sent.telemetry.gate_trips);
+      EXPECT_EQ(got->message.telemetry.late_ticks, sent.telemetry.late_ticks);
+      EXPECT_TRUE(got->message.with_telemetry);
       EXPECT_EQ(got->message.seat_tick, sent.seat_tick);
     }
   }
@@ -91,6 +92,7 @@ TEST(WireCodec, RoundTripsForce) {
       EXPECT_EQ(got->message.transfer_ticks, sent.transfer_ticks);
       EXPECT_EQ(got->message.transfer_parties, sent.transfer_parties);
       EXPECT_EQ(got->message.touching, sent.touching);
+      EXPECT_EQ(got->message.telemetry_every_tick, sent.telemetry_every_tick);
     }
   }
 }
@@ -220,11 +222,11 @@ TEST(WireCodec, ReconfiguringChangesAxesAndRanges) {
   Buffer buffer;
   auto size = codec.encode({}, m, buffer);
   EXPECT_TRUE(codec.decode_state(view(buffer, size)).has_value()) << "50 rad";
-  codec.configure(3, PortSpace::kTip);
+  codec.configure({.axes = 3, .port = PortSpace::kTip});
   EXPECT_EQ(codec.axes(), 3u);
   EXPECT_EQ(codec.decode_state(view(buffer, size)).error(), DecodeError::kSize);
   size = codec.encode({}, m, buffer);
-  EXPECT_EQ(size, state_size(3));
+  EXPECT_EQ(size, state_size(samples::tip(3), true));
   EXPECT_EQ(codec.decode_state(view(buffer, size)).error(), DecodeError::kOutOfRange) << "50 m";
 }
 
@@ -248,6 +250,7 @@ TEST(WireCodec, RejectsOutOfRangeNumbers) {
   EXPECT_EQ(state([&](auto& m) { m.telemetry.margin_min_j = nan; }), DecodeError::kNotFinite);
   EXPECT_EQ(state([&](auto& m) { m.telemetry.refused_j = 1e300; }), DecodeError::kNotFinite)
       << "beyond single precision";
+  EXPECT_EQ(state([&](auto& m) { m.port.x[1] = 1e300; }), DecodeError::kNotFinite) << "beyond single precision";
   EXPECT_EQ(state([&](auto& m) { m.port.x[0] = 10.001; }), DecodeError::kOutOfRange);
   EXPECT_EQ(state([&](auto& m) { m.port.v[1] = -100.1; }), DecodeError::kOutOfRange);
   EXPECT_EQ(state([&](auto& m) { m.port.f[2] = 1.0001e4; }), DecodeError::kOutOfRange);
@@ -326,7 +329,7 @@ TEST(WireCodec, WritesNothingIntoABufferThatIsTooSmall) {
   Buffer buffer;
   buffer.fill(std::byte{0x5a});
   RandomStream random(1);
-  for (std::size_t size = 0; size < state_size(3); ++size) {
+  for (std::size_t size = 0; size < state_size(samples::tip(3), true); ++size) {
     EXPECT_EQ(codec.encode({}, samples::state(random, 3), std::span(buffer).first(size)), 0u);
   }
   EXPECT_EQ(buffer[0], std::byte{0x5a});
@@ -341,7 +344,7 @@ TEST(WireCodec, NeverAllocatesAfterConstruction) {
   Buffer buffer;
   const test::AllocGuard guard;
   for (int i = 0; i < 1000; ++i) {
-    codec.configure(1 + static_cast<std::size_t>(random.below(kAxesMax)), PortSpace::kTip);
+    codec.configure({.axes = 1 + static_cast<std::size_t>(random.below(kAxesMax)), .port = PortSpace::kTip});
     EXPECT_TRUE(codec.decode_state(view(buffer, codec.encode({}, samples::state(random, codec.axes()), buffer))));
     EXPECT_TRUE(codec.decode_force(view(buffer, codec.encode({}, samples::force(random, codec.axes()), buffer))));
     EXPECT_TRUE(codec.decode_path(view(buffer, codec.encode({}, samples::path(random), buffer))));
@@ -382,7 +385,7 @@ TEST(WireGhost, IsSentOnlyWithAnotherLeaderAndInRange) {
   refused([](Ghost& g) { g.x[0] = std::numeric_limits<float>::quiet_NaN(); }, DecodeError::kNotFinite);
   refused([](Ghost& g) { g.v[0] = std::numeric_limits<float>::infinity(); }, DecodeError::kNotFinite);
 
-  // A ghost without a leader: the number behind tag 14 is 0.
+  // A ghost without a leader: the number behind tag 13 is 0.
   sent.ghost = samples::ghost(random);
   const std::size_t size = codec.encode({}, sent, buffer);
   for (std::size_t k = 0; k < 4; ++k) buffer[force_size(3) + 1 + k] = std::byte{0};

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/proto/wire/wire_samples.h"
@@ -46,6 +48,16 @@ std::vector<Case> cases(Codec& codec) {
            EXPECT_LE(got->message.gate, GateState::kFault);
            for (const double v : got->message.telemetry.x) EXPECT_TRUE(std::isfinite(v));
          }
+         return got.has_value();
+       }},
+      {"STATE without telemetry", bytes([&] {
+         StateMessage m = samples::state(random, 3);
+         m.with_telemetry = false;
+         return m;
+       }()),
+       [](Codec& c, std::span<const std::byte> in) {
+         const auto got = c.decode_state(in);
+         if (got) expect_in_range(got->message.port, kPositionMaxM);
          return got.has_value();
        }},
       {"FORCE", bytes(samples::force(random, 3)),
@@ -137,6 +149,10 @@ std::vector<Case> cases(Codec& codec) {
          }
          return got.has_value();
        }},
+      {"LINK_PROBE", bytes(LinkProbe{}),
+       [](Codec& c, std::span<const std::byte> in) { return c.decode_link_probe(in).has_value(); }},
+      {"LINK_REPORT", bytes(LinkReport{7, 9}),
+       [](Codec& c, std::span<const std::byte> in) { return c.decode_link_report(in).has_value(); }},
       {"CLOSE", bytes(CloseMessage{}),
        [](Codec& c, std::span<const std::byte> in) { return c.decode_close(in).has_value(); }},
   };
@@ -179,12 +195,14 @@ TEST(WireHostile, GivesAnErrorOrAValidMessageForEveryFlippedByte) {
 TEST(WireHostile, ReportsChangedStructureAsMalformed) {
   Codec codec(3, PortSpace::kTip);
   const auto all = cases(codec);
-  // FORCE, 3 axes: tag and length of x, v, f, e_in, then tags of five fixed32, a double and a fixed32.
-  const std::vector<std::size_t> structure{16, 17, 42, 43, 68, 69, 94, 95, 120, 125, 130, 135, 140, 145, 154};
-  ASSERT_EQ(all[1].bytes.size(), 159u);
+  const auto of = [&](std::string_view name) -> const Case& { return *std::ranges::find(all, name, &Case::name); };
+  // FORCE, 3 axes: tag and length of x, v, f, e_in, then tags of four fixed32, a double and a fixed32.
+  const std::vector<std::size_t> structure{16, 17, 30, 31, 44, 45, 58, 59, 84, 89, 94, 99, 104, 113};
+  const Case& force = of("FORCE");
+  ASSERT_EQ(force.bytes.size(), 118u);
   for (const auto at : structure) {
     for (int value = 0; value < 256; ++value) {
-      Bytes changed = all[1].bytes;
+      Bytes changed = force.bytes;
       if (changed[at] == static_cast<std::byte>(value)) continue;
       changed[at] = static_cast<std::byte>(value);
       const auto got = codec.decode_force(changed);
@@ -194,18 +212,29 @@ TEST(WireHostile, ReportsChangedStructureAsMalformed) {
   }
 }
 
-/// Some bits of the surface word in FORCE must be 0.
+/// Some bits of the words in STATE and FORCE must be 0.
 TEST(WireHostile, RejectsUndefinedBits) {
   Codec codec(3, PortSpace::kTip);
   const auto all = cases(codec);
-  constexpr std::size_t kSurfacesAt = 160;
+  const auto of = [&](std::string_view name) -> const Case& { return *std::ranges::find(all, name, &Case::name); };
+  constexpr std::size_t kSurfacesAt = 119, kSessionAt = 85, kForceFlagsAt = 90, kStateFlagsAt = 85;
   for (std::uint32_t bit = 0; bit < 32; ++bit) {
-    Bytes changed = all[2].bytes;
+    Bytes changed = of("FORCE with contacts").bytes;
     changed[kSurfacesAt + bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
     EXPECT_EQ(codec.decode_force(changed).has_value(), bit >= 8 && bit < 24) << bit;
   }
-  Bytes none = all[1].bytes;
-  none[126 + 3] ^= static_cast<std::byte>(1U << 5);  // bit 29 of the flags: surface fields follow
+  for (std::uint32_t bit = 7; bit < 32; ++bit) {
+    Bytes changed = of("STATE").bytes;
+    changed[kStateFlagsAt + bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    EXPECT_FALSE(codec.decode_state(changed).has_value()) << bit;
+  }
+  for (std::uint32_t bit = 17; bit < 32; ++bit) {
+    Bytes changed = of("FORCE").bytes;
+    changed[kSessionAt + bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    EXPECT_FALSE(codec.decode_force(changed).has_value()) << bit;
+  }
+  Bytes none = of("FORCE").bytes;
+  none[kForceFlagsAt + 3] ^= static_cast<std::byte>(1U << 5);  // bit 29 of the flags: surface fields follow
   EXPECT_FALSE(codec.decode_force(none).has_value());
 }
 

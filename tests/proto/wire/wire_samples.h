@@ -10,17 +10,8 @@
 /// Random wire messages within their ranges, for tests.
 namespace tandem::wire::samples {
 
-inline void fill(RandomStream& random, AxisArray& array, std::size_t axes, double limit) {
-  for (std::size_t i = 0; i < axes; ++i) array[i] = random.uniform(-limit, limit);
-}
 inline void fill(RandomStream& random, EnergyArray& array, std::size_t axes) {
   for (std::size_t i = 0; i < axes; ++i) array[i] = random.below(kEnergyMax);
-}
-inline void port(RandomStream& random, std::size_t axes, PortSample& out) {
-  fill(random, out.x, axes, 10);
-  fill(random, out.v, axes, 100);
-  fill(random, out.f, axes, 1e4);
-  fill(random, out.e_in, axes);
 }
 inline Preamble preamble(RandomStream& random) {
   return {random.bits(), static_cast<std::uint32_t>(random.bits()), static_cast<std::uint32_t>(random.bits())};
@@ -28,6 +19,19 @@ inline Preamble preamble(RandomStream& random) {
 /// Returns a value in [-limit, limit] that single precision represents exactly, so that messages can be compared.
 inline double single(RandomStream& random, double limit) {
   return static_cast<double>(static_cast<float>(random.uniform(-limit, limit)));
+}
+inline void fill_single(RandomStream& random, AxisArray& array, std::size_t axes, double limit) {
+  for (std::size_t i = 0; i < axes; ++i) array[i] = single(random, limit);
+}
+inline void port(RandomStream& random, std::size_t axes, PortSample& out) {
+  fill_single(random, out.x, axes, 10);
+  fill_single(random, out.v, axes, 100);
+  fill_single(random, out.f, axes, 1e4);
+  fill(random, out.e_in, axes);
+}
+/// Returns the layout of a seat with all parts that a TIP port can have.
+inline BodyLayout tip(std::size_t axes, std::size_t further = 0) {
+  return BodyLayout{.axes = axes, .port = PortSpace::kTip, .further = further}.valid();
 }
 inline StateMessage state(RandomStream& random, std::size_t axes) {
   StateMessage m;
@@ -52,8 +56,8 @@ inline StateMessage state(RandomStream& random, std::size_t axes) {
   m.stop_all = random.below(2) == 1;
   m.resume_stop = static_cast<std::uint32_t>(random.bits());
   for (std::size_t a = 0; a < axes; ++a) m.port.a[a] = single(random, 100);
-  m.gate_trips = static_cast<std::uint32_t>(random.bits());
-  m.late_ticks = static_cast<std::uint32_t>(random.bits());
+  m.telemetry.gate_trips = static_cast<std::uint32_t>(random.bits());
+  m.telemetry.late_ticks = static_cast<std::uint32_t>(random.bits());
   m.seat_tick = static_cast<std::uint32_t>(random.bits());
   return m;
 }
@@ -88,7 +92,7 @@ inline void contacts(RandomStream& random, std::size_t axes, LocalContactList& o
 inline std::vector<PortSample> tie_states(RandomStream& random, std::size_t axes, std::size_t further) {
   std::vector<PortSample> all(further);
   for (PortSample& s : all) {
-    fill(random, s.x, axes, 10);
+    fill_single(random, s.x, axes, 10);
     for (std::size_t a = 0; a < axes; ++a) {
       s.v[a] = single(random, 100);
       s.f[a] = single(random, 100);
@@ -103,7 +107,7 @@ inline std::vector<ToolForce> tie_forces(RandomStream& random, std::size_t axes,
                                          std::size_t room) {
   std::vector<ToolForce> all(further);
   for (ToolForce& t : all) {
-    fill(random, t.port.x, axes, 10);
+    fill_single(random, t.port.x, axes, 10);
     for (std::size_t a = 0; a < axes; ++a) {
       t.port.v[a] = single(random, 100);
       t.port.f[a] = single(random, 1);
@@ -141,6 +145,7 @@ inline ForceMessage force(RandomStream& random, std::size_t axes) {
     if (m.transfer_parties.by > kSeatsMax) m.transfer_parties.by = TransferParties::kOperator;
   }
   m.touching = random.below(2) == 1;
+  m.telemetry_every_tick = random.below(2) == 1;
   return m;
 }
 inline PathMessage path(RandomStream& random) { return {random.bits()}; }

@@ -44,42 +44,55 @@ Body parsed(std::span<const std::byte> ours) {
   return body;
 }
 
+/// The library's copy of the telemetry. @param slave  whether the environment is part of it
+void expect_same(const pb::Telemetry& theirs, const Telemetry& ours, std::size_t axes, bool slave) {
+  expect_same(theirs.q(), ours.q, axes);
+  expect_same(theirs.tip_x(), ours.x, 3);
+  expect_same(theirs.f_cmd(), ours.f_cmd, 3);
+  expect_same(theirs.f_out(), ours.f_out, 3);
+  expect_same(theirs.e_out(), ours.e_out, axes);
+  EXPECT_EQ(theirs.dissipated_j(), static_cast<float>(ours.dissipated_j));
+  EXPECT_EQ(theirs.refused_j(), static_cast<float>(ours.refused_j));
+  EXPECT_EQ(theirs.delivered_j(), static_cast<float>(ours.delivered_j));
+  EXPECT_EQ(theirs.margin_min_j(), static_cast<float>(ours.margin_min_j));
+  EXPECT_EQ(theirs.down_loss_percent(), static_cast<float>(ours.down_loss_percent));
+  EXPECT_EQ(theirs.down_longest_gap_ms(), static_cast<float>(ours.down_longest_gap_ms));
+  EXPECT_EQ(theirs.down_age_p99_ms(), static_cast<float>(ours.down_age_p99_ms));
+  EXPECT_EQ(theirs.gate_trips(), ours.gate_trips);
+  EXPECT_EQ(theirs.late_ticks(), ours.late_ticks);
+  EXPECT_EQ(theirs.has_penetration_m(), slave);
+  expect_same(theirs.f_env(), ours.f_env, slave ? 3 : 0);
+  EXPECT_EQ(theirs.penetration_m(), slave ? static_cast<float>(ours.penetration_m) : 0);
+}
+
 TEST(WireTwin, MatchesTheLibraryForState) {
   for (std::size_t axes = 1; axes <= kAxesMax; ++axes) {
-    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 80; ++seed) {
       SCOPED_TRACE(std::to_string(axes) + " axes, seed " + std::to_string(seed));
       RandomStream random{seed};
-      Codec codec(axes, PortSpace::kTip);
-      const StateMessage m = samples::state(random, axes);
+      const bool slave = seed % 2 == 0, copies = seed % 4 < 2 && axes <= 3, exact = seed % 5 == 0 && !copies;
+      const Codec codec(BodyLayout{
+          .axes = axes, .port = PortSpace::kTip, .tool_copies = copies, .environment = slave, .exact = exact});
+      StateMessage m = samples::state(random, axes);
+      m.with_telemetry = seed % 8 < 4;
       Buffer buffer;
       const auto bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), m, buffer));
       const auto s = parsed<pb::State>(bytes);
       expect_written_back(s, bytes);
-      expect_same(s.x(), m.port.x, axes);
-      expect_same(s.v(), m.port.v, axes);
-      expect_same(s.f(), m.port.f, axes);
+      expect_same(s.x(), m.port.x, exact ? 0 : axes);
+      expect_same(s.v(), m.port.v, exact ? 0 : axes);
+      expect_same(s.f(), m.port.f, exact ? 0 : axes);
+      expect_same(s.x_exact(), m.port.x, exact ? axes : 0);
+      expect_same(s.v_exact(), m.port.v, exact ? axes : 0);
+      expect_same(s.f_exact(), m.port.f, exact ? axes : 0);
       expect_same(s.e_in(), m.port.e_in, axes);
-      expect_same(s.q(), m.telemetry.q, axes);
-      expect_same(s.tip_x(), m.telemetry.x, 3);
-      expect_same(s.f_cmd(), m.telemetry.f_cmd, 3);
-      expect_same(s.f_out(), m.telemetry.f_out, 3);
-      expect_same(s.f_env(), m.telemetry.f_env, 3);
-      expect_same(s.e_out(), m.telemetry.e_out, axes);
-      EXPECT_EQ(s.dissipated_j(), static_cast<float>(m.telemetry.dissipated_j));
-      EXPECT_EQ(s.refused_j(), static_cast<float>(m.telemetry.refused_j));
-      EXPECT_EQ(s.delivered_j(), static_cast<float>(m.telemetry.delivered_j));
-      EXPECT_EQ(s.margin_min_j(), static_cast<float>(m.telemetry.margin_min_j));
-      EXPECT_EQ(s.penetration_m(), static_cast<float>(m.telemetry.penetration_m));
-      EXPECT_EQ(s.down_loss_percent(), static_cast<float>(m.telemetry.down_loss_percent));
-      EXPECT_EQ(s.down_longest_gap_ms(), static_cast<float>(m.telemetry.down_longest_gap_ms));
-      EXPECT_EQ(s.down_age_p99_ms(), static_cast<float>(m.telemetry.down_age_p99_ms));
-      EXPECT_EQ(s.gate(), static_cast<std::uint32_t>(m.gate));
-      EXPECT_EQ(s.flags(), (m.ready ? 1U : 0U) + (m.engaged ? 2U : 0U) + (m.stop ? 4U : 0U) + (m.stop_all ? 8U : 0U));
-      EXPECT_EQ(s.gate_trips(), m.gate_trips);
-      EXPECT_EQ(s.late_ticks(), m.late_ticks);
+      EXPECT_EQ(s.flags(), (m.ready ? 1U : 0U) + (m.engaged ? 2U : 0U) + (m.stop ? 4U : 0U) + (m.stop_all ? 8U : 0U) +
+                               16 * static_cast<std::uint32_t>(m.gate) + (m.with_telemetry ? 128U : 0U));
       EXPECT_EQ(s.seat_tick(), m.seat_tick);
       EXPECT_EQ(s.resume_stop(), m.resume_stop);
-      expect_same(s.a(), m.port.a, axes);
+      expect_same(s.a(), m.port.a, copies ? axes : 0);
+      ASSERT_EQ(s.has_telemetry(), m.with_telemetry);
+      if (m.with_telemetry) expect_same(s.telemetry(), m.telemetry, axes, slave);
     }
   }
 }
@@ -92,8 +105,8 @@ TEST(WireTwin, MatchesTheLibraryForForce) {
       Codec codec(axes, PortSpace::kTip);
       ForceMessage m = samples::force(random, axes);
       if (axes <= 3 && seed % 3 > 0) samples::contacts(random, axes, m.contacts);
-      if (seed % 3 == 2) m.slave_pull = samples::slave_pull(random);
-      if (seed % 2 == 1) m.ghost = samples::ghost(random);
+      if (axes <= 3 && seed % 3 == 2) m.slave_pull = samples::slave_pull(random);
+      if (axes <= 3 && seed % 2 == 1) m.ghost = samples::ghost(random);
       Buffer buffer;
       const auto bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), m, buffer));
       const auto f = parsed<pb::Force>(bytes);
@@ -102,7 +115,8 @@ TEST(WireTwin, MatchesTheLibraryForForce) {
       expect_same(f.v(), m.port.v, axes);
       expect_same(f.f(), m.port.f, axes);
       expect_same(f.e_in(), m.port.e_in, axes);
-      EXPECT_EQ(f.session(), static_cast<std::uint32_t>(m.session));
+      EXPECT_EQ(f.session(),
+                static_cast<std::uint32_t>(m.session) + 256 * m.missing + (m.telemetry_every_tick ? 65536U : 0U));
       const TransferParties& p = m.transfer_parties;
       EXPECT_EQ(f.flags(),
                 (m.engage ? 1U : 0U) + 2 * static_cast<unsigned>(m.transfer) + 8 * m.transfer_ticks + 512 * p.by +
@@ -110,7 +124,6 @@ TEST(WireTwin, MatchesTheLibraryForForce) {
                     (m.contacts.size > 0 || m.slave_pull > 0 ? 1U << 29 : 0U) + (m.ghost.leader > 0 ? 1U << 30 : 0U));
       EXPECT_EQ(f.session_tick(), m.session_tick);
       EXPECT_EQ(f.authority_version(), m.authority_version);
-      EXPECT_EQ(f.missing(), m.missing);
       EXPECT_EQ(f.alpha(), m.alpha);
       EXPECT_EQ(f.stops(), m.stops);
       EXPECT_EQ(f.has_surfaces(), m.contacts.size > 0 || m.slave_pull > 0);
@@ -132,6 +145,24 @@ TEST(WireTwin, MatchesTheLibraryForForce) {
         EXPECT_EQ(f.contact(c).mu(), ours.mu);
       }
     }
+  }
+}
+
+TEST(WireTwin, MatchesTheLibraryForExactForce) {
+  for (std::size_t axes = 1; axes <= kAxesMax; ++axes) {
+    RandomStream random{axes};
+    const Codec codec(BodyLayout{.axes = axes, .port = PortSpace::kTip, .tool_copies = false, .exact = true});
+    const ForceMessage m = samples::force(random, axes);
+    Buffer buffer;
+    const auto bytes = std::span<const std::byte>(buffer).first(codec.encode({}, m, buffer));
+    const auto f = parsed<pb::Force>(bytes);
+    expect_written_back(f, bytes);
+    EXPECT_EQ(f.x_size() + f.v_size() + f.f_size(), 0);
+    expect_same(f.x_exact(), m.port.x, axes);
+    expect_same(f.v_exact(), m.port.v, axes);
+    expect_same(f.f_exact(), m.port.f, axes);
+    expect_same(f.e_in(), m.port.e_in, axes);
+    EXPECT_EQ(f.stops(), m.stops);
   }
 }
 
@@ -208,6 +239,19 @@ TEST(WireTwin, MatchesTheLibraryForSmallMessages) {
     bytes = std::span<const std::byte>(buffer).first(codec.encode({}, p, buffer));
     expect_written_back(parsed<pb::Path>(bytes), bytes);
     EXPECT_EQ(parsed<pb::Path>(bytes).token(), p.token);
+
+    const Codec seat(samples::tip(1 + seed % 3));
+    bytes = std::span<const std::byte>(buffer).first(seat.encode({}, LinkProbe{}, buffer));
+    const auto probe = parsed<pb::LinkProbe>(bytes);
+    expect_written_back(probe, bytes);
+    EXPECT_EQ(probe.padding(), std::string(probe.padding().size(), '\0'));
+    const LinkReport r{static_cast<std::uint32_t>(random.bits()), static_cast<std::uint32_t>(random.bits())};
+    bytes = std::span<const std::byte>(buffer).first(seat.encode({}, r, buffer));
+    const auto report = parsed<pb::LinkReport>(bytes);
+    expect_written_back(report, bytes);
+    EXPECT_EQ(report.used(), r.used);
+    EXPECT_EQ(report.late(), r.late);
+    EXPECT_EQ(report.padding(), std::string(report.padding().size(), '\0'));
 
     bytes = std::span<const std::byte>(buffer).first(codec.encode({}, CloseMessage{CloseReason::kServerStops}, buffer));
     expect_written_back(parsed<pb::Close>(bytes), bytes);

@@ -53,8 +53,8 @@ TEST(Roles, LetOnlyInstructorsAndTraineesSendAuthority) {
     EXPECT_EQ(allowed(role, wire::Type::kAuthority), may) << to_text(role);
     for (const auto type : {wire::Type::kState, wire::Type::kClose, wire::Type::kPathResponse})
       EXPECT_TRUE(allowed(role, type));
-    for (const auto type : {wire::Type::kForce, wire::Type::kPathChallenge, wire::Type::kPing,
-                            static_cast<wire::Type>(1), static_cast<wire::Type>(15)})
+    for (const auto type : {wire::Type::kForce, wire::Type::kPathChallenge, wire::Type::kPing, wire::Type::kLinkProbe,
+                            wire::Type::kLinkReport, static_cast<wire::Type>(1), static_cast<wire::Type>(15)})
       EXPECT_FALSE(allowed(role, type)) << "types that go the other way, or nowhere";
   }
 }

@@ -80,7 +80,7 @@ struct Rig {
   Time now{1ms};
   std::unique_ptr<Session> session;
   std::unique_ptr<transport::SecureChannel> link;
-  wire::Codec codec{3, PortSpace::kTip};
+  wire::Codec codec{body_layout(seat_setup(scene, number))};
   wire::StateMessage state;
   wire::ForceMessage force;
   bool hears = true;

@@ -121,16 +121,16 @@ TEST(PathBytesOfLinkTestPeers, AreBoundedTheSameWay) {
   SessionFixture rig("one_axis");
   const auto joined = netsim::simulate_link_test_join(*rig.session, rig.now, RandomKey{9}, 1);
   ASSERT_TRUE(joined);
-  ForgingClient liar(joined->channel_params, rig.scene.dof, rig.scene.port);
+  ForgingClient liar(joined->channel_params, body_layout(joined->setup));
   Traffic to, from;
   RandomStream luck{12};
   std::uint64_t counter = 0;
   for (int ms = 0; ms < 500; ++ms) {
     const wire::Preamble preamble{~std::uint64_t{0}, 0, static_cast<std::uint32_t>(ms)};
     if (ms % 100 == 0) {  // rarely: each costs the insider as many bytes as it causes
-      const Bytes state = liar.say(counter++, wire::Type::kState, preamble, wire::StateMessage{});
-      from.add(state);
-      rig.session->on_datagram(rig.now, address(kVictim), state);
+      const Bytes probe = liar.say(counter++, wire::Type::kLinkProbe, preamble, wire::LinkProbe{});
+      from.add(probe);
+      rig.session->on_datagram(rig.now, address(kVictim), probe);
     }
     const Bytes answer = liar.say(counter++, wire::Type::kPathResponse, preamble, wire::PathMessage{luck.bits()});
     rig.session->on_datagram(rig.now, address(kVictim), answer);

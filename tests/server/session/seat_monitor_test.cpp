@@ -57,7 +57,7 @@ struct MonitoredSeat : test::SessionParts {
   std::size_t number;
   Time now{1h};
   PathTokens tokens;
-  wire::Codec codec{scene.dof, scene.port};
+  wire::Codec codec{body_layout(seat_setup(scene, number))};
   wire::StateMessage state;
   std::optional<transport::SecureChannel> client;
   SeatMonitor monitor;

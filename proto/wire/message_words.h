@@ -7,12 +7,48 @@
 #include <cstring>
 #include <span>
 
-#include "proto/wire/wire_codec.h"
+#include "proto/wire/body_layout.h"
 #include "proto/wire/wire_messages.h"
 
-/// Private to proto/wire/wire_codec.cpp: the words of FORCE that combine several small values. wire.proto defines their
-/// bits.
+/// Private to proto/wire/wire_codec.cpp: the words of STATE and FORCE that combine several small values. wire.proto
+/// defines their bits.
 namespace tandem::wire {
+
+/// Bit positions of the parts of STATE's flags (wire.proto).
+inline constexpr std::uint32_t kGateAt = 4, kTelemetryFollows = 1U << 7, kStateFlagsMax = 0xff;
+static_assert(static_cast<std::uint32_t>(GateState::kFault) < 1U << 3);
+inline std::uint32_t state_flags(const StateMessage& m) noexcept {
+  return (m.ready ? 1U : 0U) | (m.engaged ? 2U : 0U) | (m.stop ? 4U : 0U) | (m.stop_all ? 8U : 0U) |
+         static_cast<std::uint32_t>(m.gate) << kGateAt | (m.with_telemetry ? kTelemetryFollows : 0U);
+}
+/// @return whether the gate's state exists. `with_telemetry` is left as it is.
+inline bool read_state_flags(std::uint32_t flags, StateMessage& out) noexcept {
+  const std::uint32_t gate = flags >> kGateAt & 7U;
+  out.ready = (flags & 1U) != 0;
+  out.engaged = (flags & 2U) != 0;
+  out.stop = (flags & 4U) != 0;
+  out.stop_all = (flags & 8U) != 0;
+  out.gate = static_cast<GateState>(gate);
+  return gate <= static_cast<std::uint32_t>(GateState::kFault) && (flags & ~kStateFlagsMax) == 0 &&
+         ((flags & kTelemetryFollows) != 0) == out.with_telemetry;
+}
+
+/// Layout of FORCE's session word (wire.proto).
+inline constexpr std::uint32_t kMissingAt = 8, kTelemetryEveryTick = 1U << 16, kSessionWordMax = (1U << 17) - 1;
+static_assert(kSeatsMax < 1U << 8);
+inline std::uint32_t session_word(const ForceMessage& m) noexcept {
+  return static_cast<std::uint32_t>(m.session) | m.missing << kMissingAt |
+         (m.telemetry_every_tick ? kTelemetryEveryTick : 0U);
+}
+/// @return whether all parts are in range
+inline bool read_session_word(std::uint32_t word, ForceMessage& out) noexcept {
+  const std::uint32_t state = word & 0xffU;
+  out.session = static_cast<SessionState>(state);
+  out.missing = word >> kMissingAt & 0xffU;
+  out.telemetry_every_tick = (word & kTelemetryEveryTick) != 0;
+  return state <= static_cast<std::uint32_t>(SessionState::kOverloaded) && out.missing <= kSeatsMax &&
+         word <= kSessionWordMax;
+}
 
 /// Bit positions of the parts of FORCE's flags (wire.proto).
 inline constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kFlagsEnd = 29,
@@ -44,8 +80,9 @@ inline bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
 }
 
 /// The flags word of an encoded FORCE, read at its fixed offset. @pre in has the size of the smallest FORCE
-inline std::uint32_t flags_of_force(std::span<const std::byte> in, std::size_t axes) noexcept {
-  const std::size_t at = kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(1, 1, 4) + 1;
+inline std::uint32_t flags_of_force(std::span<const std::byte> in, std::size_t axes, bool exact) noexcept {
+  const std::size_t at =
+      kPreambleSize + (exact ? 0 : 3 * detail::packed(axes, 4)) + detail::packed(axes, 8) + detail::scalar(1, 1, 4) + 1;
   std::uint32_t flags = 0;
   std::memcpy(&flags, in.data() + at, sizeof flags);
   return flags;

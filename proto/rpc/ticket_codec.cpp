@@ -1,0 +1,82 @@
+#include "proto/rpc/ticket_codec.h"
+
+#include <algorithm>
+
+#include "common/base/raw_bytes.h"
+#include "proto/rpc/rpc_bounds.h"
+#include "proto/schema/ticket.pb.h"
+
+namespace tandem::rpc {
+namespace {
+
+/// The library writes the fields of these messages in the order of their numbers: they have no map and no extension.
+template <class Message>
+std::vector<std::byte> serialized(const Message& message) {
+  std::vector<std::byte> out(message.ByteSizeLong());
+  message.SerializeToArray(out.data(), static_cast<int>(out.size()));
+  return out;
+}
+
+template <class Message>
+bool parse(std::span<const std::byte> bytes, Message& out) {
+  return bytes.size() <= kSignedTicketMax && out.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()));
+}
+
+/// Rejects encodings that differ from the only one: unknown, repeated or reordered fields and long numbers.
+template <class Value>
+std::optional<Value> if_canonical(Value value, std::span<const std::byte> bytes) {
+  return std::ranges::equal(encode(value), bytes) ? std::optional{std::move(value)} : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode(const TicketContent& content) {
+  pb::Ticket out;
+  out.set_role(content.role);
+  out.set_force_scale(content.force_scale);
+  out.set_ticket_id(text_of(content.ticket_id));
+  out.set_session_id(text_of(content.session_id));
+  out.set_workstation(text_of(content.workstation));
+  out.set_seat(content.seat);
+  out.set_not_before(content.not_before);
+  out.set_not_after(content.not_after);
+  out.set_epoch_min(content.epoch_min);
+  return serialized(out);
+}
+
+std::vector<std::byte> encode(const SignedTicket& ticket) {
+  pb::SignedTicket out;
+  out.set_version(ticket.version);
+  out.set_kid(ticket.kid);
+  out.set_ticket(text_of(ticket.content));
+  out.set_signature(text_of(ticket.signature));
+  return serialized(out);
+}
+
+std::optional<TicketContent> decode_ticket_content(std::span<const std::byte> bytes) {
+  pb::Ticket in;
+  TicketContent out;
+  const bool good = parse(bytes, in) && take(in.ticket_id(), out.ticket_id) && take(in.session_id(), out.session_id) &&
+                    take(in.workstation(), out.workstation);
+  if (!good) return std::nullopt;
+  out.role = in.role();
+  out.force_scale = in.force_scale();
+  out.seat = in.seat();
+  out.not_before = in.not_before();
+  out.not_after = in.not_after();
+  out.epoch_min = in.epoch_min();
+  return if_canonical(std::move(out), bytes);
+}
+
+std::optional<SignedTicket> decode_signed_ticket(std::span<const std::byte> bytes) {
+  pb::SignedTicket in;
+  SignedTicket out;
+  if (!parse(bytes, in) || !take(in.signature(), out.signature)) return std::nullopt;
+  out.version = in.version();
+  out.kid = in.kid();
+  const auto content = bytes_of(in.ticket());
+  out.content.assign(content.begin(), content.end());
+  return if_canonical(std::move(out), bytes);
+}
+
+}  // namespace tandem::rpc
