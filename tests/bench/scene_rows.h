@@ -26,7 +26,7 @@ inline constexpr std::array<Row, 7> kRows{
      {"three_axes", "3 axes, free, 1 seat", 3, 1, ""},
      {"two_seats", "3 axes, free, 2 seats", 3, 2, ""},
      {"contact", "3 axes, contact, 2 seats", 3, 2, kWall},
-     {"arm", "3 axes, contact, 2 seats, slave an arm", 3, 2, "model: TOUCH"},
+     {"arm", "3 axes, contact, 2 seats, slave an arm", 3, 2, "model: TOUCH gravity: false friction_n: 0"},
      {"gravity", "3 axes, contact, 2 seats, slave an arm with gravity and friction", 3, 2,
       "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"},
      {"eight_seats", "3 axes, contact, 8 seats, slave an arm with gravity and friction", 3, 8,
