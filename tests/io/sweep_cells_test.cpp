@@ -161,6 +161,7 @@ TEST(SweepCells, ListsTheShippedFiles) {
   EXPECT_EQ(ended(list), 0);
   EXPECT_TRUE(list.out().starts_with("comparison")) << list.out();
   EXPECT_NE(list.out().find(" 2000 cells "), std::string::npos) << list.out();
+  EXPECT_NE(list.out().find("\nlaws"), std::string::npos) << list.out();
 }
 
 TEST(SweepCells, ReportsErrorsAndStartsNothing) {

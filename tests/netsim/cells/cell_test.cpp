@@ -86,6 +86,28 @@ TEST(Cells, OfTheShippedComparisonAreTwoThousandDifferentOnes) {
   EXPECT_EQ(couplings.size(), 8u);
 }
 
+// Published figures are of at least 20 seeds; `laws` is where they come from.
+TEST(Cells, OfTheShippedLawsAreCellsOfTheComparisonWithTwentySeeds) {
+  const auto shipped_spec = [](const char* name) {
+    const EmbeddedFile* const shipped = find_shipped_cells(name);
+    if (shipped == nullptr) throw std::runtime_error(name);
+    auto spec = parse_cells_text(shipped->text, name);
+    if (!spec) throw std::runtime_error(to_text(spec.error()));
+    return *spec;
+  };
+  const auto laws = shipped_spec("laws"), comparison = shipped_spec("comparison");
+  EXPECT_GE(laws.seeds, 20u);
+  EXPECT_EQ(laws.scene.value, comparison.scene.value);
+  const auto name_of = [](const Cell& cell) {
+    return law_text(cell) + ", " + condition_text(cell) + ", " + std::to_string(cell.delay_ms);
+  };
+  std::set<std::string> compared;
+  for (const Cell& cell : cells_of(comparison)) compared.insert(name_of(cell));
+  const auto cells = cells_of(laws);
+  EXPECT_EQ(cells.size(), 420u);
+  for (const Cell& cell : cells) EXPECT_TRUE(compared.contains(name_of(cell))) << name_of(cell);
+}
+
 TEST(Cells, HaveAsManyMasterSeatsAsHands) {
   for (const std::uint32_t hands : {2u, 3u, 8u}) {
     Cell cell;
