@@ -118,8 +118,10 @@ class ConsoleClient {
   [[nodiscard]] bool drained() const { return drain_due_ && io::monotonic_now() >= *drain_due_; }
 
   /// True if the server accepted a command, so that the ticket of this console is used up. A status query alone uses
-  /// it up too, unless another command was refused.
-  [[nodiscard]] bool ticket_used() const { return acted_ || (looked_ && !refused_); }
+  /// it up too, unless another command was refused. A recorder uses it up by any query, its only command.
+  [[nodiscard]] bool ticket_used() const {
+    return acted_ || (looked_ && (!refused_ || console_.welcome.role == AccessRole::kRecorder));
+  }
 
   /// Executes a command. @return exit code
   int execute(const ConsoleCommand& command) {
