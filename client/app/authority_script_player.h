@@ -13,7 +13,8 @@
 namespace tandem::client {
 
 /// Decides when the authority changes of a script are requested, on the servo thread. Each is requested ahead of its
-/// time, because the server announces a transfer 50 ticks before it begins. A rejected request is repeated.
+/// time, because the server announces a transfer 50 ticks before it begins. A rejected request is repeated. A script
+/// states the authority over session time: of several due changes only the newest is requested, as after a late join.
 class AuthorityScriptPlayer {
  public:
   /// @param changes  ascending in time  @param tick_hz  rate of the session [Hz]

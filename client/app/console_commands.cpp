@@ -157,7 +157,9 @@ std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::st
 }
 
 const char* console_commands_help() noexcept {
-  return "  status                                    state of the session: phase, stops, seats, authority\n"
+  return "  status                                    state of the session: phase, stops, seats, authority; it uses up "
+         "a "
+         "ticket, as the others do\n"
          "  stop [WHY ...]                            releases all hands until an instructor or operator resumes "
          "(instructor, operator);\n"
          "                                            all participants read WHY\n"
@@ -189,19 +191,25 @@ std::expected<rpc::SetAuthority, std::string> authority_frame(const AuthorityCom
                           .tool = static_cast<std::uint32_t>(tool - status.tools.begin()),
                           .version = wish.version.value_or(status.authority_version),
                           .alpha = {}};
-  std::string masters;
+  std::string drivers;
   std::vector<std::string> unknown;
   for (const auto& [seat, weight] : wish.weights) unknown.push_back(seat);
   for (const rpc::StatusSeat& s : status.seats) {
     if (!s.master) continue;
-    masters += (masters.empty() ? "" : ", ") + s.name;
-    std::erase(unknown, s.name);
     const auto given = std::ranges::find(wish.weights, s.name, &std::pair<std::string, double>::first);
     frame.alpha.push_back(given == wish.weights.end() ? 0.0 : given->second);
+    const bool drives = s.role != AccessRole::kEvaluator && s.role != AccessRole::kObserver;
+    if (drives) drivers += (drivers.empty() ? "" : ", ") + s.name;
+    if (drives || frame.alpha.back() == 0) std::erase(unknown, s.name);
   }
   if (!unknown.empty())
-    return std::unexpected("authority: no seat \"" + unknown.front() + "\" that can have authority; seats: " + masters);
+    return std::unexpected("authority: no seat \"" + unknown.front() + "\" that can have authority; seats: " + drivers);
   return frame;
+}
+
+std::string refusal_hint(const rpc::Body& command, AccessRole own) {
+  if (!std::holds_alternative<rpc::SetAuthority>(command) || own == AccessRole::kInstructor) return {};
+  return ". Use an instructor's console: join with an instructor's ticket, or without a ticket by --role instructor";
 }
 
 std::string weights_text(const rpc::Status& status, std::span<const double> alpha) {

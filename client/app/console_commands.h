@@ -40,6 +40,10 @@ using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::P
 [[nodiscard]] std::expected<rpc::SetAuthority, std::string> authority_frame(const AuthorityCommand& wish,
                                                                             const rpc::Status& status);
 
+/// Returns the next step for the user after the server refused `command`; empty: none is known.
+/// @param own  role of the console
+[[nodiscard]] std::string refusal_hint(const rpc::Body& command, AccessRole own);
+
 /// Returns the authority of all master seats as text, e.g. `trainer 0.5, trainee 0.5`.
 [[nodiscard]] std::string weights_text(const rpc::Status& status, std::span<const double> alpha);
 /// True if the session is paused or stopped.

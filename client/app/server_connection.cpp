@@ -124,7 +124,7 @@ std::string ServerConnection::rejection_text(const rpc::ErrorReply& reply) const
     case ErrorCode::kNoSeat:
       return options_.console ? "refused: " + reply.text : "--seat " + options_.seat + ": " + reply.text;
     case ErrorCode::kSeatTaken:
-      return "--seat " + options_.seat + ": " + reply.text +
+      return (options_.seat.empty() ? "refused: " : "--seat " + options_.seat + ": ") + reply.text +
              "; take another seat, or wait until it is free (2 s after its owner fell silent)";
     case ErrorCode::kDeviceUnfit:
       return "the device does not fit this scene: " + reply.text;

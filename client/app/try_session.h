@@ -8,12 +8,22 @@
 #include "client/app/child_program.h"
 #include "client/app/seat_observer.h"
 #include "client/app/tutorial.h"
+#include "proto/spec/scene_spec.h"
 
 namespace tandem::client {
 
 /// The child processes of a trial, and the tutorial for the user.
 class TrySession final : public SeatObserver {
  public:
+  /// Shortest session of a trial [s]: the tutorial, and time to continue by hand.
+  static constexpr double kSessionMin = Tutorial::kLength + 40;
+
+  /// Returns the session time that the trial asks of its server [s], so that the tutorial is not cut off; nothing: the
+  /// scene's own is long enough, or has no end.
+  [[nodiscard]] static std::optional<double> longer_duration(const SceneSpec& scene) noexcept {
+    return !scene.endless() && scene.duration < kSessionMin ? std::optional(kSessionMin) : std::nullopt;
+  }
+
   /// @param by_keys         the user moves the hand by keys
   /// @param ends_by_itself  a trial without keys ends after the tutorial
   /// @param partners        names of the simulated participants

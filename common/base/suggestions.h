@@ -26,7 +26,8 @@ namespace tandem {
   return d[a.size()][b.size()];
 }
 
-/// Returns the known word nearest to `word`, ignoring case; nullptr if none is near.
+/// Returns the known word nearest to `word`, ignoring case; nullptr if none is near. Where spelling decides nothing, a
+/// word of at least three letters is near to the known words that begin with it; the first of them is returned.
 [[nodiscard]] inline const std::string* nearest_match(std::string_view word, std::span<const std::string> known) {
   const auto lower = [](std::string_view text) {
     std::string out(text);
@@ -45,7 +46,10 @@ namespace tandem {
       nearest = &candidate;
     }
   }
-  return nearest;
+  if (nearest != nullptr || head.size() < 3) return nearest;
+  for (const auto& candidate : known)
+    if (lower(candidate).starts_with(head)) return &candidate;
+  return nullptr;
 }
 
 /// Returns the hint for an unknown word: `did you mean x?` if a known word is near, then all known words.

@@ -310,7 +310,13 @@ int Program::run(const std::vector<std::string>& words) {
   }
 }
 
-OptionCheck one_of(const std::vector<std::string>& names) { return check_of(CLI::IsMember(names, CLI::ignore_case)); }
+OptionCheck one_of(const std::vector<std::string>& names) {
+  const CLI::Validator member = CLI::IsMember(names, CLI::ignore_case);
+  return {[member, names](std::string& text) {
+            return member(text).empty() ? std::string() : "\"" + text + "\" is unknown; " + suggest(text, names);
+          },
+          member.get_description()};
+}
 
 OptionCheck integer_in(int lo, int hi) { return check_of(CLI::Range(lo, hi)); }
 

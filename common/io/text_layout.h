@@ -6,16 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/wrap_words.h"
+
 /// Text layout for terminals of any width: lines end between words, never inside one.
 namespace tandem::io {
 
-/// Returns the columns that UTF-8 text takes on a terminal, one per character.
-[[nodiscard]] std::size_t display_width(std::string_view text) noexcept;
-
-/// Wraps one line of text at spaces. A single word wider than `width` gets a line of its own, uncut.
-/// @param indent  spaces before every line but the first  @param first  columns already used on the first line
-[[nodiscard]] std::vector<std::string> wrap_words(std::string_view text, std::size_t width, std::size_t indent = 0,
-                                                  std::size_t first = 0);
+using tandem::display_width;
+using tandem::wrap_words;
 
 /// One part of a screen, shown whole or not at all.
 struct ScreenItem {

@@ -22,6 +22,14 @@ namespace tandem::setup {
 /// @param setup  as `with_limited_stiffness` returned it
 [[nodiscard]] std::string softened_text(const SeatSetup& setup, const rpc::DeviceFacts& device);
 
+/// Returns the simulated device of seat `seat`, as the server knows it.
+[[nodiscard]] rpc::DeviceFacts simulated_device(const SceneSpec& scene, std::size_t seat);
+
+/// Returns, for `--check`, one line for each seat whose simulated device gets a softer spring than the scene states:
+/// key, granted and stated stiffness [N/m], and the reason. Empty: each seat gets the stiffness of the scene. A real
+/// device declares its properties only at the join, so its stiffness cannot be known here.
+[[nodiscard]] std::string granted_listing(const SceneSpec& scene);
+
 /// Returns the device properties that the server uses. A simulated device described by the scene declares none itself,
 /// because the client does not know the description before joining.
 [[nodiscard]] rpc::DeviceFacts with_declared_properties(rpc::DeviceFacts device,

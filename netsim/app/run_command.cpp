@@ -9,6 +9,7 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "common/setup/device_stiffness.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/law_options.h"
 #include "netsim/app/netsim_commands.h"
@@ -145,7 +146,7 @@ void show_progress(const Simulation& simulation) {
 
 /// Prints all effective values: the scene's, then the network's.
 int check(const RunArguments& arguments, const SimulationConfig& setup, const NetworkChoice& network) {
-  std::string text = effective_scene_text(setup.scene);
+  std::string text = effective_scene_text(setup.scene) + setup::granted_listing(setup.scene);
   if (setup.replay) {
     text += "network of every seat: replay of " + arguments.replay + "\n";
   } else {

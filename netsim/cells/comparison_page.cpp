@@ -22,9 +22,9 @@ std::string words(std::string_view text) { return escaped(text); }
 
 std::string introduction(const ComparisonResult& c, const std::string& version) {
   const std::string file = c.typed;
-  std::string html = "<h1>Comparison " + words(c.spec.name) + "</h1>\n<p class=\"headline\">" + words(c.spec.summary) +
-                     "</p>\n<p>" + std::to_string(c.finished()) + " of " + std::to_string(c.cells.size()) +
-                     " cells, each with " + std::to_string(c.spec.seeds) +
+  std::string html = "<h1>Laws and couplings compared</h1>\n<p class=\"headline\">" + words(c.spec.summary) +
+                     "</p>\n<p>Cells of " + words(c.spec.name) + ": " + std::to_string(c.finished()) + " of " +
+                     std::to_string(c.cells.size()) + " cells, each with " + std::to_string(c.spec.seeds) +
                      " seeds: other hands and other random networks. Tables show the median over the seeds; the worst "
                      "seed is named beside it or appears on pointing at a square. Devices, gate and coupling of the "
                      "devices are those of scene <code>" +
@@ -124,8 +124,8 @@ std::string all_cells(const ComparisonResult& c) {
 std::string comparison_page(const ComparisonResult& c, const std::string& version) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\">\n<title>Tandem: comparison " +
-      words(c.spec.name) + "</title>\n<style>" + std::string(plot::kPlotColours) + std::string(demo::kReportStyle) +
+      "content=\"width=device-width, initial-scale=1\">\n<title>Tandem: laws and couplings compared (" +
+      words(c.spec.name) + ")</title>\n<style>" + std::string(plot::kPlotColours) + std::string(demo::kReportStyle) +
       std::string(plot::kPlotRules) + std::string(kPageStyle) + heat_style() + "</style>\n</head>\n<body>\n<header>\n" +
       introduction(c, version) + "</header>\n<main>\n" + figures(c) + definitions() + default_section(c);
   for (std::size_t g = 0; g < c.spec.grids.size(); ++g)

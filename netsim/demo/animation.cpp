@@ -58,14 +58,13 @@ std::string animation_html(std::span<const RunResult> runs) {
   }
   if (data.empty()) return "";
   return "<h2 id=\"motion\">Watch it</h2>\n<p class=\"soft\">Circles are the tips of the hands, the square is the "
-         "slave. "
-         "Lines are the last two seconds. Drag the slider, or press Play.</p>\n"
+         "tool. Lines are the last two seconds. Drag the slider, or press Play.</p>\n"
          "<noscript><p>This animation needs the script in this page. Everything else is drawn without "
          "it.</p></noscript>\n"
          "<div class=\"player\"><p><label>Run <select id=\"player-run\">" +
          options +
          "</select></label> <button id=\"player-play\" type=\"button\">Play</button></p>\n"
-         "<canvas id=\"player-view\" role=\"img\" aria-label=\"Tips of both hands and of the slave, from the front and "
+         "<canvas id=\"player-view\" role=\"img\" aria-label=\"Tips of both hands and of the tool, from the front and "
          "from above\"></canvas>\n"
          "<input id=\"player-time\" type=\"range\" min=\"0\" value=\"0\" aria-label=\"session time\">\n"
          "<p id=\"player-text\" class=\"soft\"></p></div>\n<script>\nconst kRate = " +

@@ -82,7 +82,7 @@ inline constexpr std::string_view kAnimationScript = R"js((() => {
     views.forEach((view, n) => draw_view(view, stacked ? 0 : n * (side + 12), stacked ? n * (height + 12) : 0, side, height));
     const apart = at => Math.hypot(...[0, 1, 2].map(a => value(k, at + a) - value(k, 6 + a))) / 10;
     text.textContent = 't = ' + (k / kRate).toFixed(2) + ' s. Authority: trainer ' + (value(k, 11) / 100).toFixed(2) +
-      ', trainee ' + (1 - value(k, 11) / 100).toFixed(2) + '. To the slave: trainer ' + apart(0).toFixed(1) + ' mm, trainee ' +
+      ', trainee ' + (1 - value(k, 11) / 100).toFixed(2) + '. To the tool: trainer ' + apart(0).toFixed(1) + ' mm, trainee ' +
       apart(3).toFixed(1) + ' mm. Force: trainer ' + (value(k, 9) / 100).toFixed(2) + ' N, trainee ' +
       (value(k, 10) / 100).toFixed(2) + ' N.';
     slider.setAttribute('aria-valuetext', (k / kRate).toFixed(1) + ' s');

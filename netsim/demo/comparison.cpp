@@ -103,14 +103,14 @@ Limit delayed_limit(const Builder& b, const std::string& phase, bool trainer) {
 }
 
 void motion_phase(Builder& b, const std::string& phase, bool trainer_leads, bool paper) {
-  b.row({.label = "leader–slave position RMS",
+  b.row({.label = "leader–tool position RMS",
          .unit = "mm",
          .paper = paper ? 8.2 : kUnknown,
          .limits = {at_most(16.4), at_most(2), delayed_limit(b, phase, trainer_leads)},
          .notes = {notes::kDistance, notes::kDelayed},
          .lacks = notes::kLacksArms},
         of_seat(phase, trainer_leads, &SeatNumbers::tracking_m, kMilli));
-  b.row({.label = "follower–slave position RMS",
+  b.row({.label = "follower–tool position RMS",
          .unit = "mm",
          .paper = paper ? 6.0 : kUnknown,
          .limits = {at_most(12), at_most(2), kNothing},
@@ -137,9 +137,9 @@ void free_motion(Comparison& out, const Runs& runs) {
   b.section("FREE MOTION, evaluation (α = 0, 12–18 s): the trainee leads");
   motion_phase(b, "evaluation", false, false);
   b.section("FREE MOTION, whole run");
-  b.row({.label = "trainer–slave position RMS", .unit = "mm"}, of_seat("", true, &SeatNumbers::tracking_m, kMilli));
-  b.row({.label = "trainee–slave position RMS", .unit = "mm"}, of_seat("", false, &SeatNumbers::tracking_m, kMilli));
-  b.row({.label = "trainer–slave, constant lag taken out", .unit = "mm"},
+  b.row({.label = "trainer–tool position RMS", .unit = "mm"}, of_seat("", true, &SeatNumbers::tracking_m, kMilli));
+  b.row({.label = "trainee–tool position RMS", .unit = "mm"}, of_seat("", false, &SeatNumbers::tracking_m, kMilli));
+  b.row({.label = "trainer–tool, constant lag taken out", .unit = "mm"},
         of_seat("", true, &SeatNumbers::lag_removed_m, kMilli));
   b.row({.label = "largest force step as α moves",
          .unit = "N/ms",
@@ -232,9 +232,9 @@ void contact(Comparison& out, const Runs& runs) {
     const Reading commanded = of_seat(phase, trainer, &SeatNumbers::force_error_commanded_n, 1);
     return [=](const RunResult& run) { return (run.plan->setting == Setting::kSeed ? commanded : delivered)(run); };
   };
-  b.row({.label = "trainer–slave, demonstration", .unit = "mm", .notes = {notes::kApart}},
+  b.row({.label = "trainer–tool, demonstration", .unit = "mm", .notes = {notes::kApart}},
         of_seat("demonstration", true, &SeatNumbers::tracking_m, kMilli));
-  b.row({.label = "trainee–slave, demonstration", .unit = "mm"},
+  b.row({.label = "trainee–tool, demonstration", .unit = "mm"},
         of_seat("demonstration", false, &SeatNumbers::tracking_m, kMilli));
   for (const PhaseNumbers& phase : judged_phases(runs)) {
     b.row({.label = "leader force error, " + phase.name,
@@ -251,7 +251,7 @@ void contact(Comparison& out, const Runs& runs) {
            .limits = {kNothing, at_most(0.05), kNothing}},
           error_of(phase.name, false));
   }
-  b.row({.label = "force of the block on the slave", .unit = "N"}, of_report(&ReportNumbers::contact_force_n));
+  b.row({.label = "force of the block on the tool", .unit = "N"}, of_report(&ReportNumbers::contact_force_n));
 }
 
 /// Adds rows about the network and the machine; they are not judged.

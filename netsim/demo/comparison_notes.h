@@ -5,7 +5,8 @@
 namespace tandem::netsim::demo::notes {
 
 inline constexpr const char* kDistance =
-    "RMS of |hand tip − slave tip| in space. Not counted: the pushes a and b (1.5 s each) and the first second.";
+    "RMS of |hand tip − tip of the tool| in space; the tool is the paper’s slave. Not counted: the pushes a and b (1.5 "
+    "s each) and the first second.";
 inline constexpr const char* kDelayed =
     "On the bad network the limit is 1.25 × (our RMS without delay + the transport lag of that motion): as asked at 20 "
     "ms one way, here with jitter and loss on top.";
@@ -15,14 +16,14 @@ inline constexpr const char* kJoints =
 inline constexpr const char* kAlphaStep =
     "The paper: “a small sudden change”, “hardly perceived”. Commanded force on either hand, 1 ms apart.";
 inline constexpr const char* kStiffness =
-    "Δforce/Δx of the leader, from the trace: least squares of the commanded force along x over x(leader) − x(slave), "
+    "Δforce/Δx of the leader, from the trace: least squares of the commanded force along x over x(leader) − x(tool), "
     "less the dampers’ share (a term with the speed), while the leader presses up to 15 mm deep.";
 inline constexpr const char* kHeld =
     "The paper’s own division, 10 N / 4 cm. With joint springs and without gravity compensation the arms sag and leave "
     "the working pose while they press, which softens what is felt along x.";
 inline constexpr const char* kAlongX =
     "Along x as in the paper; leader 5–20 s, follower from 13 s. Seed: commanded force, since no Touch gives 10 N; "
-    "defaults: force delivered at the hand against the force of the block on the slave, while both hold still; "
+    "defaults: force delivered at the hand against the force of the block on the tool, while both hold still; "
     "while the leader moves into the block the two differ by up to 0.02 N.";
 inline constexpr const char* kAligned =
     "From 13 s. The trainee’s simulated hand follows the scene, not a plot as a person would: this "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "netsim/demo/experiment_times.h"
 #include "netsim/demo/plot_axes.h"
@@ -28,10 +29,11 @@ Curve over_time(const TraceData& d, const std::string& label, const std::string&
   return curve(label, ink, d.t, y, 1, scale, false);
 }
 
-/// Returns the curves of slave and hands. The slave is first, because its broad, pale line must lie below the others.
-std::vector<Curve> three(const TraceData& d, const Column& tool, const Column& trainer, const Column& trainee,
-                         double tool_scale, double hand_scale) {
-  return {over_time(d, "slave", "slave", tool, tool_scale), over_time(d, "trainer", "trainer", trainer, hand_scale),
+/// Returns the curves of the tool, or of the slave device that carries it, and of the hands. The tool is first, because
+/// its broad, pale line must lie below the others.
+std::vector<Curve> three(const TraceData& d, const char* label, const Column& tool, const Column& trainer,
+                         const Column& trainee, double tool_scale, double hand_scale) {
+  return {over_time(d, label, "slave", tool, tool_scale), over_time(d, "trainer", "trainer", trainer, hand_scale),
           over_time(d, "trainee", "trainee", trainee, hand_scale)};
 }
 
@@ -51,9 +53,10 @@ constexpr std::array<Plane, 3> kPlanes{{{0, 2, "seen from the front", "x, right 
 
 Panel path_panel(const TraceData& d, const Plane& plane) {
   Panel p{.title = plane.title, .x_label = plane.x_label, .y_label = plane.y_label, .equal_scale = true, .height = 280};
-  for (const auto& [label, x] :
-       {std::pair{"slave", &d.tool.x}, std::pair{"trainer", &d.trainer.x}, std::pair{"trainee", &d.trainee.x}})
-    p.curves.push_back(curve(label, label, (*x)[plane.across], (*x)[plane.up], kMilli, kMilli, true));
+  for (const auto& [label, ink, x] :
+       {std::tuple{"tool", "slave", &d.tool.x}, std::tuple{"trainer", "trainer", &d.trainer.x},
+        std::tuple{"trainee", "trainee", &d.trainee.x}})
+    p.curves.push_back(curve(label, ink, (*x)[plane.across], (*x)[plane.up], kMilli, kMilli, true));
   return p;
 }
 
@@ -66,9 +69,9 @@ CaptionedFigure figure_6(const TraceData& d) {
   CaptionedFigure f{
       "fig6",
       "Figure 6: path in free motion",
-      "Tips of both hands and of the slave in space. In a the trainee pulls away while following, in b the trainer; "
+      "Tips of both hands and of the tool in space. In a the trainee pulls away while following, in b the trainer; "
       "their devices lead them back.",
-      {"Path of trainer, trainee and slave in three projections", 3, {}}};
+      {"Path of trainer, trainee and tool in three projections", 3, {}}};
   for (const Plane& plane : kPlanes) f.figure.panels.push_back(path_panel(d, plane));
   f.figure.panels[0].notes = {
       note_at(d, kPlanes[0], d.tool.x, 0, "start"), note_at(d, kPlanes[0], d.trainee.x, 7.75, "a"),
@@ -85,7 +88,7 @@ CaptionedFigure figure_7(const TraceData& d, double duration) {
   for (std::size_t j = 0; j < 3; ++j) {
     Panel p{.x_label = j == 2 ? kTimeAxis : "",
             .y_label = "θ" + std::to_string(j + 1) + " [rad]",
-            .curves = three(d, d.tool.q[j], d.trainer.q[j], d.trainee.q[j], 1, 1)};
+            .curves = three(d, "slave", d.tool.q[j], d.trainer.q[j], d.trainee.q[j], 1, 1)};
     mark_times(p, Task::kFreeMotion, duration, j == 0 ? kNamed : kUnnamed);
     f.figure.panels.push_back(std::move(p));
   }
@@ -103,7 +106,7 @@ CaptionedFigure figure_8(const TraceData& d, double duration) {
       {"Torques of the three joints of trainer, trainee and slave, and alpha, over time", 1, {}}};
   for (std::size_t j = 0; j < 3; ++j) {
     Panel p{.y_label = "T" + std::to_string(j + 1) + " [N m]",
-            .curves = three(d, d.tool.torque[j], d.trainer.torque[j], d.trainee.torque[j], -1, 1),
+            .curves = three(d, "slave", d.tool.torque[j], d.trainer.torque[j], d.trainee.torque[j], -1, 1),
             .y_span_min = 0.02};
     mark_times(p, Task::kFreeMotion, duration, j == 0 ? kNamed : kUnnamed);
     f.figure.panels.push_back(std::move(p));
@@ -140,8 +143,8 @@ CaptionedFigure energy(const RunPlan& plan, const TraceData& d, const std::strin
 CaptionedFigure figure_10(const TraceData& d) {
   CaptionedFigure f{"fig10",
                     "Figure 10: path in contact",
-                    "The slave stops at the block (x = 0); the hands go on into it, by force / stiffness.",
-                    {"Path of trainer, trainee and slave at the wall, in two projections", 2, {}}};
+                    "The tool stops at the block (x = 0); the hands go on into it, by force / stiffness.",
+                    {"Path of trainer, trainee and tool at the wall, in two projections", 2, {}}};
   for (const Plane& plane : {kPlanes[0], kPlanes[1]}) {
     Panel p = path_panel(d, plane);
     p.verticals = {{0, "wall"}};
@@ -156,19 +159,19 @@ CaptionedFigure figure_11(const TraceData& d, double duration) {
   CaptionedFigure f{"fig11",
                     "Figure 11: position and force along x in contact",
                     "Forces are those that press towards the block: commanded to each device, and delivered (of the "
-                    "slave: the load of the block). A Touch delivers 3.3 N at most.",
+                    "tool: the load of the block). A Touch delivers 3.3 N at most.",
                     {"Position along x, commanded and delivered force along x, over time", 1, {}}};
   Panel x{.y_label = "x [mm]",
-          .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMilli, kMilli),
+          .curves = three(d, "tool", d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMilli, kMilli),
           .height = 170};
   x.horizontals = {{0, "wall"}};
   mark_times(x, Task::kContact, duration, kNamed);
   Panel cmd{.y_label = "commanded [N]",
-            .curves = three(d, d.tool.f_cmd[0], d.trainer.f_cmd[0], d.trainee.f_cmd[0], 1, -1)};
+            .curves = three(d, "tool", d.tool.f_cmd[0], d.trainer.f_cmd[0], d.trainee.f_cmd[0], 1, -1)};
   mark_times(cmd, Task::kContact, duration, kUnnamed);
   Panel out{.x_label = kTimeAxis,
             .y_label = "delivered [N]",
-            .curves = three(d, d.tool.f_env[0], d.trainer.f_out[0], d.trainee.f_out[0], -1, -1)};
+            .curves = three(d, "tool", d.tool.f_env[0], d.trainer.f_out[0], d.trainee.f_out[0], -1, -1)};
   mark_times(out, Task::kContact, duration, kUnnamed);
   f.figure.panels = {std::move(x), std::move(cmd), std::move(out)};
   return f;

@@ -44,8 +44,34 @@ std::string_view name_of(Setting setting) noexcept {
   return kNames[static_cast<std::size_t>(setting)];
 }
 
+Disturbance disturbance_of(std::span<const RunResult> runs) {
+  constexpr double kTickHz = 1000, kLoops = 3;  // the loops of the server and of two clients
+  const auto known = [](double value) { return std::isfinite(value) ? value : 0; };
+  Disturbance all;
+  for (const RunResult& run : runs) {
+    all.gate_trips += known(run.report.gate_trips);
+    all.late_ticks += known(run.report.late_ticks);
+    all.ticks += kLoops * kTickHz * known(run.report.duration_s);
+  }
+  return all;
+}
+
+std::string disturbance_text(const Disturbance& disturbance) {
+  if (!disturbance.found()) return {};
+  const auto count = [](double n, const std::string& one) {
+    return plot::number_text(n, 0) + " " + one + (n == 1 ? "" : "s");
+  };
+  std::string text =
+      "DISTURBED: " + count(disturbance.gate_trips, "gate trip") + ", " + count(disturbance.late_ticks, "late tick");
+  if (disturbance.ticks > 0) text += " of " + plot::number_text(disturbance.ticks, 0);
+  return text +
+         ". The machine was too busy, so the numbers judge the machine rather than Tandem. Repeat the demo on an idle "
+         "machine, or use --quick, whose virtual time has no late ticks.";
+}
+
 Headline headline_of(std::span<const RunResult> runs, const Comparison& comparison) {
-  Headline headline;
+  const Disturbance disturbance = disturbance_of(runs);
+  Headline headline{.sentence = {}, .disturbed = disturbance_text(disturbance), .missed = {}, .numbers = {}};
   std::size_t asked = 0;
   for (const Section& section : comparison.sections)
     for (const Row& row : section.rows)
@@ -63,13 +89,15 @@ Headline headline_of(std::span<const RunResult> runs, const Comparison& comparis
   if (asked == 0) {
     headline.sentence += "Nothing was asked of these runs.";
   } else if (headline.missed.empty()) {
-    headline.sentence += "All " + std::to_string(asked) + " limits were kept.";
+    headline.sentence += disturbance.found()
+                             ? "The runs were disturbed: the " + std::to_string(asked) + " kept limits prove little."
+                             : "All " + std::to_string(asked) + " limits were kept.";
   } else {
     headline.sentence += std::to_string(headline.missed.size()) + " of " + std::to_string(asked) + " limits " +
                          (headline.missed.size() == 1 ? "was" : "were") + " missed.";
   }
   add(headline.numbers, runs, Task::kFreeMotion, tracking_mm, kPaperTracking, "mm",
-      "between the leader’s hand and the slave in free motion (RMS)");
+      "between the leader’s hand and the tool in free motion (RMS)");
   add(headline.numbers, runs, Task::kContact, force_error_n, kPaperForce, "N",
       "between the force at the wall and the force the leader feels (RMS)");
   return headline;

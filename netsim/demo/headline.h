@@ -16,8 +16,28 @@ struct KeyNumber {
   std::string what;    ///< description of the value
   std::string beside;  ///< "paper 8.2 mm; bad network 5.4 mm"
 };
+/// Disturbances of all runs by a busy machine.
+struct Disturbance {
+  /// Late ticks beyond this share of all ticks of server and clients count as a disturbance: more than 6 of the 342 000
+  /// ticks of all six runs. Two cores at load 8 had 11 of them, and missed two limits that --quick keeps.
+  static constexpr double kLateShareMax = 2e-5;
+
+  double gate_trips = 0;  ///< of both hands in all runs
+  double late_ticks = 0;  ///< more than 1 ms late, of server and clients in all runs; 0 in virtual time
+  double ticks = 0;       ///< of server and clients in all runs
+
+  /// Whether gates released a hand, or more ticks were late than on an idle machine.
+  [[nodiscard]] bool found() const noexcept { return gate_trips > 0 || late_ticks > kLateShareMax * ticks; }
+};
+/// Returns the disturbances of `runs`; unknown numbers count as 0.
+[[nodiscard]] Disturbance disturbance_of(std::span<const RunResult> runs);
+
+/// Returns the warning about disturbed runs with their numbers and the remedy; empty if they were not disturbed.
+[[nodiscard]] std::string disturbance_text(const Disturbance& disturbance);
+
 struct Headline {
   std::string sentence;
+  std::string disturbed;            ///< `disturbance_text` of the runs; empty: undisturbed
   std::vector<std::string> missed;  ///< each missed limit: row, setting, value, limit
   std::vector<KeyNumber> numbers;   ///< of the runs in this report
 };

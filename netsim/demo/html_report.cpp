@@ -46,7 +46,7 @@ std::string facts_html(const RunResult& run, const std::string& note) {
   link("lost, up / down",
        [](const LinkNumbers& l) { return pair_text(l.loss_up_percent, l.loss_down_percent, 2, " %"); });
   link("longest gap, up / down", [](const LinkNumbers& l) { return pair_text(l.gap_up_ms, l.gap_down_ms, 1, " ms"); });
-  row("distance to the slave, RMS, whole run", number_text(1e3 * r.trainer.tracking_m, 2) + " mm",
+  row("distance to the tool, RMS, whole run", number_text(1e3 * r.trainer.tracking_m, 2) + " mm",
       number_text(1e3 * r.trainee.tracking_m, 2) + " mm");
   std::string html =
       "<div class=\"scroll\"><table class=\"facts\">\n" + rows +
@@ -63,6 +63,7 @@ std::string facts_html(const RunResult& run, const std::string& note) {
 
 std::string first_screen(const Headline& headline, const RunInfo& where) {
   std::string html = tag("p", escaped(headline.sentence), "class=\"headline\"") + "\n";
+  if (!headline.disturbed.empty()) html += tag("p", escaped(headline.disturbed), "class=\"missed\"") + "\n";
   if (!headline.missed.empty()) {
     html += "<ul class=\"missed\">";
     for (const std::string& limit : headline.missed) html += tag("li", escaped(limit));
@@ -88,7 +89,7 @@ std::string introduction(const RunInfo& where) {
       where.real_time
           ? "<p class=\"soft\">In real time: a server, two clients and the network simulator ran as processes on "
             "this machine and exchanged UDP datagrams. Hands are drawn from the traces of their workstations, the "
-            "slave from the trace of the server. Table and figures compare the same moments. The clock of the "
+            "tool from the trace of the server. Table and figures compare the same moments. The clock of the "
             "network’s delays is aligned with the session to about 0.1 s."
           : "<p class=\"soft\">In virtual time (<code>--quick</code>): the same server, client and network cores "
             "ran in one process without sockets and clocks, one round per millisecond. The same seed gives the same "

@@ -29,17 +29,17 @@ struct Subject {
 };
 
 constexpr std::array<Subject, 3> kFreeMotion{{
-    {"trainer to slave: distance of the tips", "distance [mm]",
+    {"trainer to tool: distance of the tips", "distance [mm]",
      [](const TraceData& d, std::size_t k) { return distance(d.trainer.x, d.tool.x, k); }, 8.2,
      "RMS in the paper, leader"},
-    {"trainee to slave: distance of the tips", "distance [mm]",
+    {"trainee to tool: distance of the tips", "distance [mm]",
      [](const TraceData& d, std::size_t k) { return distance(d.trainee.x, d.tool.x, k); }, 6.0,
      "RMS in the paper, follower"},
     {"force on the trainer’s hand", "force [N]",
      [](const TraceData& d, std::size_t k) { return norm(d.trainer.f_out, k); }},
 }};
 constexpr std::array<Subject, 3> kContact{{
-    {"position of the slave along x", "x [mm]",
+    {"position of the tool along x", "x [mm]",
      [](const TraceData& d, std::size_t k) { return kMilli * d.tool.x[0][k]; }, 0, "wall"},
     {"position of the trainer’s hand along x", "x [mm]",
      [](const TraceData& d, std::size_t k) { return kMilli * d.trainer.x[0][k]; }, 0, "wall"},
@@ -81,10 +81,10 @@ CaptionedFigure overlay_of(Task task, std::span<const RunResult> runs) {
       free_motion ? "free" : "contact",
       free_motion ? "Free motion: the three settings over each other" : "Contact: the three settings over each other",
       free_motion ? "Same gesture, same hands: the paper’s gains without a network, Tandem’s defaults "
-                    "without one, and the defaults on the bad network. The path is that of the slave, "
+                    "without one, and the defaults on the bad network. The path is that of the tool, "
                     "seen from the front. Delays are those "
                     "of the trainer’s datagrams; red marks are lost ones."
-                  : "The slave stops at the block (x = 0). The hands go on into it by force / stiffness. "
+                  : "The tool stops at the block (x = 0). The hands go on into it by force / stiffness. "
                     "A Touch delivers 3.3 N at most. Delays are those of the trainer’s datagrams; red "
                     "marks are lost ones.",
       {"Curves of the paper's gains, Tandem's defaults and the bad network over each other", 1, {}}};
@@ -108,7 +108,7 @@ CaptionedFigure overlay_of(Task task, std::span<const RunResult> runs) {
   if (network != nullptr)
     for (const std::size_t way : {0u, 1u}) f.figure.panels.push_back(network_panel(*network, way, task, duration));
   if (free_motion) {
-    Panel path{.title = "path of the slave, seen from the front",
+    Panel path{.title = "path of the tool, seen from the front",
                .x_label = "x, right [mm]",
                .y_label = "z, up [mm]",
                .equal_scale = true,

@@ -24,7 +24,7 @@ std::string setup_picture(bool real_time) {
                                  plot::number_text(kBadLossPercent, 0) + " % lost each way";
   return "<svg class=\"figure setup\" viewBox=\"0 0 390 330\" role=\"img\" "
          "xmlns=\"http://www.w3.org/2000/svg\"><title>A "
-         "trainer and a trainee, each with a haptic device, are coupled through a network and a server to one slave "
+         "trainer and a trainee, each with a haptic device, are coupled through a network and a server to one tool "
          "that "
          "touches a wall</title>" +
          workstation(95, "trainer", "trainer") + workstation(295, "trainee", "trainee") +
@@ -37,7 +37,7 @@ std::string setup_picture(bool real_time) {
          "title\" "
          "x=\"195\" y=\"220\">server: shares authority α, sends forces back</text>"
          "<path class=\"line slave\" d=\"M70 296V262L130 244L200 268\"/><rect class=\"tip slave\" x=\"192\" y=\"260\" "
-         "width=\"16\" height=\"16\"/><text class=\"mid\" x=\"120\" y=\"314\">slave: the tool both hands hold</text>"
+         "width=\"16\" height=\"16\"/><text class=\"mid\" x=\"120\" y=\"314\">the tool that both hands hold</text>"
          "<rect class=\"wall\" x=\"290\" y=\"232\" width=\"76\" height=\"84\"/><text class=\"mid\" x=\"328\" "
          "y=\"278\">wall</text><text class=\"tick end\" x=\"284\" y=\"252\">contact runs only</text>" +
          (real_time ? "" : "<text class=\"tick\" x=\"20\" y=\"236\">virtual time, one process</text>") + "</svg>\n";

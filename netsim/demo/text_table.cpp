@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "netsim/plot/ticks.h"
+#include "common/base/wrap_words.h"
 
 namespace tandem::netsim::demo {
 namespace {
@@ -12,7 +12,7 @@ constexpr std::size_t kLabel = 44, kNarrowLabel = 12, kPaper = 6, kValue = 7,
 
 /// Returns the spaces that widen a text to `width` columns.
 std::string spaces(std::string_view text, std::size_t width) {
-  return std::string(width - std::min(width, width_of(text)), ' ');
+  return std::string(width - std::min(width, display_width(text)), ' ');
 }
 std::string left(std::string_view text, std::size_t width) { return std::string(text) + spaces(text, width); }
 std::string right(std::string_view text, std::size_t width) { return spaces(text, width) + std::string(text); }
@@ -47,29 +47,7 @@ std::string row_text(const Row& row, const Paint& paint, bool narrow) {
 
 }  // namespace
 
-std::size_t width_of(std::string_view text) noexcept { return static_cast<std::size_t>(plot::characters(text)); }
-
 std::string_view symbol(Mark mark) noexcept { return mark == Mark::kMet ? "✓" : mark == Mark::kMissed ? "✗" : ""; }
-
-std::string wrapped(std::string_view text, std::size_t width, const std::string& indent) {
-  std::string out;
-  std::size_t column = 0;
-  while (!text.empty()) {
-    const std::size_t cut = text.find(' ');
-    const std::string_view word = text.substr(0, cut);
-    if (column > 0 && column + 1 + width_of(word) > width) {
-      out += "\n" + indent;
-      column = width_of(indent);
-    } else if (column > 0) {
-      out += ' ';
-      ++column;
-    }
-    out += word;
-    column += width_of(word);
-    text = cut == std::string_view::npos ? std::string_view{} : text.substr(cut + 1);
-  }
-  return out;
-}
 
 std::string to_text(const Comparison& comparison, bool colour, std::size_t width) {
   const Paint paint{colour};
@@ -89,7 +67,7 @@ std::string to_text(const Comparison& comparison, bool colour, std::size_t width
   out += rule + "\n";
   char letter = 'a';
   for (const std::string& note : comparison.footnotes)
-    out += wrapped(std::string("(") + letter++ + ") " + note, width, "    ") + "\n";
+    for (const std::string& line : wrap_words(std::string("(") + letter++ + ") " + note, width, 4)) out += line + "\n";
   return out;
 }
 

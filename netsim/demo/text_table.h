@@ -15,12 +15,6 @@ inline constexpr std::size_t kNarrowTextWidth = 79;  ///< the smallest: each num
 /// @param width   columns of the terminal
 [[nodiscard]] std::string to_text(const Comparison& comparison, bool colour, std::size_t width = kTextWidth);
 
-/// Returns the number of characters of UTF-8 text as a terminal counts them; all characters here are one column wide.
-[[nodiscard]] std::size_t width_of(std::string_view text) noexcept;
-
-/// Breaks text at spaces into lines of at most `width`; lines after the first begin with `indent`.
-[[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, const std::string& indent);
-
 /// Returns ✓, ✗ or nothing.
 [[nodiscard]] std::string_view symbol(Mark mark) noexcept;
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "common/base/format.h"
+#include "common/base/wrap_words.h"
 #include "netsim/feel/feel_report.h"
 #include "netsim/feel/noticeable.h"
 
@@ -18,21 +19,10 @@ std::string shown(double value) {
 }
 
 std::string wrapped_lines(const std::string& text, const std::string& indent) {
-  std::string out, line = indent;
-  bool empty = true;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string word = text.substr(at, end - at);
-    if (!empty && line.size() + 1 + word.size() > kWidth) {
-      out += line + "\n";
-      line = std::string(indent.size() + 2, ' ');
-      empty = true;
-    }
-    line += (empty ? "" : " ") + word;
-    empty = false;
-    at = end + 1;
-  }
-  return out + line + "\n";
+  std::string out;
+  for (const std::string& line : wrap_words(text, kWidth, indent.size() + 2, indent.size()))
+    out += (out.empty() ? indent : "") + line + "\n";
+  return out;
 }
 
 std::string row(const FeelKey& key, const FeelNumber& number) {

@@ -56,16 +56,9 @@ std::string rebind_note(const NetworkEvent& event, const std::string& seat) {
       seat.c_str(), seconds(event.at), seconds(event.at + event.rebind->dead_after));
 }
 
-/// The simulated device of a seat, as the server knows it.
-rpc::DeviceFacts simulated_device(const SceneSpec& scene, std::size_t seat) {
-  rpc::DeviceFacts device;
-  device.simulated = true;
-  return setup::with_declared_properties(device, scene.seats[seat].device);
-}
-
 /// Reports a softened spring between a simulated device and its seat; empty if the spring is as written.
 std::string softened_note(const SceneSpec& scene, std::size_t seat) {
-  const rpc::DeviceFacts device = simulated_device(scene, seat);
+  const rpc::DeviceFacts device = setup::simulated_device(scene, seat);
   const std::string words =
       setup::softened_text(setup::with_limited_stiffness(seat_setup(scene, seat), device), device);
   return words.empty() ? words : scene.seats[seat].name + ": " + words;
@@ -74,7 +67,8 @@ std::string softened_note(const SceneSpec& scene, std::size_t seat) {
 }  // namespace
 
 double granted_stiffness(const SceneSpec& scene, std::size_t seat) {
-  return std::min(scene.coupling.k_c, setup::stiffness_for(seat_setup(scene, seat), simulated_device(scene, seat)));
+  return std::min(scene.coupling.k_c,
+                  setup::stiffness_for(seat_setup(scene, seat), setup::simulated_device(scene, seat)));
 }
 
 SessionSpan session_span(const Simulation& simulation) {

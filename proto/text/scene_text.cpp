@@ -20,15 +20,18 @@ std::string scene_name(std::string_view file_name) {
   return std::string(file_name.substr(0, file_name.find('.')));
 }
 
+/// Range of `tick_hz` [Hz], as in scene.proto.
+constexpr double kTickHzMin = 100, kTickHzMax = 1e4;
 /// Largest number of ticks in a session; the wire counts them in 32 bits.
 constexpr double kTicksMax = 4294967295.0;
 
 void read_basics(const pb::Scene& in, MessageValidator& validator, SceneSpec& out) {
-  if (in.has_tick_hz()) out.tick_hz = in.tick_hz();
+  // A tick_hz out of range has an error of its own. 0 skips all rules that need it: their errors would only follow.
+  if (in.has_tick_hz()) out.tick_hz = in.tick_hz() >= kTickHzMin && in.tick_hz() <= kTickHzMax ? in.tick_hz() : 0;
   if (in.has_dof()) out.dof = in.dof();
   if (in.has_duration_s()) out.duration = in.duration_s();
-  const bool possible = out.tick_hz >= 1 && out.tick_hz <= 1e4;  // else tick_hz has an error of its own
-  if (const double most = std::floor(kTicksMax / out.tick_hz); possible && in.has_duration_s() && out.duration > most)
+  if (const double most = std::floor(kTicksMax / out.tick_hz);
+      out.tick_hz > 0 && in.has_duration_s() && out.duration > most)
     validator.error("duration_s", "must be at most " + text::number_text(most) +
                                       " s at tick_hz = " + text::number_text(out.tick_hz) +
                                       ": a session has at most 2^32 - 1 ticks; omit it for a session without end");

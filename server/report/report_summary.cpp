@@ -87,6 +87,7 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   };
   for (const auto& p : r.phases) put_part(p);
   if (r.outside) put_part(*r.outside);
+  out += "  tracking: distance from hand to tool; lag free: the same without a constant lag; lag: by the delay alone\n";
   std::string free;
   for (const auto& s : r.seats) {
     if (!s.taken) {

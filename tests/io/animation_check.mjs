@@ -40,7 +40,7 @@ for (let k = 0; k <= Number(element('player-time').max); k += 25) {
   const row = rows.find(r => r[column('t_s')] >= t - 1e-6);
   const apart = seat => 1e3 * Math.hypot(...['x', 'y', 'z'].map(a => row[column(`${seat}.${a}`)] - row[column(`tool.${a}`)]));
   const force = seat => Math.hypot(...['x', 'y', 'z'].map(a => row[column(`${seat}.f_out_${a}`)]));
-  const pairs = [[t, k / 50, 0.006], [number(text, /slave: trainer ([\d.]+) mm/), apart('trainer'), 0.3],
+  const pairs = [[t, k / 50, 0.006], [number(text, /tool: trainer ([\d.]+) mm/), apart('trainer'), 0.3],
                  [number(text, /mm, trainee ([\d.]+) mm/), apart('trainee'), 0.3],
                  [number(text, /Force: trainer ([\d.]+) N/), force('trainer'), 0.011],
                  [number(text, /N, trainee ([\d.]+) N/), force('trainee'), 0.011],

@@ -225,6 +225,9 @@ TEST(MultiClientControl, AdmitsAnOperatorByASingleUseTicketAndAuditsEveryCommand
   EXPECT_NE(shift.err().find("the role operator may not move authority; permitted for: instructor, trainee"),
             std::string::npos)
       << shift.err();
+  EXPECT_NE(shift.err().find("join with an instructor's ticket"), std::string::npos) << shift.err();
+  EXPECT_NE(shift.err().find("the ticket is used up"), std::string::npos) << shift.err();
+  EXPECT_EQ(shift.out().find("the ticket is used up"), std::string::npos) << "scripts read the output";
   EXPECT_EQ(code.wait(), 1) << code.err();
   EXPECT_TRUE(written(fixture, "desk (operator) stop 1 tick 0: fire drill"));
   EXPECT_TRUE(written(fixture, "\"event\":\"resume\",\"name\":\"a\",\"detail\":\"desk (operator) stop 1 tick 0\""));
@@ -234,6 +237,10 @@ TEST(MultiClientControl, AdmitsAnOperatorByASingleUseTicketAndAuditsEveryCommand
   Process used = control(fixture.address, {"--state", fixture.own, "--ticket", file, "status"});
   EXPECT_EQ(used.wait(), 1);
   EXPECT_NE(used.err().find("used already"), std::string::npos) << used.err();
+  Process look =
+      control(fixture.address, {"--state", fixture.own, "--ticket", operator_ticket(fixture, "operator"), "status"});
+  EXPECT_EQ(look.wait(), 0) << look.err();
+  EXPECT_NE(look.err().find("the ticket is used up"), std::string::npos) << "also by a query: " << look.err();
   Process recorder =
       control(fixture.address, {"--state", fixture.own, "--ticket", operator_ticket(fixture, "recorder"), "stop"});
   EXPECT_EQ(recorder.wait(), 1);

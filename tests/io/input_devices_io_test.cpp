@@ -1,5 +1,6 @@
 // Devices without motors at a real session: a recorded motion as a device leads a follower.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <sstream>
 
@@ -97,6 +98,20 @@ TEST(Doctor, InstallsItsRulesIntoAnotherRoot) {
   EXPECT_NE(cannot.err().find("cannot be written"), std::string::npos) << cannot.err();
   Process alone{Words{TANDEM_CLIENT, "doctor", "--root", folder.file("root")}};
   EXPECT_EQ(alone.wait(), 2);
+}
+
+// sudo searches only the folders of its secure_path, so the advice names the program with its folder.
+TEST(Doctor, AdvisesUsersToInstallTheRulesByTheProgramsFullPath) {
+  Words words{TANDEM_CLIENT, "doctor", "--install-udev"};
+  if (geteuid() == 0) words.insert(words.begin(), {"/usr/bin/setpriv", "--reuid=65534", "--clear-groups"});
+  Process process{words};
+  const auto code = process.wait();
+  if (geteuid() == 0 && (code == 126 || code == 127)) GTEST_SKIP() << "a user may not run it here: " << process.err();
+  EXPECT_EQ(code, 1) << process.err();
+  std::string text = process.err();
+  std::erase_if(text, [](char c) { return c == '\n' || c == '\\' || c == ' '; });  // lines are wrapped
+  EXPECT_NE(text.find("Runitasroot:sudo" + std::string(TANDEM_CLIENT) + "doctor--install-udev"), std::string::npos)
+      << process.err();
 }
 
 TEST(Doctor, NamesTheLibrariesItUses) {

@@ -143,7 +143,7 @@ TEST(ClientErrors, ReportARejectionByTheServer) {
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer");
   ASSERT_TRUE(host.wait_for("trainer joined")) << host.err();
-  expect_refused(client(address, "trainer"), 1, {"this seat is taken already", "take another seat"});
+  expect_refused(client(address, "trainer"), 1, {"is taken already", "take another seat"});
   expect_refused(client(address, "trainr"), 1, {"no seat of this name", "trainer trainee"});
   expect_refused(client(address, "trainee", {}, "sim:model=linear"), 1, {"does not fit", "3 axes"});
   const std::string script = folder.write("a.csv", "t_s[s],trainer[1],trainee[1]\n0,0,1\n");

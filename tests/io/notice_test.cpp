@@ -154,6 +154,7 @@ TEST(TicketFile, IsReadByJoinAndControlAndItsErrorsAreReported) {
   const std::string third = fixture.folder.write("operator.ticket", made.out());
   Process refused = control(fixture.address, {"--state", fixture.own, "--ticket-file", third, "remove", "absent"});
   EXPECT_EQ(refused.wait(), 1) << refused.err();
+  EXPECT_EQ(refused.err().find("used up"), std::string::npos) << "a refusal uses nothing up: " << refused.err();
   for (int i = 0; i < 100; ++i) {  // the ticket becomes valid again shortly after that connection has ended
     Process status = control(fixture.address, {"--state", fixture.own, "--ticket-file", third, "remove", "trainee"});
     if (status.wait() == 0) break;

@@ -71,6 +71,10 @@ Words words_of(const std::string& line) {
 std::string wrong_with(const std::string& example) {
   Words words = words_of(example);
   if (!words.empty() && words.front() == "sudo") words.erase(words.begin());
+  if (words.size() > 1 && words.front() == "$(which" && words[1].ends_with(')')) {  // sudo has a path of its own
+    words.erase(words.begin());
+    words.front().pop_back();
+  }
   if (words.empty()) return "no command";
   const auto program = std::ranges::find(kPrograms, words.front(), &Program::name);
   if (program == std::end(kPrograms)) return words.front() + " is no program of ours";

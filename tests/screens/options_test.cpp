@@ -114,9 +114,20 @@ TEST(Program, ReportsUsageErrorsWithExitCode2) {
   EXPECT_EQ(exit_code({"go", "--law", "x", "--seeds", "10"}), 2);
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_NE(text.find("no command is called \"og\"; did you mean go?"), std::string::npos) << text;
-  EXPECT_NE(text.find("--law: x not in {raw,replica}"), std::string::npos) << text;
+  EXPECT_NE(text.find("--law: \"x\" is unknown; known here: "), std::string::npos) << text;
   EXPECT_NE(text.find("--seeds: Value 10 not in range 1 to 9"), std::string::npos) << text;
   EXPECT_NE(text.find("2 mistakes; nothing was started"), std::string::npos) << text;
+}
+
+TEST(Program, SuggestsTheNearestValueOfAnOption) {
+  for (const char* word : {"repl", "rapelica", "REPLICAS"}) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(exit_code({"go", "--law", word}), 2) << word;
+    const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_NE(text.find("--law: \"" + std::string(word) + "\" is unknown; did you mean replica? known here: "),
+              std::string::npos)
+        << text;
+  }
 }
 
 TEST(UsageErrors, CollectsLinesAndIgnoresMissingProblems) {

@@ -94,6 +94,7 @@ class ConsoleClient {
     if (!answer) return PollResult::kGone;
     const auto* said = std::get_if<rpc::Status>(&*answer);
     if (said == nullptr) return PollResult::kNothing;  // rate limit or end of the session; the next command reports it
+    looked_ = true;
     const rpc::Status now = completed(*said);
     const std::string news = status_changes_text(seen_.value_or(rpc::Status{}), now);
     seen_ = now;
@@ -115,6 +116,12 @@ class ConsoleClient {
 
   /// True if a drain requested on this console is due, so that an end of the connection is expected.
   [[nodiscard]] bool drained() const { return drain_due_ && io::monotonic_now() >= *drain_due_; }
+
+  /// True if the server accepted a command, so that the ticket of this console is used up. A status query alone uses
+  /// it up too, unless another command was refused. A recorder uses it up by any query, its only command.
+  [[nodiscard]] bool ticket_used() const {
+    return acted_ || (looked_ && (!refused_ || console_.welcome.role == AccessRole::kRecorder));
+  }
 
   /// Executes a command. @return exit code
   int execute(const ConsoleCommand& command) {
@@ -150,9 +157,11 @@ class ConsoleClient {
     if (!answer) {
       complain(answer.error().text);
     } else if (const auto* good = std::get_if<Answer>(&*answer)) {
+      (std::is_same_v<Answer, rpc::Status> ? looked_ : acted_) = true;
       return *good;
     } else if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) {
-      complain("refused: " + refused->text);
+      refused_ = true;
+      complain("refused: " + refused->text + refusal_hint(question, console_.welcome.role));
     } else {
       complain("unexpected reply from the server; use the same release on both");
     }
@@ -236,6 +245,7 @@ class ConsoleClient {
   std::optional<Time> drain_due_;  ///< earliest drain requested on this console
   std::chrono::milliseconds timeout_;
   bool json_;
+  bool looked_ = false, acted_ = false, refused_ = false;  ///< a status was read; others were accepted; one was refused
 };
 
 std::vector<std::string> words_of(const std::string& line) {
@@ -328,8 +338,10 @@ int control_command(const ControlArguments& arguments) {
     return io::kExitTrouble;
   }
   ConsoleClient attendant(std::move(*console), asking, arguments.json);
-  if (!wish) return converse(attendant, signals.get());
-  const int code = attendant.execute(*wish);
+  const int code = wish ? attendant.execute(*wish) : converse(attendant, signals.get());
+  if (!asking.ticket.empty() && attendant.ticket_used())
+    io::print(stderr, "the ticket is used up: for another connection ask for a new one (`tandem-server ticket`)\n");
+  if (!wish) return code;
   const bool drains = code == io::kExitDone && std::holds_alternative<rpc::Drain>(*wish);
   return drains ? attendant.follow_drain(signals.get()) : code;
 }

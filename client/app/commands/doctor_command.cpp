@@ -8,6 +8,7 @@
 #include <fstream>
 #include <optional>
 
+#include "client/app/child_program.h"
 #include "client/app/commands/client_commands.h"
 #include "client/app/commands/connection_options.h"
 #include "client/app/device_list.h"
@@ -215,9 +216,10 @@ int install_rules(const std::string& root) {
   file.write(rules);
   if (problem.empty()) problem = file.close();
   if (!problem.empty()) {
-    io::print_formatted(
-        stderr, "tandem-client doctor: %s\n%sIt would contain:\n", problem.c_str(),
-        root.empty() && geteuid() != 0 ? "Run it as root: sudo tandem-client doctor --install-udev\n" : "");
+    // With its folder, because sudo searches only the folders of its secure_path.
+    const std::string advice = "Run it as root: sudo " + program_path("tandem-client") + " doctor --install-udev\n";
+    io::print_formatted(stderr, "tandem-client doctor: %s\n%sIt would contain:\n", problem.c_str(),
+                        root.empty() && geteuid() != 0 ? advice.c_str() : "");
     std::fputs(rules.c_str(), stderr);  // byte for byte, not wrapped
     return io::kExitTrouble;
   }
@@ -294,7 +296,7 @@ void add_doctor_command(const io::Command& root) {
       "  tandem-client doctor --device woodenhaptics:preset=aluhaptics-v2 --seconds 10\n"
       "  tandem-client doctor --device woodenhaptics:preset=mine.textproto,enable_motors=yes,home=here "
       "--confirm-motors\n"
-      "  sudo tandem-client doctor --install-udev");
+      "  sudo $(which tandem-client) doctor --install-udev");
 }
 
 }  // namespace tandem::client

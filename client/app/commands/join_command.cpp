@@ -92,9 +92,11 @@ void add_join_command(const io::Command& root) {
       .value_name("SPEC")
       .required();
   command
-      .add_option("--alpha-script", arguments.script,
-                  "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; each change is requested 50 "
-                  "ms ahead, because the server announces changes that long; INSTRUCTOR's seat only")
+      .add_option(
+          "--alpha-script", arguments.script,
+          "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; each change is requested 50 "
+          "ms ahead, because the server announces changes that long. A client that joins late requests the newest "
+          "change that is due and skips those before it; INSTRUCTOR's seat only")
       .value_name("FILE.csv");
   command.add_option("--trace", arguments.trace, "writes this seat's own samples, one row per servo tick")
       .value_name("FILE.csv");

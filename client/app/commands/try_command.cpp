@@ -7,6 +7,7 @@
 #include "client/app/commands/client_commands.h"
 #include "client/app/run_seat.h"
 #include "client/app/try_session.h"
+#include "common/base/format.h"
 #include "common/base/suggestions.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
@@ -69,8 +70,13 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
     if (&s != &own && s.required) partners.push_back(s.name);
   TrySession trial{by_keys, duration_s <= 0, partners};
 
-  auto server =
-      ChildProgram::start("the server", {server_path, "run", scene_text, "--listen", "127.0.0.1:0", "--quiet"});
+  std::vector<std::string> words{server_path, "run", scene_text, "--listen", "127.0.0.1:0", "--quiet"};
+  if (const auto longer = TrySession::longer_duration(scene)) {
+    io::print_formatted(stderr, "the session lasts %g s instead of the scene's %g s, so that the guidance fits\n",
+                        *longer, scene.duration);
+    words.insert(words.end(), {"--duration", format("%g", *longer)});
+  }
+  auto server = ChildProgram::start("the server", words);
   if (!server) return try_trouble(server.error());
   const auto address = server->wait_for_line("listening on ", kServerStarts, signals.get());
   if (!address) {
@@ -135,7 +141,8 @@ void add_try_command(const io::Command& root) {
   command.footer(
       "Starts tandem-server on a free port of 127.0.0.1, joins it with a simulated hand for every other seat that the "
       "scene requires, and\n"
-      "gives you one seat. Twenty seconds of guidance show which keys to press and what they did. The end of this "
+      "gives you one seat. Twenty seconds of guidance show which keys to press and what they did; the session "
+      "of a shorter scene is extended to a minute. The end of this "
       "command, for any reason, ends\n"
       "everything that it started.\n"
       "Exit: 0 left or over; 1 the server or a partner could not be started or failed; 2 wrong arguments or files.\n\n"

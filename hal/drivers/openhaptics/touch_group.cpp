@@ -72,8 +72,9 @@ DeviceError TouchGroup::trouble(const ErrorInfo& e, const std::string& name) con
           Errc::kNotFound,
           who +
               "does not answer: check that it is plugged in and powered, that the vendor's set-up tool has it under "
-              "that name, and that you may read and write its node (/dev/ttyACM* or /dev/hidraw*). `sudo tandem-client "
-              "doctor --install-udev` writes the rule. Older installations call their device 'Default PHANToM'" +
+              "that name, and that you may read and write its node (/dev/ttyACM* or /dev/hidraw*). `sudo $(which "
+              "tandem-client) doctor --install-udev` writes the rule. Older installations call their device 'Default "
+              "PHANToM'" +
               said};
     case error::kDeviceFault:
       return {Errc::kUnplugged, who + "has a fault; unplug it, plug it in again" + said};

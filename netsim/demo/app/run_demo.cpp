@@ -23,6 +23,7 @@
 #include "netsim/demo/app/repeat_commands.h"
 #include "netsim/demo/comparison.h"
 #include "netsim/demo/figures.h"
+#include "netsim/demo/headline.h"
 #include "netsim/demo/html_report.h"
 #include "netsim/demo/measure.h"
 #include "netsim/demo/overlay.h"
@@ -191,6 +192,9 @@ int run_demo(const DemoOptions& plan) {
   const RunInfo where{!plan.quick, date_text(), host_text(), plan.version, plan.repeat};
   io::print_formatted(stdout, "%s\nBad network: %s. ✓ ✗: within what is asked, or not; %zu missed.\n",
                       where.machine.c_str(), network_text(Setting::kBadNetwork).c_str(), comparison.missed);
+  const Headline headline = headline_of(results, comparison);
+  io::print_formatted(stdout, "%s\n", headline.sentence.c_str());
+  if (!headline.disturbed.empty()) io::print_formatted(stdout, "%s\n", headline.disturbed.c_str());
   if (const std::string problem = write_file(folders->report, html_report(results, comparison, where));
       !problem.empty())
     return trouble(problem);

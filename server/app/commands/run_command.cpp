@@ -4,6 +4,7 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "common/setup/device_stiffness.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
 #include "server/app/commands/server_commands.h"
@@ -69,7 +70,12 @@ int run_command(const RunArguments& arguments) {
   if (plan.control.metrics && !plan.control.metrics->loopback())
     io::print_formatted(stderr, "--metrics %s: %s\n", arguments.metrics.c_str(), kUnprotectedMetricsWarning);
   if (!arguments.check) return run_server(plan);
-  std::puts(effective_scene_text(plan.sessions.front().scene).c_str());
+  const SceneSpec& scene = plan.sessions.front().scene;
+  std::printf("%s%s", effective_scene_text(scene).c_str(), setup::granted_listing(scene).c_str());
+  std::puts(
+      "# A real device gets at most the stiffness that it renders. Its client and the server's log report a spring "
+      "that\n"
+      "# is more than a tenth softer than the scene's.\n");
   std::printf("# OK: %s has no mistake; nothing was started\n", arguments.scene.c_str());
   return 0;
 }

@@ -64,7 +64,9 @@ SeatReservation::Hash resume_binding(const auth::ServerKeystore& trust, const Wo
 }
 
 ErrorReply session_ends() { return {ErrorCode::kSessionOver, "the session is ending", 0}; }
-ErrorReply seat_taken() { return {ErrorCode::kSeatTaken, "this seat is taken already", 2}; }
+ErrorReply seat_taken(const std::string& seat) {
+  return {ErrorCode::kSeatTaken, "seat " + seat + " is taken already", 2};
+}
 ErrorReply nothing_to_resume() {
   return {ErrorCode::kResume,
           "nothing to resume: the seat was given to another client, or the resume secret has expired", 0};
@@ -118,10 +120,12 @@ void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, st
                                 ? ResumeMatch::kNone
                                 : reservation.match(resume->secret, resume_binding(trust_, request.workstation));
   if (resume != nullptr && match == ResumeMatch::kNone) return answer(nothing_to_resume());
-  if (reservation.joining()) return answer(seat_taken());
+  if (reservation.joining()) return answer(seat_taken(catalogue.scene().seats[*seat].name));
   if (resume == nullptr && reservation.reserved(io::monotonic_now()))
     return answer(ErrorReply{ErrorCode::kSeatTaken,
-                             "this seat is reserved for 2 s for the client that had it when the server died", 2});
+                             "seat " + catalogue.scene().seats[*seat].name +
+                                 " is reserved for 2 s for the client that had it when the server died",
+                             2});
 
   reservation.begin_join();
   ShardRequest query{.what = ShardRequest::What::kQuerySeat, .seat = *seat, .same_owner = resume != nullptr};
@@ -136,7 +140,8 @@ void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, st
 JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& request, ResumeMatch match,
                                     const ShardRequest& asked) {
   if (asked.result == JoinResult::kSessionOver) return session_ends();
-  if (asked.result == JoinResult::kSeatTaken) return seat_taken();
+  if (asked.result == JoinResult::kSeatTaken)
+    return seat_taken(entry.session().seat_catalogue().scene().seats[asked.seat].name);
   SeatReservation& reservation = entry.seats[asked.seat];
   if (asked.same_owner && !reservation.may_resume(match, asked.silence, asked.ever_heard, io::monotonic_now()))
     return nothing_to_resume();

@@ -40,6 +40,16 @@ TEST(AuthorityScriptPlayer, RequestsOnlyTheNewestOfSeveralDueChanges) {
   EXPECT_EQ(request(script, 1.501), 0);
 }
 
+TEST(AuthorityScriptPlayer, RequestsTheNewestPastChangeOfALateClientOnce) {
+  AuthorityScriptPlayer between = player();
+  EXPECT_EQ(request(between, 1.6), kSecond) << "the authority that the script states for this time";
+  EXPECT_EQ(request(between, 1.94), 0);
+  EXPECT_EQ(request(between, 1.96), kThird) << "later changes keep their time";
+  AuthorityScriptPlayer after = player();
+  EXPECT_EQ(request(after, 3000), kThird);
+  EXPECT_EQ(request(after, 3001), 0);
+}
+
 TEST(AuthorityScriptPlayer, WaitsForTheSessionAndForASilentServer) {
   AuthorityScriptPlayer script = player();
   EXPECT_EQ(script.due(Time{10s}, 1ms, TransferNotice::kNone, std::nullopt), nullptr);

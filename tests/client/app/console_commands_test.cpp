@@ -118,6 +118,25 @@ TEST(ConsoleCommands, SetAuthorityAgainstTheStatusVersionShown) {
   EXPECT_EQ(authority_frame(parsed<AuthorityCommand>({"authority", "trainer=1", "tool=saw"}), two)->tool, 1U);
 }
 
+TEST(ConsoleCommands, OfferAuthorityToNoEvaluatorOrObserver) {
+  rpc::Status now = lesson();
+  now.seats.push_back({"jury", AccessRole::kEvaluator, true, true, true});
+  now.tools = {{"drill", {0.25, 0.75, 0}}};
+  const auto refused = authority_frame(parsed<AuthorityCommand>({"authority", "jury=1"}), now);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error(), "authority: no seat \"jury\" that can have authority; seats: trainer, trainee");
+  const auto none = authority_frame(parsed<AuthorityCommand>({"authority", "trainee=1,jury=0"}), now);
+  ASSERT_TRUE(none) << none.error();
+  EXPECT_EQ(none->alpha, (std::vector<double>{0, 1, 0})) << "every master has its place";
+}
+
+TEST(ConsoleCommands, NameTheConsoleThatMovesAuthority) {
+  EXPECT_NE(refusal_hint(rpc::SetAuthority{}, AccessRole::kOperator).find("--role instructor"), std::string::npos);
+  EXPECT_NE(refusal_hint(rpc::SetAuthority{}, AccessRole::kRecorder).find("--role instructor"), std::string::npos);
+  EXPECT_EQ(refusal_hint(rpc::SetAuthority{}, AccessRole::kInstructor), "") << "the server's text names the reason";
+  EXPECT_EQ(refusal_hint(rpc::StopSession{}, AccessRole::kRecorder), "");
+}
+
 TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
   EXPECT_EQ(status_text(lesson()),
             "lesson: stopped, 12.3 s; `resume 3` ends it; authority version 7\n"

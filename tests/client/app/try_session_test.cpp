@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "client/app/interruptible_wait.h"
@@ -51,6 +52,17 @@ TEST(TrySession, EndsThePartnersBeforeTheServerHoweverItEnds) {
     }
     EXPECT_EQ(ends.text(), "trainee\ntrainer\nserver\n") << (stops ? "stopped" : "a partner could not be started");
   }
+}
+
+TEST(TrySession, ExtendsAShortSessionBeyondTheTutorial) {
+  SceneSpec scene;
+  scene.duration = 20;  // as scene contact, whose end would cut off the last two steps
+  EXPECT_EQ(TrySession::longer_duration(scene), 60);
+  scene.duration = 60;
+  EXPECT_EQ(TrySession::longer_duration(scene), std::nullopt);
+  scene.duration = std::numeric_limits<double>::infinity();
+  ASSERT_TRUE(scene.endless());
+  EXPECT_EQ(TrySession::longer_duration(scene), std::nullopt) << "it has no end, and keeps none";
 }
 
 TEST(TrySession, LeavesWhenAChildFailsAndNamesIt) {

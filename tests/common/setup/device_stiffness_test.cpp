@@ -49,6 +49,29 @@ TEST(DeviceStiffness, AssumesLowDampingForADeviceThatDeclaresNone) {
   EXPECT_LT(kDampingUnknown, SimDeviceSpec{}.damping);
 }
 
+// 0.93 * 2 * 0.2 N s/m * 1000 Hz = 372 N/m.
+TEST(DeviceStiffness, ListsTheGrantedStiffnessOfEverySeatOfAScene) {
+  SceneSpec scene;
+  scene.tools.resize(1);
+  scene.seats.resize(2);
+  scene.seats[0].name = "trainer";
+  scene.seats[1].name = "trainee";
+  scene.seats[1].device.damping = 0.5;  // renders up to 930 N/m
+  for (SeatSpec& seat : scene.seats) seat.kind = SeatKind::kMaster;
+  scene.authority = {{0, {}}};
+  scene.coupling.k_c = 800;
+  EXPECT_EQ(granted_listing(scene),
+            "seat[0] trainer: k_c_n_m granted 372 N/m of 800 N/m: this device renders at most 0.93 b / (T/2 + t_d) "
+            "(damping b 0.2 N s/m, tick T 1 ms, latency t_d 0 ms)\n");
+  scene.coupling.k_c = 400;
+  EXPECT_NE(granted_listing(scene).find("372 N/m of 400 N/m"), std::string::npos) << "also by less than a tenth";
+  scene.coupling.k_c = 372;
+  EXPECT_EQ(granted_listing(scene), "");
+  scene.coupling.k_c = 800;
+  scene.unsafe_gains = true;
+  EXPECT_EQ(granted_listing(scene), "") << "this scene accepts the risk";
+}
+
 TEST(DeviceStiffness, LimitsTheToolSpringOfASlaveSeat) {
   SeatSetup asked = asking_for(400, LawKind::kSetPosition);
   asked.seat.kind = SeatKind::kSlave;

@@ -94,6 +94,15 @@ TEST(ComparisonPage, IsOneFileWithoutScriptAndExternalResource) {
   EXPECT_EQ(page.find("<details", page.find("id=\"all\"")) == std::string::npos, false);
 }
 
+TEST(ComparisonPage, NamesItsFileOnceUnderTheTitle) {
+  ComparisonResult c = comparison(kGrid, [](const Cell&, std::uint64_t) { return 1.0; });
+  c.spec.name = "comparison";  // as the shipped file, whose page had the title "Comparison comparison"
+  const std::string page = comparison_page(c, "0.1");
+  EXPECT_NE(page.find("<h1>Laws and couplings compared</h1>"), std::string::npos);
+  EXPECT_NE(page.find("<title>Tandem: laws and couplings compared (comparison)</title>"), std::string::npos);
+  EXPECT_NE(page.find("<p>Cells of comparison: "), std::string::npos);
+}
+
 TEST(ComparisonPage, ColoursTheWorstSquareMost) {
   const ComparisonResult c = comparison(kGrid, [](const Cell& cell, std::uint64_t) {
     return cell.law == LawKind::kRaw && cell.delay_ms > 0 ? 10.0 : cell.law == LawKind::kReplica ? 0.01 : 0.1;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "netsim/demo/animation.h"
 #include "netsim/demo/app/network_series.h"
@@ -66,6 +67,32 @@ TEST(Headline, ReportsAllLimitsKeptAndTheTwoNumbers) {
   EXPECT_EQ(headline.numbers[0].beside, "paper 8.2 mm; on the bad network 4.5 mm");
   EXPECT_EQ(headline.numbers[1].value, "0.0096 N");
   EXPECT_EQ(headline.numbers[1].beside, "paper 0.35 N");
+}
+
+TEST(Headline, OfDisturbedRunsIsNoSuccess) {
+  std::vector<RunResult> runs{result(Task::kFreeMotion, Setting::kDefaults, 0.0014),
+                              result(Task::kContact, Setting::kDefaults, 0.001)};
+  const Comparison comparison{{{"A", {{"row", "mm", "", "", {cell_of(1, 1, {0, 2}), {}, {}}}}}}, {}, 0};
+  for (RunResult& run : runs) {
+    run.report.gate_trips = 0;
+    run.report.late_ticks = 0;
+    run.report.duration_s = 10;
+  }
+  runs[1].report.late_ticks = 1;  // of 2 * 3 * 10 s * 1000 Hz; 2e-5 of them are 1.2
+  EXPECT_EQ(headline_of(runs, comparison).disturbed, "");
+  EXPECT_EQ(headline_of(runs, comparison).sentence, "Two people held one tool. All 1 limits were kept.");
+
+  runs[1].report.late_ticks = 2;
+  const Headline late = headline_of(runs, comparison);
+  EXPECT_EQ(late.sentence, "Two people held one tool. The runs were disturbed: the 1 kept limits prove little.");
+  EXPECT_TRUE(late.disturbed.starts_with("DISTURBED: 0 gate trips, 2 late ticks of 60000. ")) << late.disturbed;
+  EXPECT_NE(late.disturbed.find("--quick"), std::string::npos);
+  EXPECT_NE(html_report(runs, comparison, {}).find("DISTURBED: 0 gate trips"), std::string::npos);
+
+  runs[1].report.late_ticks = std::numeric_limits<double>::quiet_NaN();  // as in virtual time
+  runs[0].report.gate_trips = 1;
+  EXPECT_TRUE(headline_of(runs, comparison).disturbed.starts_with("DISTURBED: 1 gate trip, 0 late ticks of 60000. "))
+      << "one released hand is enough";
 }
 
 TEST(Headline, NamesEachMissedLimit) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "common/base/wrap_words.h"
 #include "netsim/demo/app/child_process.h"
 #include "netsim/demo/app/live_run.h"
 #include "netsim/demo/app/read_report.h"
@@ -82,7 +83,7 @@ TEST(Comparison, MarksMetAndMissedLimits) {
   const std::vector<RunResult> runs{run(Setting::kSeed, 0.0082, 0.0061), run(Setting::kDefaults, 0.0018, 0.0021),
                                     run(Setting::kBadNetwork, 0.0063, 0.004)};
   const Comparison c = compare(runs);
-  const Row& leader = find_row(c, "demonstration", "leader–slave position RMS");
+  const Row& leader = find_row(c, "demonstration", "leader–tool position RMS");
   EXPECT_EQ(leader.paper, "8.2");
   EXPECT_EQ(leader.cells[0].value, "8.20");
   EXPECT_EQ(leader.cells[0].limit, "≤ 16.4");
@@ -90,7 +91,7 @@ TEST(Comparison, MarksMetAndMissedLimits) {
   EXPECT_EQ(leader.cells[1].mark, Mark::kMet);
   EXPECT_EQ(leader.cells[2].limit, "≤ 6") << "1.25 x (1.8 mm + 3 mm of transport lag)";
   EXPECT_EQ(leader.cells[2].mark, Mark::kMissed);
-  const Row& follower = find_row(c, "demonstration", "follower–slave position RMS");
+  const Row& follower = find_row(c, "demonstration", "follower–tool position RMS");
   EXPECT_EQ(follower.cells[1].mark, Mark::kMissed);
   EXPECT_EQ(follower.cells[2].mark, Mark::kNone) << "nothing is asked";
   EXPECT_EQ(find_row(c, "demonstration", "joint 2 RMS, leader–slave").cells[0].value, "55.0");
@@ -111,7 +112,7 @@ TEST(Comparison, NotesModelValuesBelowHalfOfThePaper) {
 TEST(Comparison, ShowsDashesForRunsThatWereNotMade) {
   const RunResult only = run(Setting::kDefaults, 0.001, 0.001);
   const Comparison c = compare({&only, 1});
-  const Row& leader = find_row(c, "demonstration", "leader–slave position RMS");
+  const Row& leader = find_row(c, "demonstration", "leader–tool position RMS");
   EXPECT_EQ(leader.cells[0].value, "–");
   EXPECT_EQ(leader.cells[0].mark, Mark::kNone);
   EXPECT_TRUE(compare({}).sections.empty());
@@ -130,7 +131,7 @@ TEST(TextTable, FitsATerminalOf110Columns) {
   const std::string text = to_text(compare(runs), false);
   std::istringstream lines(text);
   std::size_t rows = 0;
-  for (std::string line; std::getline(lines, line); ++rows) EXPECT_LE(width_of(line), kTextWidth) << line;
+  for (std::string line; std::getline(lines, line); ++rows) EXPECT_LE(display_width(line), kTextWidth) << line;
   EXPECT_GT(rows, 20u);
   EXPECT_EQ(text.find('\x1b'), std::string::npos) << "colours only on a terminal";
   EXPECT_NE(to_text(compare(runs), true).find('\x1b'), std::string::npos);
@@ -148,13 +149,8 @@ TEST(TextTable, FitsATerminalOf80ColumnsWithTheSameNumbers) {
   };
   const std::string narrow = to_text(compare(runs), false, 80);
   std::istringstream lines(narrow);
-  for (std::string line; std::getline(lines, line);) EXPECT_LT(width_of(line), 80u) << line;
+  for (std::string line; std::getline(lines, line);) EXPECT_LT(display_width(line), 80u) << line;
   EXPECT_EQ(words(narrow), words(to_text(compare(runs), false)));
-}
-
-TEST(TextTable, CountsCharactersNotBytes) {
-  EXPECT_EQ(width_of("α ≤ 2 ✓"), 7u);
-  EXPECT_EQ(wrapped("aa bb cc dd", 5, "  "), "aa bb\n  cc\n  dd");
 }
 
 TEST(HtmlReport, IsOneFileWithoutNetworkReferences) {

@@ -44,6 +44,15 @@ TEST(BadScene, NegativeStiffnessNamesItsRange) {
   expect_one(good() + "channel { k_n_m: @0 }\n", "channel.k_n_m", "must be in (0, 1e5] N/m");
 }
 
+TEST(BadScene, ReportsATickRateOutOfRangeAlone) {
+  for (const char* hz : {"0", "-1000", "5e-324", "1e-300", "0.5", "99.9", "10000.1", "1e300"}) {
+    SCOPED_TRACE(hz);
+    expect_one(with("duration_s: 18", std::string("duration_s: 18 tick_hz: @") + hz), "tick_hz",
+               "must be in [100, 10000] Hz");
+  }
+  expect_one(with("duration_s: 18", "duration_s: 3e6 tick_hz: @1e-300"), "tick_hz", "must be in [100, 10000] Hz");
+}
+
 TEST(BadScene, NumbersMustBeFinite) {
   for (const char* value : {"nan", "-nan", "inf", "-inf", "infinity", "1e400", "-1e400"}) {
     SCOPED_TRACE(value);

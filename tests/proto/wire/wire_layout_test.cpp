@@ -7,26 +7,11 @@
 #include <span>
 
 #include "proto/wire/wire_codec.h"
+#include "tests/proto/wire/wire_comparison.h"
 #include "tests/proto/wire/wire_samples.h"
 
 namespace tandem::wire {
 namespace {
-
-using Buffer = std::array<std::byte, kPlaintextMax>;
-
-std::span<const std::byte> view(const Buffer& buffer, std::size_t size) { return std::span(buffer).first(size); }
-
-void expect_same(const Preamble& a, const Preamble& b) {
-  EXPECT_EQ(a.echo_counter, b.echo_counter);
-  EXPECT_EQ(a.echo_age_us, b.echo_age_us);
-  EXPECT_EQ(a.tick, b.tick);
-}
-void expect_same(const PortSample& a, const PortSample& b) {
-  EXPECT_EQ(a.x, b.x);
-  EXPECT_EQ(a.v, b.v);
-  EXPECT_EQ(a.f, b.f);
-  EXPECT_EQ(a.e_in, b.e_in);
-}
 
 /// Single precision: at most 2^-24 of the magnitude; energies are exact.
 TEST(WireCodec, RoundsByItsStatedBoundAndKeepsEnergiesExact) {

@@ -66,6 +66,7 @@ TEST(Report, CoversTheWholeSessionWhereASceneHasNoPhases) {
   EXPECT_STREQ(r.verdict(), "pass");
   const std::string words = report_summary(r, run.spec);
   EXPECT_NE(words.find("whole session"), std::string::npos) << words;
+  EXPECT_NE(words.find("; lag free: the same without a constant lag; "), std::string::npos) << words;
   EXPECT_NE(words.find("judged: 29.0 of 30.0 s"), std::string::npos) << words;
 }
 

@@ -73,7 +73,7 @@ TEST(SessionJoins, AdmitASeatByTheSessionsCode) {
   EXPECT_EQ(welcome->cipher, rpc::Cipher::kChaCha20Poly1305) << "the client has no AES";
   EXPECT_EQ(welcome->udp_port, j.shard.address().port());
   EXPECT_FALSE(welcome->setup.empty());
-  EXPECT_EQ(error_of(j.join(request)), (rpc::ErrorReply{ErrorCode::kSeatTaken, "this seat is taken already", 2}));
+  EXPECT_EQ(error_of(j.join(request)), (rpc::ErrorReply{ErrorCode::kSeatTaken, "seat trainee is taken already", 2}));
   EXPECT_FALSE(j.joins.is_current(*welcome)) << "the Welcome is not sent yet";
 
   j.joins.on_joined(request, *welcome, {});
