@@ -178,7 +178,7 @@ TEST(Program, ReportsAllWrongOptionsAtOnce) {
       {{"proxy", "--delay", "-1", "--loss=101", "--seed", "x", "--wrong"},
        {"--delay: \"-1\"", "--loss: \"101\"", "--seed: \"x\"", "--to is required", "--wrong", "5 mistakes"}},
       {{"run", "--channel", "magic", "--json"},
-       {"--json: 1 required", "--channel: magic", "scene is required", "3 mistakes"}},
+       {"--json: 1 required", "--channel: \"magic\" is unknown", "scene is required", "3 mistakes"}},
       {{"swarm", "--seeds", "0", "--jobs", "x"}, {"--seeds", "--jobs", "2 mistakes"}},
       {{"proxy", "--to", "127.0.0.1", "--listen", "0.0.0.0:1", "--profile", "wifi-bussy", "--outage", "5", "--log",
         "-"},
