@@ -69,7 +69,7 @@ std::string tool_section(const Tradeoff& t, bool times) {
                 {"path [µm]", "of it by step [µm]", "force [mN]", "energy [µJ]", "stiffest [N/m]", "front"});
   std::string html = format(
       "<h2 id=\"tool\">Simulated tool</h2>\n<p>Tool of %.3g kg and %.3g N s/m; hand of %.4g N/m and %.3g N s/m; %zu "
-      "axes, %zu surfaces without friction; %g s. Errors are RMS over the ticks against the truth: long double, at "
+      "axes; surfaces without friction: %zu; %g s. Errors are RMS over the ticks against the truth: long double, at "
       "least %g steps per tick, hand in continuous motion. The force of the truth is %.4g N RMS. "
       "<code>unsafe</code>: needs <code>unsafe_gains: true</code>.</p>\n",
       t.task.tool.m, t.task.tool.b, t.task.k_c, t.task.b_rel, t.task.axes, t.task.contacts.size(), ToolTask::kDuration,

@@ -170,7 +170,7 @@ std::string tradeoff_text(const Tradeoff& tradeoff, bool all, bool times) {
   std::string out;
   if (!tradeoff.rows.empty()) {
     out = format(
-        "%s: tool %.3g kg, %.3g N s/m; hand %.4g N/m, %.3g N s/m; %zu axes, %zu surfaces without friction; %g s\n"
+        "%s: tool %.3g kg, %.3g N s/m; hand %.4g N/m, %.3g N s/m; %zu axes; surfaces without friction: %zu; %g s\n"
         "RMS over the ticks against the truth: long double, at least %g steps per tick, hand in continuous motion.\n"
         "Force of the truth: %.4g N RMS.%s\n\n",
         tradeoff.scene.c_str(), task.tool.m, task.tool.b, task.k_c, task.b_rel, task.axes, task.contacts.size(),
