@@ -7,14 +7,48 @@
 
 namespace tandem::control {
 
+namespace {
+
+/// Advances the axes of a tool without surfaces, which needs no matrices: they would be half of the work on one axis.
+/// @return whether the result was finite
+template <class S>
+bool free_step(Integrator how, const VirtualTool::Gains& gains, std::size_t axes, const VirtualTool::Pulls& pulls,
+               double dt, Vector3& x, Vector3& v) noexcept {
+  for (std::size_t a = 0; a < axes; ++a) {
+    LinearBody<S, 1> body;
+    body.m = static_cast<S>(gains.m);
+    body.k(0) = static_cast<S>(pulls[a].k);
+    body.b(0) = static_cast<S>(gains.b + pulls[a].b);
+    body.f(0) = static_cast<S>(pulls[a].k_anchor + pulls[a].b_velocity);
+    Motion<S, 1> at;
+    at.x(0) = static_cast<S>(x[a]);
+    at.v(0) = static_cast<S>(v[a]);
+    const Motion<S, 1> to = advanced<S, 1>(how, body, at, static_cast<S>(dt));
+    if (!std::isfinite(to.x(0)) || !std::isfinite(to.v(0))) return false;
+    x[a] = static_cast<double>(to.x(0));
+    v[a] = static_cast<double>(to.v(0));
+  }
+  return true;
+}
+
+}  // namespace
+
 VirtualTool::Parts VirtualTool::step_in_parts(double dt, const Pulls& pulls) noexcept {
   const std::array<double, kAxes> start = x_;
   const double h = dt / numerics_.substeps;
   Parts parts{.finite = true};
   for (std::uint8_t i = 0; i < numerics_.substeps; ++i) {
-    const bool finite = numerics_.keeps_proof()                    ? implicit_step(h, pulls)
-                        : numerics_.precision == Precision::kFloat ? linear_step<float>(h, pulls)
-                                                                   : linear_step<double>(h, pulls);
+    bool finite = false;
+    const bool rounds = numerics_.precision == Precision::kFloat;
+    if (numerics_.keeps_proof()) {
+      finite = implicit_step(h, pulls);
+    } else if (contacts_.size() > 0) {
+      finite = rounds ? linear_step<float>(h, pulls) : linear_step<double>(h, pulls);
+    } else {
+      surface_force_ = surface_k_ = surface_b_ = {};
+      finite = rounds ? free_step<float>(numerics_.integrator, gains_, axes_, pulls, h, x_, v_)
+                      : free_step<double>(numerics_.integrator, gains_, axes_, pulls, h, x_, v_);
+    }
     if (!finite) {
       x_ = start;
       v_ = surface_force_ = surface_k_ = surface_b_ = {};
@@ -29,38 +63,10 @@ double VirtualTool::heat(const Parts& parts, std::size_t axis, double b, double 
   return numerics_.keeps_proof() ? (b + 0.5 * k * dt / numerics_.substeps) * parts.squares[axis] : 0;
 }
 
-namespace {
-
-/// Advances one axis without surfaces. @return whether the result was finite
-template <class S>
-bool advance_axis(Integrator how, double m, double b, const Pull& pull, double dt, double& x, double& v) noexcept {
-  LinearBody<S, 1> body;
-  body.m = static_cast<S>(m);
-  body.k(0, 0) = static_cast<S>(pull.k);
-  body.b(0, 0) = static_cast<S>(b + pull.b);
-  body.f(0) = static_cast<S>(pull.k_anchor + pull.b_velocity);
-  Motion<S, 1> at;
-  at.x(0) = static_cast<S>(x);
-  at.v(0) = static_cast<S>(v);
-  const Motion<S, 1> to = advanced<S, 1>(how, body, at, static_cast<S>(dt));
-  if (!std::isfinite(to.x(0)) || !std::isfinite(to.v(0))) return false;
-  x = static_cast<double>(to.x(0));
-  v = static_cast<double>(to.v(0));
-  return true;
-}
-
-}  // namespace
-
 /// Takes each surface that pushes at the start as linear: k' = d force / d depth there. A surface along one axis leaves
-/// the axes independent. A tool without surfaces needs no matrices, which would be half of the work on one axis.
+/// the axes independent.
 template <class S>
 bool VirtualTool::linear_step(double dt, const Pulls& pulls) noexcept {
-  if (contacts_.size() == 0) {
-    for (std::size_t a = 0; a < axes_; ++a)
-      if (!advance_axis<S>(numerics_.integrator, gains_.m, gains_.b, pulls[a], dt, x_[a], v_[a])) return false;
-    surface_force_ = surface_k_ = surface_b_ = {};
-    return true;
-  }
   constexpr int kN = static_cast<int>(kAxes);
   LinearBody<S, kN> body;
   Motion<S, kN> at;
