@@ -99,6 +99,20 @@ TEST(DeviceNumerics, AreAbsentByDefaultAndReadFromDevicesAndSlaves) {
   EXPECT_NE(effective_scene_text(*scene).find("slave.numerics.substeps"), std::string::npos);
 }
 
+TEST(DeviceNumerics, ReachTheClientUnchanged) {
+  auto scene = parse_scene(good(), "s");
+  ASSERT_TRUE(scene);
+  scene->seats[0].device.numerics = NumericsSpec{IntegratorKind::kExact, PrecisionKind::kFloat, 7};
+  std::array<char, 1 << 16> bytes{};
+  const std::size_t size = encode_seat_setup(seat_setup(*scene, 0), bytes);
+  const auto setup = decode_seat_setup(std::span<const char>(bytes).first(size));
+  ASSERT_TRUE(setup) << to_text(setup.error());
+  ASSERT_TRUE(setup->seat.device.numerics);
+  EXPECT_EQ(setup->seat.device.numerics->integrator, IntegratorKind::kExact);
+  EXPECT_EQ(setup->seat.device.numerics->precision, PrecisionKind::kFloat);
+  EXPECT_EQ(setup->seat.device.numerics->substeps, 7u);
+}
+
 TEST(DeviceNumerics, RefuseWhatMakesNoSense) {
   expect_one(with("slave { model: TOUCH }", "slave { model: TOUCH numerics { substeps: @65 } }"),
              "tool[0].slave.numerics.substeps", "64");
