@@ -21,7 +21,7 @@ Vec3 to_vec(const std::array<S, 3>& p) noexcept {
 }
 
 Vec3 start_joints(const DeviceTask& task, double from) noexcept {
-  const Vec3 tip = to_vec(hand_at(task.path, from).x);
+  Vec3 tip = to_vec(hand_at(task.path, from).x);
   if (task.device.model == DeviceModel::kLinear) return tip;
   return touch_inverse(tip).value_or(*touch_inverse(Vec3::Zero()));
 }

@@ -98,8 +98,8 @@ std::vector<ModelChoice> tier_choices(const SceneSpec& scene) {
       if (model == ModelTier::kVirtualTool) {
         out.push_back({model, contact, scene.tick_hz, {}, tool});
       } else if (contact != ContactTier::kFriction) {
-        DeviceTask task{tool, device_of(own.device, model), *surfaces, tool.k_c, tool.b_rel};
-        out.push_back({model, contact, scene.tick_hz, {}, std::move(task)});
+        const DeviceTask task{tool, device_of(own.device, model), *surfaces, tool.k_c, tool.b_rel};
+        out.push_back({model, contact, scene.tick_hz, {}, task});
       }
     }
   }
