@@ -7,14 +7,48 @@
 
 namespace tandem::control {
 
+namespace {
+
+/// Advances the axes of a tool without surfaces, which needs no matrices: they would be half of the work on one axis.
+/// @return whether the result was finite
+template <class S>
+bool free_step(Integrator how, const VirtualTool::Gains& gains, std::size_t axes, const VirtualTool::Pulls& pulls,
+               double dt, Vector3& x, Vector3& v) noexcept {
+  for (std::size_t a = 0; a < axes; ++a) {
+    LinearBody<S, 1> body;
+    body.m = static_cast<S>(gains.m);
+    body.k(0) = static_cast<S>(pulls[a].k);
+    body.b(0) = static_cast<S>(gains.b + pulls[a].b);
+    body.f(0) = static_cast<S>(pulls[a].k_anchor + pulls[a].b_velocity);
+    Motion<S, 1> at;
+    at.x(0) = static_cast<S>(x[a]);
+    at.v(0) = static_cast<S>(v[a]);
+    const Motion<S, 1> to = advanced<S, 1>(how, body, at, static_cast<S>(dt));
+    if (!std::isfinite(to.x(0)) || !std::isfinite(to.v(0))) return false;
+    x[a] = static_cast<double>(to.x(0));
+    v[a] = static_cast<double>(to.v(0));
+  }
+  return true;
+}
+
+}  // namespace
+
 VirtualTool::Parts VirtualTool::step_in_parts(double dt, const Pulls& pulls) noexcept {
   const std::array<double, kAxes> start = x_;
   const double h = dt / numerics_.substeps;
   Parts parts{.finite = true};
   for (std::uint8_t i = 0; i < numerics_.substeps; ++i) {
-    const bool finite = numerics_.keeps_proof()                    ? implicit_step(h, pulls)
-                        : numerics_.precision == Precision::kFloat ? linear_step<float>(h, pulls)
-                                                                   : linear_step<double>(h, pulls);
+    bool finite = false;
+    const bool rounds = numerics_.precision == Precision::kFloat;
+    if (numerics_.keeps_proof()) {
+      finite = implicit_step(h, pulls);
+    } else if (contacts_.size() > 0) {
+      finite = rounds ? linear_step<float>(h, pulls) : linear_step<double>(h, pulls);
+    } else {
+      surface_force_ = surface_k_ = surface_b_ = {};
+      finite = rounds ? free_step<float>(numerics_.integrator, gains_, axes_, pulls, h, x_, v_)
+                      : free_step<double>(numerics_.integrator, gains_, axes_, pulls, h, x_, v_);
+    }
     if (!finite) {
       x_ = start;
       v_ = surface_force_ = surface_k_ = surface_b_ = {};

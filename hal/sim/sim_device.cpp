@@ -92,13 +92,11 @@ Result<std::unique_ptr<SimDevice>> SimDevice::make_uncalibrated(const SimSetup& 
     if (setup.device.model == DeviceModel::kLinear) {
       start[0] = q[0];
     } else {
-      return std::unique_ptr<SimDevice>(
-          new SimDevice(setup, Plant(std::in_place_type<TouchPlant>, setup.device, setup.environment, q), start));
+      return std::unique_ptr<SimDevice>(new SimDevice(setup, touch_plant(setup, q), start));
     }
   }
   if (setup.device.model == DeviceModel::kLinear) {
-    return std::unique_ptr<SimDevice>(
-        new SimDevice(setup, Plant(std::in_place_type<LinearPlant>, setup.device, setup.environment, start), start));
+    return std::unique_ptr<SimDevice>(new SimDevice(setup, linear_plant(setup, start), start));
   }
   const auto q0 = touch_inverse(start);
   if (!q0 || !TouchPlant::within_stops(*q0)) {
@@ -106,8 +104,20 @@ Result<std::unique_ptr<SimDevice>> SimDevice::make_uncalibrated(const SimSetup& 
                                  std::to_string(start[1]) + ", " + std::to_string(start[2]) +
                                  ") m is out of reach; stay within 60 mm of the origin"));
   }
-  return std::unique_ptr<SimDevice>(
-      new SimDevice(setup, Plant(std::in_place_type<TouchPlant>, setup.device, setup.environment, *q0), start));
+  return std::unique_ptr<SimDevice>(new SimDevice(setup, touch_plant(setup, *q0), start));
+}
+
+SimDevice::Plant SimDevice::touch_plant(const SimSetup& setup, const Vec3& q0) noexcept {
+  if (const auto& numerics = setup.device.numerics)
+    return IntegratedPlant<TouchDynamics>({setup.device, setup.environment}, *numerics, q0);
+  return TouchPlant(setup.device, setup.environment, q0);
+}
+
+SimDevice::Plant SimDevice::linear_plant(const SimSetup& setup, const Vec3& start) noexcept {
+  if (const auto& numerics = setup.device.numerics)
+    return IntegratedPlant<LinearDynamics>({setup.device, setup.environment, start}, *numerics,
+                                           LinearDynamics::Q(start[0]));
+  return LinearPlant(setup.device, setup.environment, start);
 }
 
 SimDevice::SimDevice(const SimSetup& setup, Plant plant, const Vec3& start)
@@ -128,7 +138,7 @@ void SimDevice::set_load(const DeviceLoad& load) noexcept {
 }
 
 void SimDevice::make_caps() {
-  const bool touch = std::holds_alternative<TouchPlant>(plant_);
+  const bool touch = spec_.model == DeviceModel::kTouch;
   caps_.joints = touch ? TouchPlant::kJoints : LinearPlant::kJoints;
   caps_.tip_axes = caps_.joints;
   caps_.prismatic = !touch;

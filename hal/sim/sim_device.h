@@ -9,6 +9,7 @@
 
 #include "hal/core/device.h"
 #include "hal/sim/hand.h"
+#include "hal/sim/integrated_plant.h"
 #include "hal/sim/linear_plant.h"
 #include "hal/sim/touch_plant.h"
 #include "proto/spec/scene_spec.h"
@@ -81,7 +82,9 @@ class SimDevice final : public SteppedDevice {
   }
 
  private:
-  using Plant = std::variant<TouchPlant, LinearPlant>;
+  using Plant = std::variant<TouchPlant, LinearPlant, IntegratedPlant<TouchDynamics>, IntegratedPlant<LinearDynamics>>;
+  [[nodiscard]] static Plant touch_plant(const SimSetup& setup, const Vec3& q0) noexcept;
+  [[nodiscard]] static Plant linear_plant(const SimSetup& setup, const Vec3& start) noexcept;
   SimDevice(const SimSetup& setup, Plant plant, const Vec3& start);
   [[nodiscard]] static Result<std::unique_ptr<SimDevice>> make_uncalibrated(const SimSetup& setup);
   void make_caps();

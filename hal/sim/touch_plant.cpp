@@ -4,29 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "hal/sim/touch_constants.h"
+
 namespace tandem::hal::sim {
 namespace {
 
-constexpr double kG = 9.81;
-constexpr double kM2 = 0.04, kM3 = 0.08;      // [kg]
-constexpr double kR2 = 0.0443, kR3 = 0.1108;  // centres of mass [m]
-constexpr double kI = 2e-4;                   // I1 = I2 = I3 [kg m^2], assumed
-constexpr double kL1 = kTouchL1, kL2 = kTouchL2;
-constexpr double kM22 = kI + kM2 * kR2 * kR2 + kM3 * kL1 * kL1;
-constexpr double kM33 = kI + kM3 * kR3 * kR3;
-constexpr double kM23 = kM3 * kL1 * kR3;
-constexpr double kG2 = (kM2 * kR2 + kM3 * kL1) * kG;
-constexpr double kG3 = kM3 * kR3 * kG;
+using namespace touch;
 
 constexpr double kEffortMax = 10.0, kForceMax = 1000.0, kRateMax = 200.0, kJointRateMin = 1e-30;
-
-// Mechanical stops (assumed: somewhat outside the reachable part of the vendor's workspace).
-// A stop is a stiff implicit spring and damper. Beyond kStopSoft the joint is held, so that q is bounded under every
-// force.
-constexpr std::array<double, 3> kStopLow{-1.1, -0.4, -0.9};
-constexpr std::array<double, 3> kStopHigh{1.1, 1.8, 1.6};
-constexpr double kStopElbow = 1.45;  // limit of |q3 - q2|: the arm is neither fully stretched nor folded
-constexpr double kStopK = 20.0, kStopB = 0.05, kStopSoft = 0.6;
 
 /// Symmetric 3x3 matrix of the pattern [a11 0 0; 0 a22 a23; 0 a23 a33].
 struct Block {

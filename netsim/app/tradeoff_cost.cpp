@@ -31,6 +31,9 @@ using control::VirtualTool;
 
 constexpr double kTick = 1e-3;
 constexpr int kSteps = 100, kWarm = 50;  ///< counted steps of each choice, and steps before them
+/// The same of models, of which there are many; they are counted while the hand moves.
+constexpr int kModelSteps = 20;
+constexpr double kModelFrom = 0.4;  ///< [s]
 
 /// A tool, and a seat with a copy of it, that press on the surface.
 struct Bodies {
@@ -83,6 +86,7 @@ extern "C" {
   b->end.move(b->in);
   b->copy.delivered(b->copy.step(b->hand, b->in.authority, b->end));
 }
+[[gnu::noipa]] void tandem_tradeoff_model(tradeoff::ModelRun* run) { run->advance(); }
 }
 
 namespace {
@@ -90,17 +94,45 @@ namespace {
 using Step = void (*)(Bodies*);
 constexpr std::array<Step, 2> kCounted{tandem_tradeoff_tool, tandem_tradeoff_seat};
 
-/// Shortest mean time of a step over several loops [ns].
+/// Shortest mean time of a step over several loops [ns]. @param per_loop  steps, each after `prepare`, which is timed
+/// alone and subtracted
+template <class Step, class Prepare>
+double time_of(int per_loop, Step&& step, Prepare&& prepare) {
+  constexpr int kLoops = 15;
+  const auto least_of = [&](auto&& body) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int loop = 0; loop < kLoops; ++loop) {
+      const auto begin = std::chrono::steady_clock::now();
+      for (int i = 0; i < per_loop; ++i) body();
+      const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
+      least = std::min(least, took.count() / per_loop);
+    }
+    return least;
+  };
+  const double both = least_of([&] {
+    prepare();
+    step();
+  });
+  return std::max(0.0, both - least_of(prepare));
+}
+
 double time_of(Bodies& bodies, Step step) {
-  constexpr int kLoops = 15, kPerLoop = 200;
-  double least = std::numeric_limits<double>::infinity();
-  for (int loop = 0; loop < kLoops; ++loop) {
-    const auto begin = std::chrono::steady_clock::now();
-    for (int i = 0; i < kPerLoop; ++i) step(&bodies);
-    const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-    least = std::min(least, took.count() / kPerLoop);
+  return time_of(200, [&] { step(&bodies); }, [] {});
+}
+
+/// A run in the middle of its motion: in contact if there is a surface.
+tradeoff::ModelRun moving(const tradeoff::ModelChoice& choice) {
+  tradeoff::ModelRun run(choice, kModelFrom);
+  for (int i = 0; i < kModelSteps; ++i) {
+    run.prepare();
+    run.advance();  // the code of the counted function, but without its name
   }
-  return least;
+  return run;
+}
+
+double time_of(const tradeoff::ModelChoice& choice) {
+  tradeoff::ModelRun run = moving(choice);
+  return time_of(kModelSteps, [&] { tandem_tradeoff_model(&run); }, [&] { run.prepare(); });
 }
 
 std::vector<Numerics> all_choices(const std::vector<std::uint8_t>& substeps) {
@@ -172,9 +204,9 @@ class ScratchFolder {
 
 }  // namespace
 
-int run_cost_worker(const tradeoff::ToolTask& task, const std::vector<std::uint8_t>& substeps) {
-  for (const Numerics& numerics : all_choices(substeps)) {
-    Bodies bodies(task, numerics);
+int run_cost_worker(const CostSubjects& subjects) {
+  for (const Numerics& numerics : subjects.tool ? all_choices(subjects.substeps) : std::vector<Numerics>{}) {
+    Bodies bodies(*subjects.tool, numerics);
     for (int i = 0; i < kWarm; ++i) {  // by the code of the counted functions, but without their names
       bodies.tool.step(kTick, bodies.pulls);
       bodies.end.move(bodies.in);
@@ -185,19 +217,32 @@ int run_cost_worker(const tradeoff::ToolTask& task, const std::vector<std::uint8
       tandem_tradeoff_next();  // callgrind writes the counts and begins again at zero
     }
   }
+  for (const tradeoff::ModelChoice& choice : subjects.models) {
+    tradeoff::ModelRun run = moving(choice);
+    for (int i = 0; i < kModelSteps; ++i) {
+      run.prepare();
+      tandem_tradeoff_model(&run);
+    }
+    tandem_tradeoff_next();
+  }
   return io::kExitDone;
 }
 
-CostTable::CostTable(const tradeoff::ToolTask& task, const std::vector<std::uint8_t>& substeps, bool times)
-    : choices_(all_choices(substeps)), costs_(choices_.size()) {
-  for (std::size_t i = 0; times && i < choices_.size(); ++i) {
-    Bodies bodies(task, choices_[i]);
+CostTable::CostTable(CostSubjects subjects, bool times)
+    : subjects_(std::move(subjects)),
+      choices_(subjects_.tool ? all_choices(subjects_.substeps) : std::vector<Numerics>{}),
+      costs_(choices_.size()),
+      model_costs_(subjects_.models.size()) {
+  if (!times) return;
+  for (std::size_t i = 0; i < choices_.size(); ++i) {
+    Bodies bodies(*subjects_.tool, choices_[i]);
     costs_[i].tool_ns = time_of(bodies, tandem_tradeoff_tool);
     costs_[i].seat_ns = time_of(bodies, tandem_tradeoff_seat);
   }
+  for (std::size_t i = 0; i < model_costs_.size(); ++i) model_costs_[i].ns = time_of(subjects_.models[i]);
 }
 
-std::string CostTable::count_instructions(const std::string& scene, const std::string& substeps, int stop_fd) {
+std::string CostTable::count_instructions(const std::vector<std::string>& arguments, int stop_fd) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   const ScratchFolder folder;
@@ -209,22 +254,34 @@ std::string CostTable::count_instructions(const std::string& scene, const std::s
                                  "--dump-before=tandem_tradeoff_next",
                                  "--toggle-collect=tandem_tradeoff_tool",
                                  "--toggle-collect=tandem_tradeoff_seat",
+                                 "--toggle-collect=tandem_tradeoff_model",
                                  self.string(),
                                  "tradeoff",
-                                 scene,
                                  "--under-callgrind"};
-  if (!substeps.empty()) words.insert(words.end(), {"--substeps", substeps});
+  words.insert(words.end(), arguments.begin(), arguments.end());
   const std::optional<int> status = run_quietly(std::move(words), stop_fd);
   if (!status) return "stopped, or valgrind is not installed";
   if (*status == 127) return "valgrind is not installed";
   if (*status != 0) return "callgrind failed";
-  for (std::size_t i = 0; i < 2 * choices_.size(); ++i) {
-    const auto counted = instructions_in(out.string() + "." + std::to_string(i + 1));
-    if (!counted || *counted <= 0) return "callgrind does not find this program's functions; is it stripped?";
-    (i % 2 == 0 ? costs_[i / 2].tool_instructions : costs_[i / 2].seat_instructions) = *counted / kSteps;
+  std::size_t dump = 0;
+  bool found = true;
+  const auto next = [&](int steps) {
+    const auto counted = instructions_in(out.string() + "." + std::to_string(++dump));
+    found = found && counted && *counted > 0;
+    return counted ? std::optional(*counted / steps) : std::nullopt;
+  };
+  for (tradeoff::Cost& cost : costs_) {
+    cost.tool_instructions = next(kSteps);
+    cost.seat_instructions = next(kSteps);
   }
-  counted_ = true;
-  return {};
+  for (tradeoff::ModelCost& cost : model_costs_) cost.instructions = next(kModelSteps);
+  if (found) {
+    counted_ = true;
+    return {};
+  }
+  for (tradeoff::Cost& cost : costs_) cost.tool_instructions = cost.seat_instructions = std::nullopt;
+  for (tradeoff::ModelCost& cost : model_costs_) cost.instructions = std::nullopt;
+  return "callgrind does not find this program's functions; is it stripped?";
 }
 
 tradeoff::Cost CostTable::of(const Numerics& numerics) const {

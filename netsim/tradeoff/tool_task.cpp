@@ -89,21 +89,24 @@ ToolSample sample_of(const ToolTask& task, const std::array<double, 3>& x, const
   return out;
 }
 
-SteppedTool::SteppedTool(const ToolTask& task, double tick_hz, const control::Numerics& numerics) noexcept
-    : task_(task), tick_hz_(tick_hz), tool_(task.tool, task.axes, task.contacts, numerics), hand_(hand_at(task, 0.0)) {
+SteppedTool::SteppedTool(const ToolTask& task, double tick_hz, const control::Numerics& numerics, double from) noexcept
+    : task_(task),
+      tick_hz_(tick_hz),
+      tool_(task.tool, task.axes, task.contacts, numerics),
+      ticks_(static_cast<std::size_t>(from * tick_hz)),
+      hand_(hand_at(task, from)) {
   AxisArray start{};
   for (std::size_t a = 0; a < task.axes; ++a) start[a] = hand_.x[a];
   tool_.rest_at(start);
 }
 
-bool SteppedTool::step() noexcept {
+void SteppedTool::prepare() noexcept {
   hand_ = hand_at(task_, static_cast<double>(++ticks_) / tick_hz_);
-  control::VirtualTool::Pulls pulls{};
+  pulls_ = {};
   for (std::size_t a = 0; a < task_.axes; ++a) {
-    pulls[a].spring(task_.k_c, hand_.x[a]);
-    pulls[a].damper(task_.b_rel, hand_.v[a]);
+    pulls_[a].spring(task_.k_c, hand_.x[a]);
+    pulls_[a].damper(task_.b_rel, hand_.v[a]);
   }
-  return tool_.step(1 / tick_hz_, pulls);
 }
 
 ToolSample SteppedTool::sample() const noexcept {

@@ -22,6 +22,9 @@ struct ToolTask {
 
   static constexpr double kDuration = 1;  ///< [s]
 };
+/// Distance from the truth beyond which a run counts as unstable [m].
+inline constexpr double kLost = 0.01;
+
 /// Position [m] and velocity [m/s] of the hand.
 template <class S>
 struct HandPoint {
@@ -48,10 +51,17 @@ struct ToolSample {
 /// The same tool, stepped by a session's code.
 class SteppedTool {
  public:
-  SteppedTool(const ToolTask& task, double tick_hz, const control::Numerics& numerics) noexcept;
-  /// Advances by one tick. The hand is sampled at its end, as a client does.
-  /// @return false if the result was not finite
-  bool step() noexcept;
+  /// @param from  time at which the motion begins, with the tool at rest at the hand [s]
+  SteppedTool(const ToolTask& task, double tick_hz, const control::Numerics& numerics, double from = 0) noexcept;
+  /// Moves the hand by one tick. The tool sees it as it is at the end of the tick, as a client samples it.
+  void prepare() noexcept;
+  /// Advances the tool by one tick. @return false if the result was not finite
+  bool advance() noexcept { return tool_.step(1 / tick_hz_, pulls_); }
+  /// Both, in this order.
+  bool step() noexcept {
+    prepare();
+    return advance();
+  }
   [[nodiscard]] ToolSample sample() const noexcept;
 
  private:
@@ -60,6 +70,7 @@ class SteppedTool {
   control::VirtualTool tool_;
   std::size_t ticks_ = 0;
   HandPoint<double> hand_;
+  control::VirtualTool::Pulls pulls_{};
 };
 
 }  // namespace tandem::netsim::tradeoff

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "common/control/numerics.h"
+#include "netsim/plot/svg_plot.h"
+#include "netsim/tradeoff/model_rows.h"
 #include "netsim/tradeoff/tool_task.h"
 
 /// The price of numerics: how far a simulated tool is from the truth, and what its steps cost. No clock; callers
@@ -50,9 +52,11 @@ struct Tradeoff {
   std::string scene;
   ToolTask task;
   double scene_tick_hz = 1000;
-  double force_rms_n = 0;  ///< of the truth
-  std::vector<Row> rows;
-  std::vector<Advice> advice;
+  double force_rms_n = 0;         ///< of the truth
+  std::vector<Row> rows;          ///< numerics of the simulated tool; none if a device moves the first tool
+  std::vector<Advice> advice;     ///< for these
+  std::vector<ModelRow> tiers;    ///< models of body and surfaces
+  std::vector<ModelRow> devices;  ///< numerics of the simulated device
   std::vector<std::string> notes;
   bool interrupted = false;
 };
@@ -69,7 +73,8 @@ struct Tradeoff {
 
 /// Marks the rows that no other row beats in both force error and work.
 void mark_pareto(std::vector<Row>& rows);
-/// Returns one advice per use.
+/// Returns one advice per use. Rows that differ by less than kAdviceMargin in work or in error count as equal; among
+/// equals a row in double, then one with the proof of passivity, then the cheaper one is advised.
 [[nodiscard]] std::vector<Advice> advice_for(const Tradeoff& tradeoff);
 
 /// Work of a core [instructions/s] of which the advice for many seats spends half.
@@ -79,11 +84,33 @@ inline constexpr double kSeatsOfACore = 32;
 /// [N].
 inline constexpr double kLessonError = 0.02, kLessonForce = 0.02;
 
+/// Relative difference below which two rows count as equal. Counts and errors differ by that much between compilers.
+inline constexpr double kAdviceMargin = 0.05;
+
 /// Table for a terminal: the rows of the Pareto front, or all. @param times  with the columns in ns
 [[nodiscard]] std::string tradeoff_text(const Tradeoff& tradeoff, bool all, bool times);
-/// One line per row, SI units.
+/// One line per row of the tool, of the tiers and of the device, SI units.
 [[nodiscard]] std::string tradeoff_csv(const Tradeoff& tradeoff, bool times);
-/// Force error over work in decades, one line per integrator and precision, as an SVG file.
+/// Force error over work in decades, one line per integrator, one panel per precision: of the tool and of the device.
+[[nodiscard]] plot::Figure tool_figure(const Tradeoff& tradeoff);
+[[nodiscard]] plot::Figure device_figure(const Tradeoff& tradeoff);
+/// The first figure that has rows, as an SVG file.
 [[nodiscard]] std::string tradeoff_svg(const Tradeoff& tradeoff);
+/// All tables and figures as one HTML file: no script, no external resource, light and dark.
+/// @param version  of the program
+[[nodiscard]] std::string tradeoff_page(const Tradeoff& tradeoff, bool times, const std::string& version);
+
+/// A row in words and numbers, as all tables print it.
+struct RowCells {
+  std::string tick, integrator, type, substeps;
+  std::vector<std::string> costs, numbers;
+};
+/// @param times  with ns
+[[nodiscard]] RowCells cells_of(const Row& row, bool times);
+[[nodiscard]] RowCells cells_of(const ModelRow& row, bool times);
+[[nodiscard]] std::string model_name(const ModelRow& row);
+[[nodiscard]] std::string contact_name(const ModelRow& row);
+/// Returns the keys of a scene that choose a row.
+[[nodiscard]] std::string words_of(const Row& row);
 
 }  // namespace tandem::netsim::tradeoff

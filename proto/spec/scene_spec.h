@@ -105,6 +105,25 @@ struct Point {
       z = 0;     ///< up
 };
 
+/// Integrators of a simulated tool or device (common/control/numerics.h).
+enum class IntegratorKind : std::uint8_t { kImplicitEuler, kImplicitMidpoint, kSemiImplicitEuler, kRk4, kExact };
+/// Numbers in which a simulated tool or device is stepped.
+enum class PrecisionKind : std::uint8_t { kDouble, kFloat };
+/// Largest number of steps per tick.
+inline constexpr std::uint32_t kSubstepsMax = 64;
+/// How the server steps a simulated tool, and every client its copy; or how a simulated device is stepped.
+struct NumericsSpec {
+  IntegratorKind integrator = IntegratorKind::kImplicitEuler;  ///< method of one step
+  PrecisionKind precision = PrecisionKind::kDouble;            ///< numbers of one step
+  std::uint32_t substeps = 1;                                  ///< steps per tick, 1 to kSubstepsMax
+  /// Whether no step creates energy for any gains and surfaces.
+  [[nodiscard]] bool keeps_proof() const noexcept {
+    return integrator == IntegratorKind::kImplicitEuler && precision == PrecisionKind::kDouble;
+  }
+  /// Whether this is the default, one implicit step per tick.
+  [[nodiscard]] bool is_default() const noexcept { return keeps_proof() && substeps == 1; }
+};
+
 /// Simulated devices: Touch with three joints, or one prismatic axis.
 enum class DeviceModel : std::uint8_t { kTouch, kLinear };
 /// A simulated device (hal/sim/sim_device.h).
@@ -121,6 +140,7 @@ struct SimDeviceSpec {
   double load = 0;                          ///< mass at the tip that the built-in model does not contain [kg]
   bool calibrate = false;                   ///< weight and friction are measured by a slow motion before the session
   Point start;                              ///< tip position at the start [m]
+  std::optional<NumericsSpec> numerics;     ///< steps of its motion; empty: linearly implicit, at most 0.25 ms each
 };
 
 /// Simulated hands.
@@ -266,25 +286,6 @@ struct PhaseSpec {
   double from = 0,       ///< begin on the session clock [s]
       to = 0;            ///< end on the session clock [s]
   bool contact = false;  ///< the report evaluates contact forces
-};
-
-/// Integrators of a simulated tool (common/control/numerics.h).
-enum class IntegratorKind : std::uint8_t { kImplicitEuler, kImplicitMidpoint, kSemiImplicitEuler, kRk4, kExact };
-/// Numbers in which a simulated tool is stepped.
-enum class PrecisionKind : std::uint8_t { kDouble, kFloat };
-/// Largest number of steps per tick.
-inline constexpr std::uint32_t kSubstepsMax = 64;
-/// How the server steps a simulated tool, and every client its copy.
-struct NumericsSpec {
-  IntegratorKind integrator = IntegratorKind::kImplicitEuler;  ///< method of one step
-  PrecisionKind precision = PrecisionKind::kDouble;            ///< numbers of one step
-  std::uint32_t substeps = 1;                                  ///< steps per tick, 1 to kSubstepsMax
-  /// Whether no step creates energy for any gains and surfaces.
-  [[nodiscard]] bool keeps_proof() const noexcept {
-    return integrator == IntegratorKind::kImplicitEuler && precision == PrecisionKind::kDouble;
-  }
-  /// Whether this is the default, one implicit step per tick.
-  [[nodiscard]] bool is_default() const noexcept { return keeps_proof() && substeps == 1; }
 };
 
 /// A validated scene.

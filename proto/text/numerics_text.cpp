@@ -56,6 +56,16 @@ void check_friction(const NumericsSpec& numerics, const EnvironmentSpec& environ
                   choice.value);
 }
 
+void check_device_numerics(const SimDeviceSpec& device, const std::string& path, MessageValidator& validator) {
+  const bool is_explicit = device.numerics && (device.numerics->integrator == IntegratorKind::kSemiImplicitEuler ||
+                                               device.numerics->integrator == IntegratorKind::kRk4);
+  if (!is_explicit || !(device.friction > 0)) return;
+  validator.error(text::child_path(path, "integrator"),
+                  "is explicit and cannot follow friction at rest, friction_n: " + text::number_text(device.friction) +
+                      "; use IMPLICIT_EULER, IMPLICIT_MIDPOINT or EXACT, or set friction_n: 0",
+                  pb::Numerics::Integrator_Name(static_cast<pb::Numerics::Integrator>(device.numerics->integrator)));
+}
+
 std::optional<LawProblem> numerics_problem(const SceneSpec& scene) {
   if (scene.numerics.is_default()) return std::nullopt;
   for (const ToolSpec& tool : scene.tools) {

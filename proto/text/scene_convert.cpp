@@ -99,6 +99,10 @@ void read_device(const Message& in, std::size_t dof, const std::string& path, Me
   if (in.has_mass_kg()) out.mass = in.mass_kg();
   out.load = in.load_kg();
   out.calibrate = in.calibrate();
+  if (in.has_numerics()) {
+    read_numerics(in.numerics(), out.numerics.emplace());
+    check_device_numerics(out, child_path(path, "numerics"), validator);
+  }
   read_keys(in.start_m(), kPointKeys, out.start);
   if (linear && (out.start.y != 0 || out.start.z != 0)) {
     validator.error(child_path(path, "start_m"), "a LINEAR device moves along x only");
@@ -117,6 +121,7 @@ void write_device(const SimDeviceSpec& in, Message& out) {
   }
   if (in.load != 0) out.set_load_kg(in.load);
   if (in.calibrate) out.set_calibrate(true);
+  if (in.numerics) write_numerics(*in.numerics, *out.mutable_numerics());
   write_keys(in.start, kPointKeys, *out.mutable_start_m());
 }
 

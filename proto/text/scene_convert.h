@@ -53,6 +53,8 @@ void write_gate(const GateSpec& in, pb::Gate& out);
 /// Rejects friction that the numerics do not solve. @param whose  owner of the surfaces, for the message
 void check_friction(const NumericsSpec& numerics, const EnvironmentSpec& environment, const std::string& whose,
                     text::MessageValidator& validator);
+/// Rejects an integrator that cannot follow the friction of its device. @param path  of the message numerics
+void check_device_numerics(const SimDeviceSpec& device, const std::string& path, text::MessageValidator& validator);
 void write_numerics(const NumericsSpec& in, pb::Numerics& out);
 void write_seat(const SeatSpec& in, pb::Seat& out);
 void write_slave(const SimDeviceSpec& device, const EnvironmentSpec& environment, pb::Slave& out);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "tests/support/simulation_run.h"
@@ -63,6 +64,29 @@ TEST(NumericsInSessions, ServerAndClientStepWithTheSame) {
     EXPECT_NEAR(other.pressed_m, usual.pressed_m, 0.1 * usual.pressed_m) << "the same force";
     EXPECT_LE(other.apart_max, 1.5 * usual.apart_max + 1e-5);
   }
+}
+
+// Devices stepped otherwise than by their own scheme meet the same session: every invariant holds, and hands press
+// alike.
+TEST(NumericsInSessions, DevicesMayHaveNumericsOfTheirOwn) {
+  const auto pressed = [](const std::optional<NumericsSpec>& numerics) {
+    SceneSpec scene = pressing({});
+    for (SeatSpec& seat : scene.seats) seat.device.numerics = numerics;
+    double depth = 0;
+    const test::RunResult run = test::run(scene, test::delayed(20), 1, [&](netsim::Simulation& simulation) {
+      if (const control::VirtualTool* const tool = simulation.session().tool(0).body(); tool != nullptr)
+        depth = std::max(depth, tool->penetration());
+    });
+    EXPECT_EQ(run.trouble, "");
+    return depth;
+  };
+  const double usual = pressed({});
+  ASSERT_GT(usual, 5e-5);
+  using enum IntegratorKind;
+  for (const NumericsSpec& numerics :
+       {NumericsSpec{.integrator = kImplicitEuler, .substeps = 4}, NumericsSpec{.integrator = kImplicitMidpoint},
+        NumericsSpec{.integrator = kExact, .precision = PrecisionKind::kFloat}})
+    EXPECT_NEAR(pressed(numerics), usual, 0.05 * usual) << static_cast<int>(numerics.integrator);
 }
 
 }  // namespace

@@ -73,9 +73,9 @@ const std::array<Layer, 43> kLayers{{
      {"Eigen"},
      "hal/core is base, Eigen and the plain structs of a scene; it knows no driver, no bus and no simulation"},
     {"hal/sim",
-     {"common/base", "hal/core", "hal/sim", "proto/spec/scene_spec.h"},
+     {"common/base", "common/control/integrator.h", "hal/core", "hal/sim", "proto/spec/scene_spec.h"},
      {"Eigen"},
-     "hal/sim simulates devices, hands and environments: core and the plain structs of a scene"},
+     "hal/sim simulates devices, hands and environments: core, integrators and the plain structs of a scene"},
     {"hal/drivers",
      {"common/base", "hal/core", "hal/drivers", "hal/sim", "proto/spec/device_spec.h", "proto/spec/spacemouse_spec.h",
       "proto/spec/woodenhaptics_spec.h"},
@@ -157,9 +157,11 @@ const std::array<Layer, 43> kLayers{{
      {"Eigen", "json"},
      "what hands feel is measured in the simulation: no files, clocks or threads; those belong to netsim/app"},
     {"netsim/tradeoff",
-     {"common/base", "common/control", "common/setup", "netsim/plot", "netsim/tradeoff", "proto/spec"},
-     {},
-     "numerics of the simulated tool are judged by pure functions: no session, files or clocks; those belong to "
+     {"common/base", "common/control", "common/setup", "hal/core", "hal/sim", "netsim/demo/captioned_figure.h",
+      "netsim/demo/report_style.h", "netsim/plot", "netsim/tradeoff", "proto/spec"},
+     {"Eigen"},
+     "numerics of simulated tools and devices are judged by pure functions: no session, files or clocks; those belong "
+     "to "
      "netsim/app"},
     {"netsim/cells",
      {"common/base", "common/setup", "hal/sim", "netsim/cells", "netsim/demo/captioned_figure.h",

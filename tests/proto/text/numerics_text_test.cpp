@@ -84,6 +84,54 @@ TEST(SceneNumerics, ReachTheClientUnchanged) {
   EXPECT_EQ(setup->numerics.substeps, 5u);
 }
 
+TEST(DeviceNumerics, AreAbsentByDefaultAndReadFromDevicesAndSlaves) {
+  const auto plain = parse_scene(good(), "s");
+  ASSERT_TRUE(plain);
+  EXPECT_FALSE(plain->seats[0].device.numerics || plain->tools[0].slave.numerics);
+  EXPECT_EQ(effective_scene_text(*plain).find("device.numerics"), std::string::npos);
+  std::string text = with("slave { model: TOUCH }", "slave { model: TOUCH numerics { substeps: 8 } }");
+  const auto scene = parse_scene(text, "s");
+  ASSERT_TRUE(scene) << to_text(scene.error());
+  ASSERT_TRUE(scene->tools[0].slave.numerics);
+  EXPECT_EQ(scene->tools[0].slave.numerics->substeps, 8u);
+  EXPECT_EQ(scene->tools[0].slave.numerics->integrator, IntegratorKind::kImplicitEuler);
+  EXPECT_TRUE(scene->numerics.is_default()) << "those of the tools are others";
+  EXPECT_NE(effective_scene_text(*scene).find("slave.numerics.substeps"), std::string::npos);
+}
+
+TEST(DeviceNumerics, ReachTheClientUnchanged) {
+  auto scene = parse_scene(good(), "s");
+  ASSERT_TRUE(scene);
+  scene->seats[0].device.numerics = NumericsSpec{IntegratorKind::kExact, PrecisionKind::kFloat, 7};
+  std::array<char, 1 << 16> bytes{};
+  const std::size_t size = encode_seat_setup(seat_setup(*scene, 0), bytes);
+  const auto setup = decode_seat_setup(std::span<const char>(bytes).first(size));
+  ASSERT_TRUE(setup) << to_text(setup.error());
+  ASSERT_TRUE(setup->seat.device.numerics);
+  EXPECT_EQ(setup->seat.device.numerics->integrator, IntegratorKind::kExact);
+  EXPECT_EQ(setup->seat.device.numerics->precision, PrecisionKind::kFloat);
+  EXPECT_EQ(setup->seat.device.numerics->substeps, 7u);
+}
+
+TEST(DeviceNumerics, RefuseWhatMakesNoSense) {
+  expect_one(with("slave { model: TOUCH }", "slave { model: TOUCH numerics { substeps: @65 } }"),
+             "tool[0].slave.numerics.substeps", "64");
+  for (const std::string how : {"RK4", "SEMI_IMPLICIT_EULER"}) {
+    expect_one(
+        with("slave { model: TOUCH }", "slave { model: TOUCH friction_n: 0.1 numerics { integrator: @" + how + " } }"),
+        "tool[0].slave.numerics.integrator", "friction_n: 0.1");
+    EXPECT_EQ(to_text(errors_of(with("slave { model: TOUCH }",
+                                     "slave { model: TOUCH friction_n: 0 numerics { integrator: " + how + " } }"))),
+              "");
+  }
+  EXPECT_EQ(to_text(errors_of(
+                with("slave { model: TOUCH }",
+                     "slave { model: TOUCH friction_n: 0.1 numerics { integrator: EXACT precision: FLOAT } }"))),
+            "");
+  expect_one(with("slave { model: TOUCH }", "slave { model: @VIRTUAL numerics { substeps: 2 } }"),
+             "tool[0].slave.model", "has no device");
+}
+
 TEST(SceneNumerics, AClientRefusesFrictionThatTheStepDoesNotSolve) {
   const auto scene = parse_scene(scene_with("numerics { substeps: 5 }", "wall { friction: 0.2 }"), "s");
   ASSERT_TRUE(scene);
