@@ -57,7 +57,7 @@ class SeatEndpoint {
     return alive(now) && (rx_->ready || rx_->engaged) && !rx_->stop && !misbehaviour_.quarantined(now);
   }
   [[nodiscard]] bool ever_heard() const noexcept { return generation_ > 0; }
-  /// What is wrong with the seat's link or client.
+  /// Faults of the seat's link or client.
   struct Condition {
     bool lost = true;  ///< not alive, or one direction of the link is lost
     bool quarantined = false;
