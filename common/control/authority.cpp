@@ -32,7 +32,10 @@ ToolAuthority::ToolAuthority(std::size_t masters, double slew, double tank) noex
 
 bool ToolAuthority::request(const MasterArray& wanted) noexcept {
   const auto weights = normalised(wanted);
-  if (weights) wanted_ = *weights;
+  if (weights) {
+    wanted_ = *weights;
+    settled_ = false;
+  }
   return weights.has_value();
 }
 
@@ -49,7 +52,9 @@ std::optional<MasterArray> ToolAuthority::normalised(const MasterArray& wanted) 
 }
 
 void ToolAuthority::step(const Input& in) noexcept {
-  tank_.fill(in.dissipated);
+  fill(in.dissipated);
+  settled_ = false;
+  present_ = in.present;
   // Renormalised over the masters present: a passive observer (authority 0) never inherits authority.
   MasterArray goal{};
   double sum = 0;
@@ -73,7 +78,8 @@ void ToolAuthority::step(const Input& in) noexcept {
 
   double farthest = 0;
   for (std::size_t i = 0; i < masters_; ++i) farthest = std::max(farthest, std::abs(goal[i] - now_[i]));
-  if (farthest == 0) return;
+  settled_ = farthest == 0;
+  if (settled_) return;
   const double slew = somebody_lost ? std::max(slew_, kLossSlew) : slew_;
   double share = std::min(1.0, slew * in.dt / farthest);
   double cost = 0;

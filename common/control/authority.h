@@ -59,6 +59,13 @@ class ToolAuthority {
   /// Moves all authorities towards the requested ones, renormalised over the masters present; called once per tick.
   void step(const Input& in) noexcept TANDEM_REALTIME;
 
+  /// Whether `step` would move no authority with these masters present: then only `fill` has an effect.
+  [[nodiscard]] bool settled(const std::array<bool, kMastersMax>& present) const noexcept {
+    return settled_ && present == present_;
+  }
+  /// Adds heat of the tool to the tank, as `step` does. @param dissipated  [J]
+  void fill(double dissipated) noexcept TANDEM_REALTIME { tank_.fill(dissipated); }
+
   /// Authority of one master [0, 1].
   [[nodiscard]] double alpha(std::size_t master) const noexcept { return now_[master]; }
   /// Returns the authority of each master, of sum 1 or 0.
@@ -77,6 +84,8 @@ class ToolAuthority {
   AuthorityTank tank_;
   MasterArray wanted_{}, now_{};
   bool held_ = true;
+  bool settled_ = false;                     ///< the last step found all authorities at their goals
+  std::array<bool, kMastersMax> present_{};  ///< masters present in the last step
   double injected_ = 0;
 };
 

@@ -90,14 +90,25 @@ class EscHub {
   /// @param braked  no present seat has authority over the tool
   void set_authority(std::size_t tool, const MasterArray& alpha, bool braked) noexcept TANDEM_REALTIME {
     braked_[tool] = braked;
+    alone_[tool] = true;
     for (std::size_t i = 0; i < p_.masters; ++i) {
       Coupling& c = couplings_[i][tool];
       c.alpha = alpha[i];
       c.share = std::max(c.alpha, c.follow);
+      alone_[tool] &= c.follow == c.alpha && (c.alpha == 0 || c.alpha >= 1);
     }
   }
   /// Takes over the port of a tool, after each of its steps and when it is placed.
-  void set_tool(std::size_t tool, const ToolPort& port) noexcept TANDEM_REALTIME { tools_[tool] = port; }
+  void set_tool(std::size_t tool, const ToolPort& port) noexcept TANDEM_REALTIME {
+    ToolPort& own = tools_[tool];
+    for (std::size_t a = 0; a < p_.axes; ++a) {
+      own.x[a] = port.x[a];
+      own.v[a] = port.v[a];
+      own.moved[a] = port.moved[a];
+      own.dissipated[a] = port.dissipated[a];
+      own.surface_force[a] = port.surface_force[a];
+    }
+  }
 
   /// Returns the weights of a seat at a tool.
   [[nodiscard]] const Coupling& coupling(std::size_t seat, std::size_t tool) const noexcept {
@@ -156,6 +167,8 @@ class EscHub {
     for (std::size_t a = 0; a < p_.axes; ++a) sources_[tool].fill(0.5 * p_.eta * tools_[tool].dissipated[a]);
   }
 
+  /// At most one hand follows this tool, and it has full authority: the flow sources of the tool give nothing.
+  [[nodiscard]] bool alone(std::size_t tool) const noexcept { return alone_[tool]; }
   /// Eq. 3: adds the energy that the sources of a tool gave to a master during the tool's last step, per axis [J].
   /// @param master    number of the master
   /// @param tool      number of the tool
@@ -202,6 +215,7 @@ class EscHub {
   std::array<FlowSources, kToolsMax> sources_;
   std::array<ToolPort, kToolsMax> tools_{};
   std::array<bool, kToolsMax> braked_{};
+  std::array<bool, kToolsMax> alone_{};  ///< as of the last `set_authority`
   std::array<AxisArray, kSeatsMax> targets_{};
 };
 

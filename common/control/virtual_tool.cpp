@@ -39,17 +39,22 @@ void VirtualTool::rest_at(const AxisArray& x) noexcept {
 }
 
 bool VirtualTool::implicit_step(double dt, const Pulls& pulls) noexcept {
-  Equations free;
   Vector3 velocity{};
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    free.matrix[a][a] = 1;
-    if (a >= axes_) continue;
-    const Pull& p = pulls[a];
-    free.matrix[a][a] = gains_.m + dt * (gains_.b + p.b) + dt * dt * p.k;
-    free.rhs[a] = gains_.m * v_[a] + dt * (p.k_anchor - p.k * x_[a] + p.b_velocity);
-    velocity[a] = free.rhs[a] / free.matrix[a][a];
+  for (std::size_t a = 0; a < axes_; ++a) {
+    const FreeAxis free = free_axis(a, dt, pulls[a]);
+    velocity[a] = free.momentum / free.inertia;
   }
-  meet_surfaces(dt, free, velocity);
+  surface_force_ = surface_k_ = surface_b_ = {};
+  if (contacts_.size() > 0) {
+    Equations free;
+    for (std::size_t a = 0; a < kAxes; ++a) free.matrix[a][a] = 1;
+    for (std::size_t a = 0; a < axes_; ++a) {
+      const FreeAxis axis = free_axis(a, dt, pulls[a]);
+      free.matrix[a][a] = axis.inertia;
+      free.rhs[a] = axis.momentum;
+    }
+    meet_surfaces(dt, free, velocity);
+  }
   for (std::size_t a = 0; a < axes_; ++a) {
     if (std::isfinite(x_[a] + dt * velocity[a])) continue;
     v_ = surface_force_ = surface_k_ = surface_b_ = {};
@@ -70,8 +75,6 @@ void VirtualTool::set_received_contacts(const ContactSet& received) noexcept {
 /// Determines the touched surfaces by rounds: a surface that the step would enter is added; one that would have to pull
 /// is removed.
 void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector3& velocity) noexcept {
-  surface_force_ = surface_k_ = surface_b_ = {};
-  if (contacts_.size() == 0) return;
   Surfaces surfaces{};
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Contact& contact = contacts_[c];

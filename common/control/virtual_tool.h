@@ -93,6 +93,14 @@ class VirtualTool {
   /// Advances by one step of the integrator in numbers of type S.
   template <class S>
   bool linear_step(double dt, const Pulls& pulls) noexcept;
+  /// Equation of one axis without surfaces: inertia times the velocity at the end of the step equals momentum.
+  struct FreeAxis {
+    double inertia, momentum;
+  };
+  [[nodiscard]] FreeAxis free_axis(std::size_t axis, double dt, const Pull& pull) const noexcept {
+    return {gains_.m + dt * (gains_.b + pull.b) + dt * dt * pull.k,
+            gains_.m * v_[axis] + dt * (pull.k_anchor - pull.k * x_[axis] + pull.b_velocity)};
+  }
   void feel_surfaces() noexcept;
   /// The equations of one step: matrix v' = rhs.
   struct Equations {

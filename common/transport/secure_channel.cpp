@@ -19,18 +19,23 @@ SecureChannel::SecureChannel(const Params& p)
 
 std::expected<SecureChannel::Opened, DropReason> SecureChannel::open(Time now,
                                                                      std::span<const std::byte> datagram) noexcept {
+  if (const auto header = read_header(datagram)) return open(now, *header, datagram);
+  drop(DropReason::kHeader);
+  return std::unexpected(DropReason::kHeader);
+}
+
+std::expected<SecureChannel::Opened, DropReason> SecureChannel::open(Time now, const Header& header,
+                                                                     std::span<const std::byte> datagram) noexcept {
   const auto refuse = [this](DropReason why) {
-    ++stats_.dropped[static_cast<std::size_t>(why)];
+    drop(why);
     return std::unexpected(why);
   };
-  const auto header = read_header(datagram);
-  if (!header) return refuse(DropReason::kHeader);
-  if (header->cid != own_cid_) return refuse(DropReason::kCid);
-  if (window_.check(header->counter) == ReplayWindow::Verdict::kTooOld) return refuse(DropReason::kTooOld);
+  if (header.cid != own_cid_) return refuse(DropReason::kCid);
+  if (window_.check(header.counter) == ReplayWindow::Verdict::kTooOld) return refuse(DropReason::kTooOld);
   const std::span<std::byte> plaintext{plaintext_.data(), datagram.size() - kHeaderSize - kTagSize};
-  if (!opening_.open(now, *header, datagram, plaintext)) return refuse(DropReason::kTag);
-  if (window_.record(header->counter) == ReplayWindow::Verdict::kDuplicate) return refuse(DropReason::kDuplicate);
-  Opened opened{header->type, header->counter, !any_acted_ || header->counter > acted_, plaintext};
+  if (!opening_.open(now, header, datagram, plaintext)) return refuse(DropReason::kTag);
+  if (window_.record(header.counter) == ReplayWindow::Verdict::kDuplicate) return refuse(DropReason::kDuplicate);
+  Opened opened{header.type, header.counter, !any_acted_ || header.counter > acted_, plaintext};
   if (!opened.newer && stats_.accepted > 0 && opened.counter >= stats_.first) ++stats_.late;
   return opened;
 }

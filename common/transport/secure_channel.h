@@ -65,6 +65,9 @@ class SecureChannel {
   /// The plaintext is valid until the next call.
   [[nodiscard]] std::expected<Opened, DropReason> open(Time now,
                                                        std::span<const std::byte> datagram) noexcept TANDEM_REALTIME;
+  /// Does the same for a datagram whose header was read already. @param header  result of `read_header(datagram)`
+  [[nodiscard]] std::expected<Opened, DropReason> open(Time now, const Header& header,
+                                                       std::span<const std::byte> datagram) noexcept TANDEM_REALTIME;
   /// Applies an opened datagram that is `newer`, decoded and in range.
   void accept(Time now, const Opened& opened, const wire::Preamble& preamble) noexcept TANDEM_REALTIME;
   /// Counts an opened datagram that is decoded and in range but no sample (AUTHORITY, PATH).

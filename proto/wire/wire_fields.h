@@ -38,29 +38,32 @@ class FieldWriter {
   explicit FieldWriter(std::span<std::byte> body) noexcept : at_(body.data()) {}
 
   template <std::size_t N, class Count>
-  void doubles(std::uint32_t number, const std::array<double, N>& in, Count count, double) noexcept {
+  [[gnu::always_inline]] void doubles(std::uint32_t number, const std::array<double, N>& in, Count count,
+                                      double) noexcept {
     array(number, 8 * count);
     copy(in.data(), count);
   }
   template <std::size_t N, class Count>
-  void floats(std::uint32_t number, const std::array<double, N>& in, Count count, double) noexcept {
+  [[gnu::always_inline]] void floats(std::uint32_t number, const std::array<double, N>& in, Count count,
+                                     double) noexcept {
     array(number, 4 * count);
     for (std::size_t i = 0; i < count; ++i) put(static_cast<float>(in[i]));
   }
   template <class Count>
-  void energies(std::uint32_t number, const EnergyArray& in, Count count, std::uint64_t) noexcept {
+  [[gnu::always_inline]] void energies(std::uint32_t number, const EnergyArray& in, Count count,
+                                       std::uint64_t) noexcept {
     array(number, 8 * count);
     copy(in.data(), count);
   }
-  void number64(std::uint32_t number, double value, double, double) noexcept {
+  [[gnu::always_inline]] void number64(std::uint32_t number, double value, double, double) noexcept {
     structure(tag(number, Encoding::kFixed64));
     put(value);
   }
-  void number32(std::uint32_t number, double value, double, double) noexcept {
+  [[gnu::always_inline]] void number32(std::uint32_t number, double value, double, double) noexcept {
     structure(tag(number, Encoding::kFixed32));
     put(static_cast<float>(value));
   }
-  void word(std::uint32_t number, std::uint32_t value, std::uint32_t = 0) noexcept {
+  [[gnu::always_inline]] void word(std::uint32_t number, std::uint32_t value, std::uint32_t = 0) noexcept {
     structure(tag(number, Encoding::kFixed32));
     put(value);
   }
@@ -86,24 +89,24 @@ class FieldWriter {
   }
 
  private:
-  void structure(std::uint32_t value) noexcept {
+  [[gnu::always_inline]] void structure(std::uint32_t value) noexcept {
     if (one_byte(value)) {
       put(static_cast<std::uint8_t>(value));
     } else {
       put(two_bytes(value));
     }
   }
-  void array(std::uint32_t number, std::size_t bytes) noexcept {
+  [[gnu::always_inline]] void array(std::uint32_t number, std::size_t bytes) noexcept {
     structure(tag(number, Encoding::kPacked));
     structure(static_cast<std::uint32_t>(bytes));
   }
   template <class T>
-  void put(T value) noexcept {
+  [[gnu::always_inline]] void put(T value) noexcept {
     std::memcpy(at_, &value, sizeof value);
     at_ += sizeof value;
   }
   template <class T, class Count>
-  void copy(const T* from, Count count) noexcept {
+  [[gnu::always_inline]] void copy(const T* from, Count count) noexcept {
     std::memcpy(at_, from, sizeof(T) * count);
     at_ += sizeof(T) * count;
   }
@@ -118,34 +121,38 @@ class FieldReader {
   explicit FieldReader(std::span<const std::byte> body) noexcept : at_(body.data()) {}
 
   template <std::size_t N, class Count>
-  void doubles(std::uint32_t number, std::array<double, N>& out, Count count, double limit) noexcept {
+  [[gnu::always_inline]] void doubles(std::uint32_t number, std::array<double, N>& out, Count count,
+                                      double limit) noexcept {
     array(number, 8 * count);
     copy(out.data(), count);
     judge(out, count, limit);
   }
   template <std::size_t N, class Count>
-  void floats(std::uint32_t number, std::array<double, N>& out, Count count, double limit) noexcept {
+  [[gnu::always_inline]] void floats(std::uint32_t number, std::array<double, N>& out, Count count,
+                                     double limit) noexcept {
     array(number, 4 * count);
     for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<double>(get<float>());
     judge(out, count, limit);
   }
   template <class Count>
-  void energies(std::uint32_t number, EnergyArray& out, Count count, std::uint64_t limit) noexcept {
+  [[gnu::always_inline]] void energies(std::uint32_t number, EnergyArray& out, Count count,
+                                       std::uint64_t limit) noexcept {
     array(number, 8 * count);
     copy(out.data(), count);
     for (std::size_t i = 0; i < count; ++i) in_range_ &= out[i] <= limit;
   }
-  void number64(std::uint32_t number, double& out, double low, double high) noexcept {
+  [[gnu::always_inline]] void number64(std::uint32_t number, double& out, double low, double high) noexcept {
     structure(tag(number, Encoding::kFixed64));
     out = get<double>();
     judge(out, low, high);
   }
-  void number32(std::uint32_t number, double& out, double low, double high) noexcept {
+  [[gnu::always_inline]] void number32(std::uint32_t number, double& out, double low, double high) noexcept {
     structure(tag(number, Encoding::kFixed32));
     out = static_cast<double>(get<float>());
     judge(out, low, high);
   }
-  void word(std::uint32_t number, std::uint32_t& out, std::uint32_t limit = ~std::uint32_t{0}) noexcept {
+  [[gnu::always_inline]] void word(std::uint32_t number, std::uint32_t& out,
+                                   std::uint32_t limit = ~std::uint32_t{0}) noexcept {
     structure(tag(number, Encoding::kFixed32));
     out = get<std::uint32_t>();
     in_range_ &= out <= limit;
@@ -182,31 +189,31 @@ class FieldReader {
 
  private:
   /// Accumulates differences without a branch: one branch per field costs more than all comparisons.
-  void structure(std::uint32_t value) noexcept {
+  [[gnu::always_inline]] void structure(std::uint32_t value) noexcept {
     if (one_byte(value)) {
       differs_ |= get<std::uint8_t>() ^ value;
     } else {
       differs_ |= static_cast<std::uint32_t>(get<std::uint16_t>() ^ two_bytes(value));
     }
   }
-  void array(std::uint32_t number, std::size_t bytes) noexcept {
+  [[gnu::always_inline]] void array(std::uint32_t number, std::size_t bytes) noexcept {
     structure(tag(number, Encoding::kPacked));
     structure(static_cast<std::uint32_t>(bytes));
   }
   template <class T>
-  T get() noexcept {
+  [[gnu::always_inline]] T get() noexcept {
     T value;
     std::memcpy(&value, at_, sizeof value);
     at_ += sizeof value;
     return value;
   }
   template <class T, class Count>
-  void copy(T* to, Count count) noexcept {
+  [[gnu::always_inline]] void copy(T* to, Count count) noexcept {
     std::memcpy(to, at_, sizeof(T) * count);
     at_ += sizeof(T) * count;
   }
   template <std::size_t N, class Count>
-  void judge(const std::array<double, N>& values, Count count, double limit) noexcept {
+  [[gnu::always_inline]] void judge(const std::array<double, N>& values, Count count, double limit) noexcept {
     bool good = true;
     for (std::size_t i = 0; i < count; ++i) good &= std::abs(values[i]) <= limit;  // false for NaN
     if (good) [[likely]]
@@ -214,7 +221,7 @@ class FieldReader {
     in_range_ = false;
     for (std::size_t i = 0; i < count; ++i) finite_ = finite_ && std::isfinite(values[i]);
   }
-  void judge(double value, double low, double high) noexcept {
+  [[gnu::always_inline]] void judge(double value, double low, double high) noexcept {
     if (!(value >= low && value <= high)) [[unlikely]] {  // also true for NaN
       in_range_ = false;
       finite_ = finite_ && std::isfinite(value);

@@ -18,12 +18,13 @@ inline constexpr double kJouleMax = 1e9;
 /// Largest gap and age of a link [ms]: eleven days.
 inline constexpr double kMillisecondsMax = 1e9;
 
+inline constexpr std::integral_constant<std::size_t, 1> kOne;
 inline constexpr std::integral_constant<std::size_t, 3> kThree;
 
-/// Calls `work` with the number of axes, as a compile-time constant for the usual number.
+/// Calls `work` with the number of axes, as a compile-time constant for the usual numbers.
 template <class Work>
 static decltype(auto) with_axes(std::size_t axes, Work&& work) noexcept {
-  return axes == kThree ? work(kThree) : work(axes);
+  return axes == kThree ? work(kThree) : axes == kOne ? work(kOne) : work(axes);
 }
 
 /// Enumerators and flags of a FORCE in their wire form.

@@ -89,6 +89,7 @@ void AuthorityControl::schedule(Time now, std::uint8_t by, std::size_t tool, con
   Tool& of = tools_[tool];
   const control::MasterArray before = of.transfer.scheduled();
   of.transfer.schedule(of.authority.normalised(wanted).value_or(before), {.wanted = wanted, .by = by}, ahead);
+  scheduled_ = true;
   ++version_;
   emit(now, AuditEvent::What::kAuthority, by, tool, before, of.transfer.scheduled());
 }
@@ -110,6 +111,7 @@ void AuthorityControl::step(Time now, bool clock_stopped) noexcept {
     if (!clock_stopped || tool.transfer.latest_by() != AuditEvent::kTimeline) tool.transfer.tick();
   if (clock_->begun() && !clock_stopped) schedule_timeline(now);
   for (std::size_t j = 0; j < tools_.size(); ++j) execute(now, j);
+  scheduled_ = std::ranges::any_of(tools_, [](const Tool& tool) { return tool.transfer.pending(); });
 }
 
 /// Announces the scene's own changes `AuthorityTransfer::kNotice` ticks ahead, so that each acts at its time. Their

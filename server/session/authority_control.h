@@ -43,6 +43,8 @@ class AuthorityControl {
   /// may only give up their own, to instructors; all other authorities must stay.
   /// @return kDone: scheduled; kOutdated, kForbidden, kInvalid or kStaleLink
   CommandResult request(Time now, const Requester& by, const wire::AuthorityMessage& wish) noexcept TANDEM_REALTIME;
+  /// A change is scheduled, or the timeline has changes left: `step` is due.
+  [[nodiscard]] bool any_change() const noexcept { return scheduled_ || next_event_ < scene_->timeline.size(); }
   /// Advances by one tick: announces the changes of the timeline and executes the changes that are due.
   /// @param clock_stopped  the timeline does not advance
   void step(Time now, bool clock_stopped) noexcept TANDEM_REALTIME;
@@ -81,6 +83,7 @@ class AuthorityControl {
   AuditTrail* audit_;
   std::size_t masters_;
   std::uint32_t version_ = 1;
+  bool scheduled_ = false;                                  ///< a tool may have a scheduled change
   std::size_t next_event_ = 0;                              ///< next event of the timeline
   std::array<std::uint32_t, kSeatsMax> cancelled_ticks_{};  ///< for which FORCE still reports a cancellation
   std::optional<Time> rejected_at_;                         ///< last audit event of a rejected change

@@ -3,9 +3,10 @@
 namespace tandem::server {
 
 std::optional<transport::SecureChannel::Opened> Connection::open(Time now, const PeerAddress& from,
+                                                                 const transport::Header& header,
                                                                  std::span<const std::byte> bytes,
                                                                  wire::Codec& codec) noexcept {
-  const auto opened = link_->open(now, bytes);
+  const auto opened = link_->open(now, header, bytes);
   if (!opened) return std::nullopt;
   if (!rate_.allow(now)) {
     link_->drop(transport::DropReason::kRate);

@@ -24,7 +24,9 @@ class Connection {
       : link_(std::move(link)), admitted_(now), rate_(tick) {}
 
   /// Opens a datagram and handles path messages. @return a message for the owner; nullopt if it was handled or dropped
+  /// @param header  of the datagram `bytes`
   [[nodiscard]] std::optional<transport::SecureChannel::Opened> open(Time now, const PeerAddress& from,
+                                                                     const transport::Header& header,
                                                                      std::span<const std::byte> bytes,
                                                                      wire::Codec& codec) noexcept TANDEM_REALTIME;
   /// Records a message that was decoded, is in range and is newer than all before.

@@ -45,7 +45,7 @@ void LeadingHands::step(std::uint32_t tick, const std::array<bool, kSeatsMax>& p
     const std::size_t leader = leader_of(i, tools[seats[i].coupled_tools().front()].authority);
     ghosts_[i] = {};
     if (leader >= masters_) continue;
-    std::array<double, 3> tip = seats[leader].last_state().telemetry.x;
+    std::array<double, 3> tip = seats[leader].telemetry().x;
     for (double& x : tip) x *= motion_scale_[leader];
     ghosts_[i] = ghost_of(hands_[leader], static_cast<std::uint32_t>(leader + 1), tip);
   }

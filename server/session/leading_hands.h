@@ -19,6 +19,8 @@ class LeadingHands {
   /// @param dt  tick [s]
   LeadingHands(const SceneSpec& scene, double dt) noexcept;
 
+  /// False if no hand can lead another: there is nothing to update then.
+  [[nodiscard]] bool any() const noexcept { return masters_ > 1; }
   /// Updates hands and leaders; under laws that only record them, every 16th tick only.
   /// @param present  seats whose springs may act on tools
   void step(std::uint32_t tick, const std::array<bool, kSeatsMax>& present, std::span<const SeatEndpoint> seats,

@@ -18,7 +18,7 @@ JoinResult LinkTestPeers::admit(Time now, std::unique_ptr<transport::SecureChann
     if (v.connected && v.connection->silence(now) <= kSilenceMax) continue;
     std::unique_ptr<transport::SecureChannel> before = v.connection ? v.connection->release_link() : nullptr;
     v.connection.emplace(now, std::exchange(link, std::move(before)), tick_);
-    v.connected = true;
+    v.connected = any_ = true;
     v.send_due = false;
     v.closes_left = 0;
     place = i;
@@ -39,13 +39,13 @@ bool LinkTestPeers::remove(std::size_t place, std::uint32_t cid, wire::CloseReas
   return true;
 }
 
-bool LinkTestPeers::on_datagram(Time now, const PeerAddress& from, std::uint32_t cid, std::span<const std::byte> bytes,
-                                PathTokens& tokens) noexcept {
-  const auto found =
-      std::ranges::find_if(peers_, [&](const Peer& v) { return v.connected && v.connection->link().own_cid() == cid; });
+bool LinkTestPeers::on_datagram(Time now, const PeerAddress& from, const transport::Header& header,
+                                std::span<const std::byte> bytes, PathTokens& tokens) noexcept {
+  const auto found = std::ranges::find_if(
+      peers_, [&](const Peer& v) { return v.connected && v.connection->link().own_cid() == header.cid; });
   if (found == peers_.end()) return false;
   Connection& connection = *found->connection;
-  const auto opened = connection.open(now, from, bytes, codec_);
+  const auto opened = connection.open(now, from, header, bytes, codec_);
   if (!opened) return true;
   if (opened->type == wire::Type::kLinkProbe) {
     const auto decoded = codec_.decode_link_probe(opened->plaintext);
@@ -63,9 +63,11 @@ bool LinkTestPeers::on_datagram(Time now, const PeerAddress& from, std::uint32_t
 }
 
 void LinkTestPeers::on_tick(Time now) noexcept {
+  any_ = false;
   for (Peer& v : peers_) {
     v.connected = v.connected && v.connection->silence(now) <= kSilenceMax;
     v.send_due = v.connected && v.connection->proven_address();
+    any_ |= v.connected;
   }
 }
 

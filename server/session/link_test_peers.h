@@ -31,11 +31,14 @@ class LinkTestPeers {
                                  std::size_t& place) noexcept;
   /// Number of free slots.
   [[nodiscard]] std::size_t places_free(Time now) const noexcept;
+  /// False if no peer is connected: no call has anything to do then.
+  [[nodiscard]] bool any() const noexcept { return any_; }
   /// Removes a peer: it receives CLOSE, then its slot is free. @return false if the slot does not hold connection
   /// `cid`
   bool remove(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept;
-  /// @return false if `cid` is not a link-test peer's
-  bool on_datagram(Time now, const PeerAddress& from, std::uint32_t cid, std::span<const std::byte> bytes,
+  /// @return false if the header names no link-test peer
+  /// @param header  of the datagram `bytes`
+  bool on_datagram(Time now, const PeerAddress& from, const transport::Header& header, std::span<const std::byte> bytes,
                    PathTokens& tokens) noexcept TANDEM_REALTIME;
   /// Removes peers that have been silent for more than 2 s, and marks a LINK_REPORT as due for the others.
   void on_tick(Time now) noexcept TANDEM_REALTIME;
@@ -52,6 +55,7 @@ class LinkTestPeers {
     wire::CloseReason close_reason = wire::CloseReason::kRemoved;
   };
   std::array<Peer, kMax> peers_;
+  bool any_ = false;  ///< a peer is connected, or was at the last tick
   wire::Codec codec_;
   Duration tick_;
   const CloseOut* session_end_;

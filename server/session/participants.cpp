@@ -22,6 +22,7 @@ JoinResult Participants::admit(Time now, std::size_t i, SeatConnection& entry, b
 bool Participants::remove(std::size_t i, wire::CloseReason why) noexcept {
   if (i >= seats_.size() || !seats_[i].taken() || removing(i)) return false;
   closing_.seats[i].begin(why, clock_->dt());
+  any_removal_ = true;
   return true;
 }
 
@@ -38,14 +39,18 @@ void Participants::end(wire::CloseReason why) noexcept {
 
 void Participants::step(Time now) noexcept {
   for (std::size_t i = 0; i < seats_.size(); ++i) {
-    present_[i] = seats_[i].receives_force() && seats_[i].present(now) && !removing(i);
-    monitors_[i].step(now, i, seats_[i], *audit_);
+    const SeatEndpoint::Condition condition = seats_[i].condition(now);
+    present_[i] = seats_[i].receives_force() && seats_[i].present(condition) && !removing(i);
+    monitors_[i].step(now, i, seats_[i], condition, *audit_);
   }
 }
 
 void Participants::step_removals(Time now) noexcept {
+  any_removal_ = false;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
-    if (!closing_.seats[i].step()) continue;
+    const bool ends = closing_.seats[i].step();
+    any_removal_ |= closing_.seats[i].in_progress();
+    if (!ends) continue;
     closing_.seats[i] = {};
     if (seats_[i].taken()) release(now, i, AuditEvent::What::kRemoved);  // else the client left on its own
   }

@@ -44,6 +44,8 @@ class Participants {
   void step(Time now) noexcept TANDEM_REALTIME;
   /// Advances the end of the session by one tick. @pre closing().session.begun()
   void step_end() noexcept { closing_.session.step(); }
+  /// A removal may be in progress: `step_removals` is due.
+  [[nodiscard]] bool any_removal() const noexcept { return any_removal_; }
   /// Advances removals by one tick, and frees the seats whose client has received CLOSE.
   void step_removals(Time now) noexcept TANDEM_REALTIME;
   /// Reports a request that the role forbids, at most once per second and seat.
@@ -64,6 +66,7 @@ class Participants {
   const SessionClock* clock_;
   AuditTrail* audit_;
   CloseOuts closing_;
+  bool any_removal_ = false;
   std::array<bool, kSeatsMax> present_{};
   std::array<SeatMonitor, kSeatsMax> monitors_{};
 };

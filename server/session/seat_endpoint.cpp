@@ -64,6 +64,7 @@ void SeatEndpoint::attach(Time now, SeatConnection& entry) noexcept {
   taken_ = true;
   generation_ = 0;
   *rx_ = {};
+  telemetry_ = {};
   std::ranges::fill(further_rx_, PortSample{});
   was_engaged_ = {};
   misbehaviour_ = {};
@@ -72,10 +73,10 @@ void SeatEndpoint::attach(Time now, SeatConnection& entry) noexcept {
   was_present_ = false;
 }
 
-SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& from, std::span<const std::byte> bytes,
-                                                 PathTokens& tokens) noexcept {
+SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& from, const transport::Header& header,
+                                                 std::span<const std::byte> bytes, PathTokens& tokens) noexcept {
   Received heard;
-  const auto opened = connection_->open(now, from, bytes, codec_);
+  const auto opened = connection_->open(now, from, header, bytes, codec_);
   if (!opened) return heard;
   transport::SecureChannel& link = connection_->link();
   if (!allowed(role_, opened->type)) {
@@ -102,7 +103,7 @@ SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& fr
       if (jumped && alive(now) && rx_->engaged && next_->engaged) misbehaviour_.report_misbehaviour(now);
       heard.accepted_state = true;
       connection_->on_accepted_message(now, from, *opened, *preamble, tokens);
-      if (!next_->with_telemetry) next_->telemetry = rx_->telemetry;
+      if (next_->with_telemetry) telemetry_ = next_->telemetry;
       std::swap(rx_, next_);
       further_rx_.swap(further_next_);
       ++generation_;

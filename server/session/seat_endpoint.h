@@ -41,8 +41,9 @@ class SeatEndpoint {
     bool accepted_state = false;  ///< a newer STATE took effect
     bool forbidden = false;       ///< the role may not send this type
   };
-  Received on_datagram(Time now, const PeerAddress& from, std::span<const std::byte> bytes,
-                       PathTokens& tokens) noexcept TANDEM_REALTIME;
+  /// @param header  of the datagram `bytes`
+  Received on_datagram(Time now, const PeerAddress& from, const transport::Header& header,
+                       std::span<const std::byte> bytes, PathTokens& tokens) noexcept TANDEM_REALTIME;
 
   /// Heard within the hold limit: 100 ms, or the silence limit of the gate if that is longer (masters, law `replica`).
   [[nodiscard]] bool alive(Time now) const noexcept;
@@ -56,9 +57,18 @@ class SeatEndpoint {
     return alive(now) && (rx_->ready || rx_->engaged) && !rx_->stop && !misbehaviour_.quarantined(now);
   }
   [[nodiscard]] bool ever_heard() const noexcept { return generation_ > 0; }
-  /// The seat's spring may act on tools.
-  [[nodiscard]] bool present(Time now) const noexcept {
-    return alive(now) && rx_->engaged && !rx_->stop && !misbehaviour_.quarantined(now) && !one_way();
+  /// Faults of the seat's link or client.
+  struct Condition {
+    bool lost = true;  ///< not alive, or one direction of the link is lost
+    bool quarantined = false;
+  };
+  [[nodiscard]] Condition condition(Time now) const noexcept {
+    return {!alive(now) || one_way(), misbehaviour_.quarantined(now)};
+  }
+  [[nodiscard]] bool present(Time now) const noexcept { return present(condition(now)); }
+  /// The seat's spring may act on tools. @param now  result of `condition`
+  [[nodiscard]] bool present(const Condition& now) const noexcept {
+    return !now.lost && rx_->engaged && !rx_->stop && !now.quarantined;
   }
 
   /// Moves the references of all ends. @param near one per end
@@ -86,7 +96,10 @@ class SeatEndpoint {
   [[nodiscard]] const transport::SecureChannel* link() const noexcept {
     return taken_ ? &connection_->link() : nullptr;
   }
+  /// Newest STATE. Its `telemetry` is valid only with `with_telemetry`: read `telemetry` instead.
   [[nodiscard]] const wire::StateMessage& last_state() const noexcept { return *rx_; }
+  /// Newest telemetry, of the newest STATE or of an earlier one.
+  [[nodiscard]] const wire::Telemetry& telemetry() const noexcept { return telemetry_; }
   [[nodiscard]] MisbehaviourMonitor& misbehaviour() noexcept { return misbehaviour_; }
   [[nodiscard]] const MisbehaviourMonitor& misbehaviour() const noexcept { return misbehaviour_; }
   [[nodiscard]] bool poll_flood() noexcept { return taken_ && connection_->poll_flood(); }
@@ -150,6 +163,7 @@ class SeatEndpoint {
   /// The newest STATE, and the buffer for the next one: swapped, never copied.
   std::unique_ptr<wire::StateMessage> rx_ = std::make_unique<wire::StateMessage>(),
                                       next_ = std::make_unique<wire::StateMessage>();
+  wire::Telemetry telemetry_{};
   std::vector<PortSample> further_rx_, further_next_;
   std::vector<wire::ToolForce> further_tx_;
   std::uint64_t generation_ = 0;

@@ -2,7 +2,8 @@
 
 namespace tandem::server {
 
-void SeatMonitor::step(Time now, std::size_t number, SeatEndpoint& seat, AuditTrail& audit) noexcept {
+void SeatMonitor::step(Time now, std::size_t number, SeatEndpoint& seat, const SeatEndpoint::Condition& condition,
+                       AuditTrail& audit) noexcept {
   using What = AuditEvent::What;
   if (!seat.taken() || !seat.ever_heard()) return;
   const auto changed = [&](bool& before, bool is, What begins, What ends) {
@@ -11,8 +12,8 @@ void SeatMonitor::step(Time now, std::size_t number, SeatEndpoint& seat, AuditTr
     audit.emit(now, is ? begins : ends, number);
     return true;
   };
-  if (changed(lost_, !seat.alive(now) || seat.one_way(), What::kLoss, What::kBack)) lost_at_ = now;
-  changed(quarantined_, seat.misbehaviour().quarantined(now), What::kQuarantined, What::kCleared);
+  if (changed(lost_, condition.lost, What::kLoss, What::kBack)) lost_at_ = now;
+  changed(quarantined_, condition.quarantined, What::kQuarantined, What::kCleared);
   changed(local_stop_, seat.last_state().stop, What::kLocalStop, What::kLocalResume);
   if (seat.poll_flood()) audit.emit(now, What::kFlood, number);
   away_ = away_ && lost_;

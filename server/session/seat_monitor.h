@@ -15,8 +15,10 @@ class SeatMonitor {
   static constexpr Duration kInstructorAway = std::chrono::seconds(10);
 
   /// Compares the seat with its condition at the last call. To be called once per tick.
-  /// @param number  of the seat, for the events
-  void step(Time now, std::size_t number, SeatEndpoint& seat, AuditTrail& audit) noexcept TANDEM_REALTIME;
+  /// @param number     of the seat, for the events
+  /// @param condition  of the seat now
+  void step(Time now, std::size_t number, SeatEndpoint& seat, const SeatEndpoint::Condition& condition,
+            AuditTrail& audit) noexcept TANDEM_REALTIME;
 
  private:
   bool lost_ = false, quarantined_ = false, local_stop_ = false, away_ = false;

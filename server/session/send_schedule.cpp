@@ -19,14 +19,19 @@ SendSchedule::SendSchedule(const SceneSpec& scene, std::span<SeatEndpoint> seats
       evaluator_interval_max_(
           static_cast<std::uint32_t>(std::max(1.0, scene.gate.silence_limit * scene.tick_hz / kIntervalsOfSilence))) {
   last_turn_.fill(~0u);
+  for (std::size_t i = 0; i < seats_.size(); ++i) every_tick_[i] = seats_[i].receives_force() && controls(i);
+}
+
+bool SendSchedule::controls(std::size_t i) const noexcept {
+  return seats_[i].role() != AccessRole::kEvaluator || scene_->seats[i].kind != SeatKind::kMaster ||
+         scene_->seats[i].required;
 }
 
 std::uint32_t SendSchedule::interval(std::size_t i, ShedLevel level) const noexcept {
   const SeatEndpoint& seat = seats_[i];
   if (!seat.receives_force())
     return observer_interval_ * (level >= ShedLevel::kObservers10Hz ? 6 : level >= ShedLevel::kObservers20Hz ? 3 : 1);
-  if (seat.role() != AccessRole::kEvaluator || scene_->seats[i].kind != SeatKind::kMaster || scene_->seats[i].required)
-    return 1;
+  if (controls(i)) return 1;
   return std::min(evaluator_interval_max_, level >= ShedLevel::kEvaluatorsEvery3rd   ? 3u
                                            : level >= ShedLevel::kEvaluatorsEvery2nd ? 2u
                                                                                      : 1u);
@@ -34,8 +39,8 @@ std::uint32_t SendSchedule::interval(std::size_t i, ShedLevel level) const noexc
 
 /// Sends to evaluators are staggered over ticks, so that no single tick carries all of them.
 bool SendSchedule::turn_begins(std::size_t i, std::uint32_t tick, ShedLevel level) noexcept {
-  const std::uint32_t turn =
-      (tick + (seats_[i].receives_force() ? static_cast<std::uint32_t>(i) : 0)) / interval(i, level);
+  const std::uint32_t staggered = tick + (seats_[i].receives_force() ? static_cast<std::uint32_t>(i) : 0);
+  const std::uint32_t turn = every_tick_[i] ? staggered : staggered / interval(i, level);
   return turn != std::exchange(last_turn_[i], turn);
 }
 
@@ -56,7 +61,9 @@ std::optional<Transmit> SendSchedule::poll(Time now, std::uint32_t tick, const C
     const CloseOut* const close = closing.due(next_);
     const Transmit out =
         close != nullptr ? seat.transmit_close(now, tick, close->reason(), buffer) : seat.transmit(now, tick, buffer);
-    if (out.size > 0) return out;
+    if (out.size == 0) continue;
+    ++next_;
+    return out;
   }
   return std::nullopt;
 }

@@ -30,10 +30,14 @@ class SendSchedule {
   /// Writes the next datagram into `buffer`: a path challenge, CLOSE or FORCE. @return nullopt if none is due
   [[nodiscard]] std::optional<Transmit> poll(Time now, std::uint32_t tick, const CloseOuts& closing,
                                              std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
+  /// `poll` has nothing more to send in this tick.
+  [[nodiscard]] bool done() const noexcept { return next_ >= seats_.size(); }
   /// Lets `poll` begin with the first seat again.
   void rewind() noexcept { next_ = 0; }
 
  private:
+  /// The seat controls a tool that the session cannot do without.
+  [[nodiscard]] bool controls(std::size_t seat) const noexcept;
   /// Whether a new interval of the seat begins; true once per interval, even after missed ticks.
   [[nodiscard]] bool turn_begins(std::size_t seat, std::uint32_t tick, ShedLevel level) noexcept TANDEM_REALTIME;
 
@@ -42,6 +46,7 @@ class SendSchedule {
   std::uint32_t observer_interval_;  ///< ticks between two FORCEs to a seat that receives no force
   /// Upper bound for evaluators: six intervals fit into the gates' silence limit.
   std::uint32_t evaluator_interval_max_;
+  std::array<bool, kSeatsMax> every_tick_{};  ///< the interval of this seat is 1 at every shed level
   std::array<bool, kSeatsMax> due_{};
   std::array<std::uint32_t, kSeatsMax> last_turn_{};  ///< number of the last interval in which a FORCE was due
   std::size_t next_ = 0;                              ///< next seat for `poll`

@@ -101,10 +101,10 @@ void Session::on_datagram(Time now, const PeerAddress& from, std::span<const std
   }
   const std::size_t i = static_cast<std::size_t>(place_of(header->cid)) - 1;
   if (i >= seats_.size() || !seats_[i].taken() || seats_[i].link()->own_cid() != header->cid) {
-    if (!link_test_peers_.on_datagram(now, from, header->cid, bytes, path_tokens_)) ++unmatched_datagrams_;
+    if (!link_test_peers_.on_datagram(now, from, *header, bytes, path_tokens_)) ++unmatched_datagrams_;
     return;
   }
-  handle_message(now, i, seats_[i].on_datagram(now, from, bytes, path_tokens_));
+  handle_message(now, i, seats_[i].on_datagram(now, from, *header, bytes, path_tokens_));
 }
 
 void Session::handle_message(Time now, std::size_t i, const SeatEndpoint::Received& heard) noexcept {
@@ -119,10 +119,10 @@ void Session::handle_message(Time now, std::size_t i, const SeatEndpoint::Receiv
 /// A participant who is being removed may stop the session, and request nothing else.
 void Session::handle_requests(Time now, std::size_t i) noexcept {
   const wire::StateMessage& state = seats_[i].last_state();
-  const Requester by = requester_at(i, seats_[i].role());
-  if (stop_.rising_edge(i, state.stop_all) && !stop_.request(now, by)) participants_.reject_forbidden(now, i);
+  const auto by = [&] { return requester_at(i, seats_[i].role()); };
+  if (stop_.rising_edge(i, state.stop_all) && !stop_.request(now, by())) participants_.reject_forbidden(now, i);
   if (state.resume_stop != 0 && !participants_.removing(i) &&
-      stop_.resume(now, by, state.resume_stop) == CommandResult::kForbidden)
+      stop_.resume(now, by(), state.resume_stop) == CommandResult::kForbidden)
     participants_.reject_forbidden(now, i);
 }
 
@@ -130,12 +130,16 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   if (over()) return;
   const std::uint32_t catch_up = clock_.begin_tick(now, missed);
   for (std::uint32_t i = 0; i <= catch_up && !over(); ++i) run_one_tick(now);
-  participants_.step_removals(now);
+  if (!over() && ++since_record_ >= record_interval_) {
+    since_record_ = 0;
+    record_tick(*this, leading_hands_, record_);
+  }
+  if (participants_.any_removal()) participants_.step_removals(now);
   fill_force_messages(now);
   for (SeatEndpoint& seat : seats_)
     if (auto* link = seat.link()) link->tick(now);
   send_.begin_tick(now, clock_.tick(), lifecycle_.load_state().level, participants_.closing());
-  link_test_peers_.on_tick(now);
+  if (link_test_peers_.any()) link_test_peers_.on_tick(now);
 }
 
 void Session::run_one_tick(Time now) noexcept {
@@ -146,43 +150,46 @@ void Session::run_one_tick(Time now) noexcept {
   if (faults_.faulty(now, control_.not_finite())) stop_.stop_for_fault(now);
   lifecycle_.step(now, control_.tools());
   if (over()) return;
-  authority_.step(now, lifecycle_.clock_stopped());
+  if (authority_.any_change()) authority_.step(now, lifecycle_.clock_stopped());
   control_.step_authority(lifecycle_.disengages_all());
   control_.move_references(now);
   control_.step_tools(clock_.time());
-  leading_hands_.step(clock_.tick(), participants_.present(), seats_, control_.tools());
+  if (leading_hands_.any()) leading_hands_.step(clock_.tick(), participants_.present(), seats_, control_.tools());
   control_.step_targets(clock_.tick(), leading_hands_);
-  record_tick(*this, leading_hands_, record_);
 }
 
 void Session::fill_force_messages(Time now) noexcept {
   std::array<bool, kSeatsMax> ready{};
   std::uint32_t missing_now = 0;
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    ready[i] = seats_[i].ready(now);
+  const std::span<SeatEndpoint> seats = seats_;
+  const std::span<const Tool> tools = control_.tools();
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    ready[i] = seats[i].ready(now);
     missing_now += start_.required(i) && !ready[i] ? 1 : 0;
   }
   std::array<bool, kToolsMax> entitled{}, touches{};
-  for (std::size_t j = 0; j < control_.tools().size(); ++j) {
-    const bool slave_ready = !scene_->tools[j].remote || ready[scene_->tools[j].seat];
-    for (std::size_t i = 0; i < masters_; ++i)
-      entitled[j] |= slave_ready && control_.tools()[j].authority.requested()[i] > 0 && ready[i];
+  for (std::size_t j = 0; j < tools.size(); ++j) {
+    const bool slave_ready = !tools[j].spec().remote || ready[tools[j].spec().seat];
+    for (std::size_t i = 0; i < masters_ && slave_ready; ++i)
+      entitled[j] |= ready[i] && tools[j].authority.requested()[i] > 0;
     touches[j] = control_.touching(now, j);
   }
   const bool engage = start_.may_engage() && !lifecycle_.disengages_all(), timeline_waits = lifecycle_.clock_stopped();
   const wire::SessionState state_now = state();
 
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    wire::ForceMessage& m = seats_[i].tx;
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    wire::ForceMessage& m = seats[i].tx;
     m.session = state_now;
-    m.engage = engage && seats_[i].receives_force() && !seats_[i].misbehaviour().quarantined(now) &&
-               !participants_.removing(i);
-    m.touching = false;
-    for (std::size_t j = 0; j < control_.tools().size(); ++j) {
-      const double share = control_.hub().coupling(i, j).share;
-      m.engage = m.engage && (share == 0 || entitled[j]);
-      m.touching = m.touching || (share > 0 && touches[j]);
+    bool entitles =
+        engage && seats[i].receives_force() && !seats[i].misbehaviour().quarantined(now) && !participants_.removing(i);
+    bool touching = false;
+    for (std::size_t j = 0; j < tools.size(); ++j) {
+      if (control_.hub().coupling(i, j).share == 0) continue;
+      entitles &= entitled[j];
+      touching |= touches[j];
     }
+    m.engage = entitles;
+    m.touching = touching;
     m.session_tick = clock_.session_tick();
     m.authority_version = authority_.version();
     m.missing = missing_now;
@@ -193,9 +200,10 @@ void Session::fill_force_messages(Time now) noexcept {
 }
 
 std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
-  auto out = send_.poll(now, clock_.tick(), participants_.closing(), buffer);
+  std::optional<Transmit> out;
+  if (!send_.done()) out = send_.poll(now, clock_.tick(), participants_.closing(), buffer);
   if (out) return out;
-  out = link_test_peers_.poll_transmit(now, clock_.tick(), buffer);
+  if (link_test_peers_.any()) out = link_test_peers_.poll_transmit(now, clock_.tick(), buffer);
   if (!out) send_.rewind();
   return out;
 }

@@ -72,6 +72,11 @@ class Session {
   /// Sets whether clients send telemetry at every tick (default), or at wire::kTelemetryHz. A session whose ticks
   /// nothing records does not need more. No law uses telemetry.
   void set_telemetry_every_tick(bool on) noexcept { telemetry_every_tick_ = on; }
+  /// Sets how often `record` is made: at every tick (default), or at every `interval`-th one.
+  /// @param interval  [ticks], at least 1
+  void set_record_interval(std::uint32_t interval) noexcept { record_interval_ = interval; }
+  /// The last call of `on_tick` made a record.
+  [[nodiscard]] bool recorded() const noexcept { return since_record_ == 0; }
   /// Random tokens for path challenges. The thread that runs the session fills the store before the first datagram and
   /// between ticks.
   [[nodiscard]] PathTokens& path_tokens() noexcept { return path_tokens_; }
@@ -132,6 +137,7 @@ class Session {
   std::uint64_t epoch_ = 1;
   std::uint64_t unmatched_datagrams_ = 0;
   bool telemetry_every_tick_ = true;
+  std::uint32_t record_interval_ = 1, since_record_ = ~std::uint32_t{0} - 1;  ///< [ticks]
   TickRecord record_{};
 };
 

@@ -4,22 +4,23 @@
 
 namespace tandem::server {
 
-void record_seat(const wire::StateMessage& said, double scale, SeatRecord& r) noexcept {
-  r.q = said.telemetry.q;
-  r.x = said.telemetry.x;
-  r.f_cmd = said.telemetry.f_cmd;
-  r.f_out = said.telemetry.f_out;
+void record_seat(const wire::StateMessage& said, const wire::Telemetry& telemetry, double scale,
+                 SeatRecord& r) noexcept {
+  r.q = telemetry.q;
+  r.x = telemetry.x;
+  r.f_cmd = telemetry.f_cmd;
+  r.f_out = telemetry.f_out;
   for (std::size_t k = 0; scale != 1 && k < 3; ++k) {
     r.x[k] *= scale;
     r.f_cmd[k] /= scale;
     r.f_out[k] /= scale;
   }
   r.e_in = said.port.e_in;
-  r.e_out = said.telemetry.e_out;
-  r.dissipated_j = said.telemetry.dissipated_j;
-  r.refused_j = said.telemetry.refused_j;
-  r.margin_min_j = said.telemetry.margin_min_j;
-  r.delivered_j = said.telemetry.delivered_j;
+  r.e_out = telemetry.e_out;
+  r.dissipated_j = telemetry.dissipated_j;
+  r.refused_j = telemetry.refused_j;
+  r.margin_min_j = telemetry.margin_min_j;
+  r.delivered_j = telemetry.delivered_j;
   r.gate = said.gate;
   r.engaged = said.engaged;
   r.sample_tick = said.seat_tick;
@@ -45,7 +46,6 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
   record.stopped_ticks = session.clock().stopped_ticks();
   record.dropped_ticks = session.clock().dropped_ticks();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
-    const wire::StateMessage& m = session.seat(i).last_state();
     SeatRecord& r = record.seats[i];
     r.alpha = session.seat(i).tx.alpha;
     if (i < masters) {
@@ -54,7 +54,7 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
       for (std::size_t k = 0; k < 3; ++k) r.ghost[k] = ghost.x[k];
       r.alpha = session.hub().authority(i);
     }
-    record_seat(m, scene.seats[i].motion_scale, r);
+    record_seat(session.seat(i).last_state(), session.seat(i).telemetry(), scene.seats[i].motion_scale, r);
   }
   for (std::size_t j = 0; j < scene.tools.size(); ++j) {
     const Tool& tool = session.tool(j);
@@ -79,7 +79,7 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
       r.penetration = body->penetration();
       r.sample_tick = session.clock().session_tick();
     } else {
-      record_slave(session.seat(tool.spec().seat).last_state().telemetry, r);
+      record_slave(session.seat(tool.spec().seat).telemetry(), r);
       r.sample_tick = session.seat(tool.spec().seat).last_state().seat_tick;
     }
     r.held = tool.authority.held();

@@ -4,10 +4,11 @@
 
 namespace tandem::server {
 
-/// Fill the record of a seat or a slave from the seat's newest STATE.
+/// Fill the record of a seat or a slave from the seat's newest STATE and telemetry.
 /// @param scale  motion of the tool per motion of the hand: records have tip and forces of the hand as the tool sees
 /// them
-void record_seat(const wire::StateMessage& said, double scale, SeatRecord& record) noexcept;
+void record_seat(const wire::StateMessage& said, const wire::Telemetry& telemetry, double scale,
+                 SeatRecord& record) noexcept;
 void record_slave(const wire::Telemetry& said, ToolRecord& record) noexcept;
 
 /// Fills the record of this tick for traces and reports. Values of seats are those of their newest STATE.

@@ -54,6 +54,8 @@ SharedControl::SharedControl(const SceneSpec& scene, std::vector<std::unique_ptr
     hub_.set_tool(j, tools_[j].port());
     for (std::size_t i = 0; i < masters_; ++i) hub_.set_follow(i, j, scene.follow[i][j]);
   }
+  for (std::size_t i = 0; i < masters_; ++i)
+    effort_max_[i] = scene.gate.force_max * share_of_force(scene.seats[i].role) / scene.seats[i].motion_scale;
   for (std::size_t i = masters_; i < scene.seats.size(); ++i) hub_.couple_slave(i, scene.seats[i].tool);
 }
 
@@ -75,7 +77,7 @@ bool SharedControl::touching(Time now, std::size_t j) const noexcept {
   if (!scene_->tools[j].remote) return tools_[j].body() != nullptr && tools_[j].body()->penetration() > 0;
   const SeatEndpoint& seat = seats_[scene_->tools[j].seat];
   if (!seat.alive(now)) return false;
-  const wire::Telemetry& heard = seat.last_state().telemetry;
+  const wire::Telemetry& heard = seat.telemetry();
   return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
 }
 
@@ -87,14 +89,17 @@ void SharedControl::step_authority(bool released) noexcept {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     Tool& tool = tools_[j];
     const bool driven = !released && slave_present(j);
-    control::ToolAuthority::Input in;
-    in.dt = dt_;
-    for (std::size_t i = 0; i < masters_; ++i) {
-      in.present[i] = driven && present_[i];
-      in.stored[i] = seats_[i].end(j).state().stored(tool.port().x, scene_->dof);
+    std::array<bool, kMastersMax> present{};
+    for (std::size_t i = 0; i < masters_; ++i) present[i] = driven && present_[i];
+    double dissipated = 0;
+    for (std::size_t a = 0; a < scene_->dof; ++a) dissipated += (1 - scene_->channel.eta) * tool.port().dissipated[a];
+    if (tool.authority.settled(present)) {
+      tool.authority.fill(dissipated);
+      continue;
     }
-    for (std::size_t a = 0; a < scene_->dof; ++a)
-      in.dissipated += (1 - scene_->channel.eta) * tool.port().dissipated[a];
+    control::ToolAuthority::Input in{.dt = dt_, .present = present, .dissipated = dissipated};
+    for (std::size_t i = 0; i < masters_; ++i)
+      in.stored[i] = seats_[i].end(j).state().stored(tool.port().x, scene_->dof);
     tool.authority.step(in);
     hub_.set_authority(j, tool.authority.weights(), tool.authority.held());
   }
@@ -158,13 +163,13 @@ void SharedControl::step_offset(std::size_t i, bool engaged) noexcept {
 void SharedControl::step_tools(double time) noexcept {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     Tool& tool = tools_[j];
-    control::EscHub::Efforts pull{};
+    for (std::size_t a = 0; a < scene_->dof; ++a) efforts_[a] = {};
     const control::VirtualTool* const body = replica_ ? tool.body() : nullptr;
-    for (std::size_t i = 0; i < masters_; ++i) hub_.add_effort(i, j, seats_[i].end(j).state(), body, pull);
+    for (std::size_t i = 0; i < masters_; ++i) hub_.add_effort(i, j, seats_[i].end(j).state(), body, efforts_);
     const double share = scene_->tools[j].remote && slave_present(j) ? tool.slave_share() : 0;
-    if (share > 0) hub_.add_slave_effort(share, seats_[scene_->tools[j].seat].end().state(), pull);
+    if (share > 0) hub_.add_slave_effort(share, seats_[scene_->tools[j].seat].end().state(), efforts_);
     if (tool.has_contact_source()) update_contacts(j, time);
-    tool.step(dt_, pull, tool.authority.held());
+    tool.step(dt_, efforts_, tool.authority.held());
     hub_.set_tool(j, tool.port());
     hub_.fill_tank(j);
   }
@@ -188,11 +193,12 @@ void SharedControl::update_contacts(std::size_t j, double time) noexcept {
 }
 
 void SharedControl::step_targets(std::uint32_t tick, const LeadingHands& hands) noexcept {
+  bool contacts = false, sources = false;
   for (std::size_t j = 0; j < tools_.size(); ++j) {
-    AxisArray injected{};
-    for (std::size_t i = 0; i < masters_; ++i)
-      if (present_[i]) hub_.add_injected(i, j, seats_[i].last_sample(j).f, injected);
-    hub_.observe(j, injected);
+    contacts |= tools_[j].has_contact_source();
+    if (hub_.alone(j)) continue;
+    sources = true;
+    observe_sources(j);
   }
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (!has_copies(i)) {
@@ -200,29 +206,36 @@ void SharedControl::step_targets(std::uint32_t tick, const LeadingHands& hands) 
       fill_account(i, 0, i < masters_ ? hub_.authority(i) : 0, seats_[i].tx);
       continue;
     }
-    if (present_[i]) grant_following(i);
+    if (sources && present_[i]) grant_following(i);
     SeatEndpoint& seat = seats_[i];
     const std::span<const std::size_t> tools = seat.coupled_tools();
     for (std::size_t k = 0; k < tools.size(); ++k) {
       fill_hand_target(i, tools[k], hands, seat.coupling_force(k));
       fill_account(i, tools[k], hub_.coupling(i, tools[k]).alpha, seat.coupling_force(k));
     }
-    fill_contacts(seat, tick);
+    if (contacts) fill_contacts(seat, tick);
     seat.tx.ghost = hands.ghost(i);
   }
 }
 
+/// Integrates the observer of a tool's flow sources.
+void SharedControl::observe_sources(std::size_t j) noexcept {
+  AxisArray injected{};
+  for (std::size_t i = 0; i < masters_; ++i)
+    if (present_[i]) hub_.add_injected(i, j, seats_[i].last_sample(j).f, injected);
+  hub_.observe(j, injected);
+}
+
 void SharedControl::grant_following(std::size_t i) noexcept {
-  const double effort_max =
-      scene_->gate.force_max * share_of_force(scene_->seats[i].role) / scene_->seats[i].motion_scale;
   for (std::size_t j = 0; j < tools_.size(); ++j)
-    hub_.grant_following(i, j, seats_[i].last_sample(j).x, effort_max, seats_[i].end(j));
+    if (!hub_.alone(j)) hub_.grant_following(i, j, seats_[i].last_sample(j).x, effort_max_[i], seats_[i].end(j));
 }
 
 /// Share of the slave's spring that acts on this hand; 0 without one.
 double SharedControl::slave_share(std::size_t i, std::size_t j) const noexcept {
+  if (!scene_->tools[j].remote || !slave_present(j)) return 0;
   const double share = tools_[j].slave_share();
-  if (!scene_->tools[j].remote || !slave_present(j) || share <= 0) return 0;
+  if (share <= 0) return 0;
   return control::MixMinus::slave_share(share, seats_[i].end(j).schedule(),
                                         seats_[scene_->tools[j].seat].end().schedule(), scene_->channel.k_delay,
                                         seats_[i].end().state().k[0]);

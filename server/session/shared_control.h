@@ -62,6 +62,7 @@ class SharedControl {
   void fill_coupled_target(std::size_t i, PortSample& out) noexcept TANDEM_REALTIME;
   [[nodiscard]] control::CoupledBody coupled_tool() const noexcept TANDEM_REALTIME;
   void fill_account(std::size_t i, std::size_t tool, double alpha, wire::ToolForce& out) const noexcept TANDEM_REALTIME;
+  void observe_sources(std::size_t tool) noexcept TANDEM_REALTIME;
   void fill_contacts(SeatEndpoint& seat, std::uint32_t tick) const noexcept TANDEM_REALTIME;
 
   const SceneSpec* scene_;
@@ -77,7 +78,9 @@ class SharedControl {
   std::array<control::ReengageOffset, kSeatsMax> offsets_;
   std::array<control::CoupledTarget, kMastersMax> coupled_targets_{};  ///< couplings other than ESC
   std::array<std::uint32_t, kSeatsMax> engaged_ticks_{};               ///< since the seat engaged
+  std::array<double, kMastersMax> effort_max_{};                       ///< largest pull of a hand's motor [N]
   std::array<control::NearEnd, kToolsMax> near_ends_{};                ///< scratch space of `move_predictions`
+  control::EscHub::Efforts efforts_{};                                 ///< scratch space of `step_tools`
   std::array<std::uint64_t, kToolsMax> slave_generation_{};  ///< newest STATE that the contact source received
 };
 

@@ -69,16 +69,15 @@ void Tool::update_contacts(ToolView view) noexcept {
 }
 
 void Tool::step_body(double dt, const control::EscHub::Efforts& seats, bool braked) noexcept {
-  control::VirtualTool::Pulls pulls{};
   for (std::size_t a = 0; a < dof_; ++a) {
-    pulls[a] = seats[a];
-    if (braked) pulls[a].damper(kBrake, 0);
+    pulls_[a] = seats[a];
+    if (braked) pulls_[a].damper(kBrake, 0);
   }
   control::VirtualTool::Parts parts;
   if (body_->in_parts()) [[unlikely]] {
-    parts = body_->step_in_parts(dt, pulls);
+    parts = body_->step_in_parts(dt, pulls_);
     if (!parts.finite) ++not_finite_;
-  } else if (!body_->step(dt, pulls)) {
+  } else if (!body_->step(dt, pulls_)) {
     ++not_finite_;
   }
   for (std::size_t a = 0; a < dof_; ++a) {
@@ -86,12 +85,12 @@ void Tool::step_body(double dt, const control::EscHub::Efforts& seats, bool brak
     port_.moved[a] = body_->x(a) - port_.x[a];
     port_.x[a] = body_->x(a);
     port_.v[a] = v;
-    port_.dissipated[a] = (spec_->b_s + pulls[a].b + 0.5 * pulls[a].k * dt) * v * v * dt;
+    port_.dissipated[a] = (spec_->b_s + pulls_[a].b + 0.5 * pulls_[a].k * dt) * v * v * dt;
     port_.surface_force[a] = body_->surface_force()[a];
   }
   if (body_->in_parts()) [[unlikely]]
     for (std::size_t a = 0; a < dof_; ++a)
-      port_.dissipated[a] = body_->heat(parts, a, spec_->b_s + pulls[a].b, pulls[a].k, dt);
+      port_.dissipated[a] = body_->heat(parts, a, spec_->b_s + pulls_[a].b, pulls_[a].k, dt);
 }
 
 void Tool::step(double dt, const control::EscHub::Efforts& seats, bool braked) noexcept {

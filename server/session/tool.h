@@ -80,6 +80,7 @@ class Tool {
   control::LocalContacts received_contacts_;
   std::uint64_t contacts_refused_ = 0;
   std::array<control::ToolIpc, kAxesMax> ipc_{};
+  control::VirtualTool::Pulls pulls_{};  ///< scratch space of `step_body`: entries beyond the axes in use stay 0
   control::ToolPort port_;
   AxisArray slave_effort_{};  ///< commanded, port axes
   hal::Command command_{};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/seat/seat.h"
+#include "client/seat/telemetry_pace.h"
 #include "common/transport/secure_channel.h"
 #include "hal/sim/sim_device.h"
 #include "netsim/system/simulated_handshake.h"
@@ -17,10 +18,11 @@
 namespace tandem::bench {
 
 /// Minimal client: seals STATE messages of an engaged hand at rest and answers path challenges. It uses only those
-/// fields of FORCE that it must echo.
+/// fields of FORCE that it must echo, and sends telemetry as often as the server asks.
 class BareClient {
  public:
-  BareClient(const netsim::SimulatedJoin& joined) : link_(joined.channel_params), codec_(body_layout(joined.setup)) {
+  BareClient(const netsim::SimulatedJoin& joined)
+      : link_(joined.channel_params), codec_(body_layout(joined.setup)), telemetry_(joined.setup.tick_hz) {
     state_.ready = true;
   }
 
@@ -36,6 +38,7 @@ class BareClient {
     if (!force || !opened->newer) return;
     link_.accept(now, *opened, force->preamble);
     ++forces_;
+    telemetry_every_tick_ = force->message.telemetry_every_tick;
     state_.engaged = force->message.engage;
     if (!settled_) state_.port.x = force->message.port.x;  // position of the tool: the coupling has no elongation
     settled_ = state_.engaged;
@@ -48,6 +51,7 @@ class BareClient {
       answer_.reset();
       return link_.seal(now, wire::Type::kPathResponse, buffer, plain);
     }
+    state_.with_telemetry = telemetry_.due(tick, telemetry_every_tick_);
     return link_.seal(now, wire::Type::kState, buffer, codec_.encode(link_.preamble(now, tick), state_, body));
   }
   [[nodiscard]] const transport::SecureChannel& link() const { return link_; }
@@ -62,7 +66,8 @@ class BareClient {
   wire::Codec codec_;
   wire::StateMessage state_;
   std::optional<wire::PathMessage> answer_;
-  bool settled_ = false;
+  client::TelemetryPace telemetry_;
+  bool settled_ = false, telemetry_every_tick_ = true;
   std::uint64_t counter_ = 0, forces_ = 0;
 };
 

@@ -32,6 +32,9 @@ int print_table(const std::string& self) {
 
 int main(int argc, char** argv) {
   using namespace tandem::bench;
-  if (argc == 4 && std::strcmp(argv[1], "--serve") == 0) return serve(scene_of(row_of(argv[2])), std::atoi(argv[3]));
+  if (argc == 4 && std::strcmp(argv[1], "--serve") == 0) {
+    const Row& row = row_of(argv[2]);
+    return serve(scene_of(row), row.recorded, std::atoi(argv[3]));
+  }
   return print_table(argv[0]);
 }

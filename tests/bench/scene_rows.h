@@ -19,9 +19,10 @@ struct Row {
   const char* what;
   int axes, seats;
   const char* slave;
+  bool recorded = false;
 };
 inline constexpr const char* kWall = "environment { wall { axis: X at_m: 0 k_n_m: 20000 } }";
-inline constexpr std::array<Row, 7> kRows{
+inline constexpr std::array<Row, 8> kRows{
     {{"one_axis", "1 axis, free, 1 seat", 1, 1, ""},
      {"three_axes", "3 axes, free, 1 seat", 3, 1, ""},
      {"two_seats", "3 axes, free, 2 seats", 3, 2, ""},
@@ -30,7 +31,8 @@ inline constexpr std::array<Row, 7> kRows{
      {"gravity", "3 axes, contact, 2 seats, slave an arm with gravity and friction", 3, 2,
       "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"},
      {"eight_seats", "3 axes, contact, 8 seats, slave an arm with gravity and friction", 3, 8,
-      "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"}}};
+      "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"},
+     {"recorded", "1 axis, free, 1 seat, recorded", 1, 1, "", true}}};
 
 inline SceneSpec scene_of(const Row& row) {
   std::string text = "version: 1 tick_hz: 1000 duration_s: 600 dof: " + std::to_string(row.axes) + "\n";

@@ -44,24 +44,21 @@ std::optional<double> per_client_tick(const std::string& self, const std::string
 }
 
 void print_instructions(const std::string& self) {
-  std::printf(
-      "user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s %10s  %s\n",
-      "scene", "seats", "instructions", "its arms'", "other work of the server");
+  std::printf("user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s  %s\n",
+              "scene", "seats", "instructions", "other work of the server");
   const struct {
     const char *scene, *besides;
-    bool arms;
-  } cases[] = {{"contact_remote", "one tool, its slave is a client", false},
-               {"free_motion", "one tool and a simulated arm", true},
-               {"two_by_two", "two tools and two simulated arms", true},
-               {"eight_seats", "one tool, eight hands, a simulated arm", true}};
+  } cases[] = {{"contact_remote", "one tool, its slave is a client"},
+               {"free_motion", "one tool"},
+               {"two_by_two", "two tools"},
+               {"eight_seats", "one tool, eight hands"}};
   for (const auto& c : cases) {
     const auto all = per_client_tick(self, c.scene, "*serve_one_tick*");
-    const auto arms = c.arms ? per_client_tick(self, c.scene, "*SimDevice::advance*") : 0.0;
-    if (!all || !arms) {
+    if (!all) {
       std::printf("%-18s [ NOT RUN ] valgrind is missing or failed\n", c.scene);
       continue;
     }
-    std::printf("%-18s %8zu %14.0f %10.0f  %s\n", c.scene, test::shipped(c.scene).seats.size(), *all, *arms, c.besides);
+    std::printf("%-18s %8zu %14.0f  %s\n", c.scene, test::shipped(c.scene).seats.size(), *all, c.besides);
   }
 }
 
@@ -237,7 +234,8 @@ void compare_with_echo() {
 
 int main(int argc, char** argv) {
   const std::string only = argc > 1 ? argv[1] : "";
-  if (argc == 4 && only == "--serve") return tandem::bench::serve(tandem::test::shipped(argv[2]), std::atoi(argv[3]));
+  if (argc == 4 && only == "--serve")
+    return tandem::bench::serve(tandem::test::shipped(argv[2]), true, std::atoi(argv[3]));
   if (only != "--cpu") tandem::bench::print_instructions(argv[0]);
   if (only != "--instructions") tandem::bench::compare_with_echo();
   return 0;

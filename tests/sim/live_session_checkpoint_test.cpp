@@ -13,60 +13,110 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(LiveSessionCheckpoint, ContainsASessionFromItsFirstTickOn) {
-  const SceneSpec scene = test::shipped("one_axis");
-  auto slaves = server::make_local_slaves(scene, Time{});
-  ASSERT_TRUE(slaves);
-  server::TickQueue records{64};
-  server::LiveSession hosted(scene, std::move(*slaves), 0, records);
-  const io::EventFd wake;
-  const auto mail = std::make_shared<server::CheckpointMailbox>(wake);
-  hosted.persist_to(mail, 1);
-
-  struct Hand {
-    std::unique_ptr<hal::sim::SimDevice> device;
-    std::unique_ptr<client::Seat> seat;
-    hal::Command command;
-  };
-  std::vector<Hand> hands;
-  Time now = Time{} + 1ms;
-  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
-    auto device = hal::sim::SimDevice::make(
-        {scene.seats[i].device, scene.seats[i].hand, scene.seats[i].environment, nullptr, now});
-    ASSERT_TRUE(device);
-    const hal::DeviceCaps caps = (*device)->caps();
-    const auto joined = netsim::simulate_join(hosted.session(), now, i, caps, RandomKey{7}.derive(i), 0);
-    ASSERT_TRUE(joined);
-    hands.push_back(
-        {std::move(*device), std::make_unique<client::Seat>(joined->setup, caps, joined->channel_params), {}});
+/// A live session of scene one_axis with simulated hands, without network delay.
+struct HostedHands {
+  explicit HostedHands(server::TickQueue& records)
+      : hosted(scene, *server::make_local_slaves(scene, Time{}), 0, records) {
+    for (std::size_t i = 0; i < scene.seats.size(); ++i) {
+      auto device = *hal::sim::SimDevice::make(
+          {scene.seats[i].device, scene.seats[i].hand, scene.seats[i].environment, nullptr, now});
+      const hal::DeviceCaps caps = device->caps();
+      const auto joined = *netsim::simulate_join(hosted.session(), now, i, caps, RandomKey{7}.derive(i), 0);
+      hands.push_back(
+          {std::move(device), std::make_unique<client::Seat>(joined.setup, caps, joined.channel_params), {}});
+    }
   }
-
-  std::array<std::byte, transport::kDatagramMax> buffer;
-  const auto address = [](std::size_t i) {
-    server::PeerAddress e;
-    e.bytes[0] = static_cast<std::byte>(i + 1);
-    e.size = 1;
-    return e;
-  };
-  server::Checkpoint kept{};
-  std::optional<Time> began;
-  for (; now < Time{} + 3s && !began; now += 1ms) {
+  /// Runs one tick of hands, clients and server.
+  void step(const server::MachineStatus& machine = {}) {
+    const auto address = [](std::size_t i) {
+      server::PeerAddress e;
+      e.bytes[0] = static_cast<std::byte>(i + 1);
+      e.size = 1;
+      return e;
+    };
     for (std::size_t i = 0; i < hands.size(); ++i) {
       hands[i].device->advance(hands[i].command, 1ms);
       hands[i].command = hands[i].seat->on_servo(now, hands[i].device->state());
       while (const auto size = hands[i].seat->poll_transmit(now, buffer))
         hosted.session().on_datagram(now, address(i), std::span{buffer}.first(*size));
     }
-    hosted.tick(now, 0, {});
+    hosted.tick(now, 0, machine);
     while (const auto out = hosted.session().poll_transmit(now, buffer))
       hands[std::to_integer<std::size_t>(out->to.bytes[0]) - 1].seat->on_datagram(now,
                                                                                   std::span{buffer}.first(out->size));
-    static_cast<void>(mail->take(kept));
-    if (hosted.session().start_condition().begun()) began = now;
-    EXPECT_EQ(kept.begun, hosted.session().start_condition().begun()) << "at " << seconds(now - Time{}) << " s";
+    now += 1ms;
   }
-  ASSERT_TRUE(began) << "else there is nothing to judge";
-  EXPECT_NE((*began - Time{}) % 500ms, 0ms) << "not by chance, with the regular one";
+  [[nodiscard]] bool begun() { return hosted.session().start_condition().begun(); }
+
+  struct Hand {
+    std::unique_ptr<hal::sim::SimDevice> device;
+    std::unique_ptr<client::Seat> seat;
+    hal::Command command;
+  };
+  SceneSpec scene = test::shipped("one_axis");
+  Time now = Time{} + 1ms;
+  server::LiveSession hosted;
+  std::vector<Hand> hands;
+  std::array<std::byte, transport::kDatagramMax> buffer;
+};
+
+TEST(LiveSessionCheckpoint, ContainsASessionFromItsFirstTickOn) {
+  server::TickQueue records{64};
+  HostedHands life(records);
+  const io::EventFd wake;
+  const auto mail = std::make_shared<server::CheckpointMailbox>(wake);
+  life.hosted.persist_to(mail, 1);
+  server::Checkpoint kept{};
+  Time at = life.now;
+  while (life.now < Time{} + 3s && !life.begun()) {
+    at = life.now;
+    life.step();
+    static_cast<void>(mail->take(kept));
+    EXPECT_EQ(kept.begun, life.begun()) << "at " << seconds(at - Time{}) << " s";
+  }
+  ASSERT_TRUE(life.begun()) << "else there is nothing to judge";
+  EXPECT_NE((at - Time{}) % 500ms, 0ms) << "not by chance, with the regular one";
+}
+
+/// Without a report or trace a record is made at every 17th tick, as telemetry travels. Each stands for the ticks since
+/// the one before, so a report counts the same time.
+TEST(LiveSession, RecordsAtSixtyHertzWithoutAReport) {
+  for (const bool recorded : {false, true}) {
+    SCOPED_TRACE(recorded ? "with a report" : "without");
+    server::TickQueue records{4096};
+    HostedHands life(records);
+    life.hosted.set_recorded(recorded);
+    while (life.now < Time{} + 3s && !life.begun()) life.step();
+    ASSERT_TRUE(life.begun());
+    for (int tick = 0; tick < 1700; ++tick) life.step();
+    std::size_t made = 0;
+    std::uint32_t last = 0;
+    for (; records.front() != nullptr; records.pop(), ++made) {
+      const std::uint32_t tick = records.front()->tick;
+      if (made > 0) {
+        EXPECT_EQ(tick - last, recorded ? 1u : 17u);
+      }
+      last = tick;
+    }
+    EXPECT_NEAR(static_cast<double>(made), recorded ? 1700 : 100, 1);
+    EXPECT_EQ(life.hosted.skipped_records(), 0u) << "no load was shed";
+  }
+}
+
+TEST(LiveSession, CountsTheRecordsThatAReportLacksWhileLoadIsShed) {
+  server::TickQueue records{4096};
+  HostedHands life(records);
+  life.hosted.set_recorded(true);
+  while (life.now < Time{} + 3s && !life.begun()) life.step();
+  ASSERT_TRUE(life.begun());
+  while (records.front() != nullptr) records.pop();
+  server::MachineStatus busy;
+  busy.load_state.level = server::ShedLevel::kTelemetry;
+  for (int tick = 0; tick < 100; ++tick) life.step(busy);
+  std::size_t made = 0;
+  for (; records.front() != nullptr; records.pop()) ++made;
+  EXPECT_EQ(made, 10u);
+  EXPECT_EQ(life.hosted.skipped_records(), 90u);
 }
 
 /// A stop changes the reported state; the session still reports that it waits for participants.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "common/auth/io/state_directory.h"
@@ -12,8 +13,8 @@ namespace {
 
 // Ticks between two updates of one seat's status, and between two published copies.
 constexpr std::uint64_t kStatusInterval = 64;
-constexpr std::uint64_t kStatusIntervalShedding = 4 * kStatusInterval,
-                        kRecordIntervalShedding = 10;  // from ShedLevel::kTelemetry on
+constexpr std::uint64_t kStatusIntervalShedding = 4 * kStatusInterval;  // from ShedLevel::kTelemetry on
+constexpr std::uint32_t kRecordIntervalShedding = 10;                   // [ticks] likewise, of a recorded session
 
 constexpr Duration kNeverEchoed = std::chrono::hours(1);  // a longer loop age means that no echo has arrived
 
@@ -45,10 +46,17 @@ void LiveSession::draw_path_tokens() noexcept {
   for (const std::uint64_t token : wanted) tokens.add(token);
 }
 
+void LiveSession::set_recorded(bool on) noexcept {
+  session_.set_telemetry_every_tick(on);
+  record_interval_ = on ? 1 : static_cast<std::uint32_t>(std::ceil(scene_->tick_hz / wire::kTelemetryHz));
+}
+
 SessionStatus LiveSession::status() const { return published_.read(); }
 
 void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
   session_.lifecycle().set_load_state(machine.load_state);
+  const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
+  session_.set_record_interval(std::max(record_interval_, seldom ? kRecordIntervalShedding : 1));
   session_.on_tick(now, missed);
   while (const auto event = session_.audit().poll()) {
     audit_.push(*event);
@@ -57,12 +65,10 @@ void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& mach
   if (session_.path_tokens().low()) draw_path_tokens();
   checkpoints_.step(session_);
   SessionInvariantChecker{}.check(session_, violations_);
-  const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
   if (session_.record().running) {
-    if (++unrecorded_ >= (seldom ? kRecordIntervalShedding : 1)) {
+    if (session_.recorded()) {
       records_->push(session_.record());
-      unrecorded_ = 0;
-    } else {
+    } else if (record_interval_ == 1) {
       ++skipped_records_;
     }
   }
@@ -83,15 +89,14 @@ void LiveSession::finish(Time now, const MachineStatus& machine) noexcept {
 
 void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {
   const SeatEndpoint& port = session_.seat(i);
-  const wire::StateMessage& heard = port.last_state();
+  const wire::Telemetry& heard = port.telemetry();
   SeatStatus& seat = status_.seats[i];
   seat.ever_taken = seat.ever_taken || port.taken();
-  seat.alpha = session_.record().seats[i].alpha;
-  seat.margin_j = heard.telemetry.margin_min_j;
-  seat.gate_trips = heard.telemetry.gate_trips;
-  seat.late_ticks = heard.telemetry.late_ticks;
-  seat.link.down = {heard.telemetry.down_loss_percent, heard.telemetry.down_longest_gap_ms,
-                    heard.telemetry.down_age_p99_ms};
+  seat.alpha = i < scene_->masters() ? session_.hub().authority(i) : port.tx.alpha;
+  seat.margin_j = heard.margin_min_j;
+  seat.gate_trips = heard.gate_trips;
+  seat.late_ticks = heard.late_ticks;
+  seat.link.down = {heard.down_loss_percent, heard.down_longest_gap_ms, heard.down_age_p99_ms};
   if (const transport::SecureChannel* link = port.link()) {  // the last values of a seat that was left remain
     seat.link.rtt_p50_ms = ms(link->timing().rtt_p50());
     seat.link.rtt_p99_ms = ms(Duration{link->timing().rtts().quantile(0.99)});

@@ -38,8 +38,8 @@ class LiveSession {
   }
 
   /// Sets whether a report or trace is made of the records, before a shard serves the session. Without one, clients
-  /// send telemetry at 60 Hz.
-  void set_recorded(bool on) noexcept { session_.set_telemetry_every_tick(on); }
+  /// send telemetry at 60 Hz, and as many ticks are recorded.
+  void set_recorded(bool on) noexcept;
 
   // ---- Any thread ----
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
@@ -80,7 +80,8 @@ class LiveSession {
   Violations violations_;
   std::atomic<bool> over_{false};
   io::EventFd over_event_;
-  std::uint64_t ticks_ = 0, unrecorded_ = 0, skipped_records_ = 0;
+  std::uint32_t record_interval_ = 1;  ///< [ticks], unless the shard sheds load
+  std::uint64_t ticks_ = 0, skipped_records_ = 0;
   SessionStatus status_;
   io::Published<SessionStatus> published_;
   CheckpointPublisher checkpoints_;

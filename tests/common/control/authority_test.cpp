@@ -201,5 +201,42 @@ TEST(AuthorityTank, HoldsNoMoreThanTwiceItsStart) {
   EXPECT_NEAR(tank.level(), 0.02, 1e-15);
 }
 
+/// The server skips a step of settled authorities, apart from `fill`. Twin: one row takes every step, one skips these.
+TEST(Authority, IsSettledOnlyIfAStepWouldMoveNothing) {
+  const std::uint64_t last = test::seeds(100);
+  int skipped = 0, moved = 0;
+  for (std::uint64_t seed = 1; seed <= last; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream random{seed};
+    const std::size_t n = 1 + random.below(4);
+    const double slew = random.below(4) == 0 ? kInf : random.uniform(2, 20);
+    ToolAuthority every(n, slew, 0.05), seldom(n, slew, 0.05);
+    ToolAuthority::Input in = everybody(n);
+    for (int tick = 0; tick < 2000; ++tick) {
+      if (random.below(300) == 0) {
+        const MasterArray wanted = random_weights(random, n);
+        ASSERT_EQ(every.request(wanted), seldom.request(wanted));
+      }
+      if (random.below(300) == 0) in.present[random.below(n)] ^= true;
+      for (std::size_t i = 0; i < n; ++i) in.stored[i] = random.uniform(0, 0.1);
+      in.dissipated = random.uniform(-1e-5, 1e-4);
+      every.step(in);
+      if (seldom.settled(in.present)) {
+        seldom.fill(in.dissipated);
+        ++skipped;
+      } else {
+        seldom.step(in);
+        ++moved;
+      }
+      ASSERT_EQ(every.weights(), seldom.weights());
+      ASSERT_EQ(every.tank(), seldom.tank());
+      ASSERT_EQ(every.injected(), seldom.injected());
+      ASSERT_EQ(every.held(), seldom.held());
+    }
+  }
+  EXPECT_GT(skipped, moved) << "most ticks move no authority";
+  EXPECT_GT(moved, 0);
+}
+
 }  // namespace
 }  // namespace tandem::control

@@ -358,5 +358,43 @@ TEST(EscHub, AddsTheSpringOfASlaveSeatByItsShare) {
   EXPECT_EQ(out[0].b_velocity, 1);
 }
 
+TEST(EscHub, IsAloneOnlyWhileOneHandWithFullAuthorityFollowsATool) {
+  EscHub hub = hub_of(2, 2);
+  EXPECT_FALSE(hub.alone(0)) << "no authority is known yet";
+  hub.set_follow(0, 0, 1);
+  hub.set_follow(1, 1, 1);
+  hub.set_authority(0, {1, 0}, false);
+  hub.set_authority(1, {0, 0.5}, false);
+  EXPECT_TRUE(hub.alone(0)) << "the other hand neither drives nor follows it";
+  EXPECT_FALSE(hub.alone(1)) << "half of the authority pays for half of the motion";
+  hub.set_authority(0, {0, 0}, true);
+  EXPECT_FALSE(hub.alone(0)) << "a hand follows without authority";
+  hub.set_authority(0, {1, 0}, false);
+  hub.set_follow(1, 0, 1);
+  hub.set_authority(0, {1, 0}, false);
+  EXPECT_FALSE(hub.alone(0)) << "a second hand follows";
+}
+
+/// The server asks no flow source of a tool with one hand alone: they would grant and observe nothing.
+TEST(EscHub, GivesNothingToAHandAlone) {
+  for (const FlowSourceMode mode : {FlowSourceMode::kOpen, FlowSourceMode::kTank, FlowSourceMode::kSeedSigned}) {
+    EscHub hub = hub_of(2, 1, mode);
+    hub.set_follow(0, 0, 1);
+    hub.set_authority(0, {1, 0}, false);
+    hub.set_tool(0, {.x = {0.1}, .v = {2}, .moved = {2 * kDt}});
+    ASSERT_TRUE(hub.alone(0));
+    AxisArray injected{};
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) hub.add_injected(i, 0, {5}, injected);
+    EXPECT_EQ(injected[0], 0);
+    ChannelParams params;
+    params.side = Side::kServer;
+    params.dof = 1;
+    const auto end = make_channel_end("replica", params);
+    hub.grant_following(0, 0, {-0.3}, 5, *end);
+    EXPECT_EQ(hub.sources(0).granted(), 0);
+    EXPECT_EQ(end->ledger(0).in_nj(), 0u);
+  }
+}
+
 }  // namespace
 }  // namespace tandem::control

@@ -149,5 +149,42 @@ TEST(VirtualTool, RunsWithoutHeap) {
   EXPECT_EQ(guard.count(), 0u);
 }
 
+/// A tool without surfaces takes a shorter way. Twin: a surface out of reach changes no bit.
+TEST(VirtualTool, MovesAlikeWithoutSurfacesAndFarFromThem) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(50); ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream random{seed};
+    const std::size_t axes = 1 + random.below(3);
+    const VirtualTool::Gains gains{.m = random.uniform(0.01, 0.1), .b = random.uniform(0, 1)};
+    ContactSet far;
+    far.add({.normal = {-1, 0, 0}, .at = -1000, .k = 20000, .b = 5});
+    VirtualTool free(gains, axes), other(gains, axes, far);
+    for (int tick = 0; tick < 300; ++tick) {
+      VirtualTool::Pulls pulls{};
+      for (std::size_t a = 0; a < axes; ++a) {
+        pulls[a].spring(random.uniform(0, 2000), random.uniform(-0.1, 0.1));
+        pulls[a].damper(random.uniform(0, 20), random.uniform(-1, 1));
+      }
+      ASSERT_TRUE(free.step(kT, pulls) && other.step(kT, pulls));
+      for (std::size_t a = 0; a < axes; ++a) {
+        ASSERT_EQ(free.x(a), other.x(a));
+        ASSERT_EQ(free.v(a), other.v(a));
+      }
+    }
+  }
+}
+
+TEST(VirtualTool, FeelsNoSurfaceAfterTheLastOneIsRemoved) {
+  VirtualTool tool({.m = 0.05, .b = 0.2}, 1);
+  tool.set_received_contacts(wall_at_zero(1000));
+  for (int tick = 0; tick < 500; ++tick) ASSERT_TRUE(tool.step(kT, spring(500, 0.01)));
+  ASSERT_LT(tool.surface_force()[0], -1) << "it presses";
+  ASSERT_LT(tool.relative_damping_share(0, 1e6, 0, 400, 0), 1);
+  tool.set_received_contacts({});
+  ASSERT_TRUE(tool.step(kT, spring(500, 0.01)));
+  EXPECT_EQ(tool.surface_force()[0], 0);
+  EXPECT_EQ(tool.relative_damping_share(0, 1e6, 0, 400, 0), 1);
+}
+
 }  // namespace
 }  // namespace tandem::control

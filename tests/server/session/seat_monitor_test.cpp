@@ -41,11 +41,12 @@ struct MonitoredSeat : test::SessionParts {
     client->accept(now, *opened, codec.decode_force(opened->plaintext)->preamble);
     const std::size_t plain = codec.encode(client->preamble(now, 0), state, payload);
     const std::size_t size = client->seal(now, wire::Type::kState, bytes, plain);
-    EXPECT_TRUE(seats[number].on_datagram(now, {}, std::span{bytes}.first(size), tokens).accepted_state);
+    const auto datagram = std::span<const std::byte>{bytes}.first(size);
+    EXPECT_TRUE(seats[number].on_datagram(now, {}, *transport::read_header(datagram), datagram, tokens).accepted_state);
   }
   Whats step(Duration after = {}) {
     now += after;
-    monitor.step(now, number, seats[number], audit);
+    monitor.step(now, number, seats[number], seats[number].condition(now), audit);
     Whats out;
     for (const AuditEvent& e : events()) {
       EXPECT_EQ(e.seat, number);

@@ -253,5 +253,25 @@ TEST(AuditTrail, StampsEventsWithTheSessionsTick) {
   EXPECT_EQ(audit.dropped(), 3u);
 }
 
+TEST(SessionRecord, IsMadeAtEveryNthTickAndAtTheFirst) {
+  Stoppable s;
+  s.session->set_record_interval(17);
+  std::vector<std::uint32_t> at;
+  for (std::uint32_t tick = 0; tick < 60; ++tick) {
+    const std::uint32_t before = s.session->record().tick;
+    s.tick([] {});
+    if (s.session->recorded()) {
+      at.push_back(tick);
+      EXPECT_EQ(s.session->record().tick, s.session->clock().session_tick());
+    } else {
+      EXPECT_EQ(s.session->record().tick, before) << "the record is that of an earlier tick";
+    }
+  }
+  EXPECT_EQ(at, (std::vector<std::uint32_t>{0, 17, 34, 51}));
+  s.session->set_record_interval(1);
+  s.tick([] {});
+  EXPECT_TRUE(s.session->recorded());
+}
+
 }  // namespace
 }  // namespace tandem::server
