@@ -54,6 +54,13 @@ void write_gate(const GateSpec& in, pb::Gate& out);
 void check_friction(const NumericsSpec& numerics, const EnvironmentSpec& environment, const std::string& whose,
                     text::MessageValidator& validator);
 void write_numerics(const NumericsSpec& in, pb::Numerics& out);
+void read_send(const pb::Send& in, SendSpec& out);
+void write_send(const SendSpec& in, pb::Send& out);
+/// Returns the conflict of `send` with law, port, gate and tick; empty if there is none.
+[[nodiscard]] std::optional<LawProblem> send_problem(const SendSpec& send, const ChannelSpec& channel,
+                                                     const GateSpec& gate, PortSpace port, double tick_hz);
+/// Rejects a block that changes nothing.
+void check_send(const pb::Send& in, const std::string& path, text::MessageValidator& validator);
 void write_seat(const SeatSpec& in, pb::Seat& out);
 void write_slave(const SimDeviceSpec& device, const EnvironmentSpec& environment, pb::Slave& out);
 
