@@ -224,10 +224,14 @@ class SceneGenerator {
     const double heartbeat_ms = (replica_ ? 100 : 0.999 * std::min(100.0, silence_ms_) - 0.05) / 6;
     if (joints_ || exact_ || heartbeat_ms * tick_hz_ < 1000 || !key_draws_.chance(kHoldsBack)) return;
     out_ += format("send { prediction_order: %d", key_draws_.chance(0.3) ? 0 : 1);
-    if (key_draws_.chance(0.3))
-      out_ += format(" heartbeat_ms: %.5g", std::max(1001 / tick_hz_, heartbeat_ms * key_draws_.between(0.3, 0.99)));
-    const bool rated = key_draws_.chance(0.3);
-    if (rated) out_ += format(" rate_hz: %.6g", tick_hz_ * key_draws_.between(0.9, 1));
+    double chosen_ms = heartbeat_ms;
+    if (key_draws_.chance(0.3)) {
+      chosen_ms = std::max(1001 / tick_hz_, heartbeat_ms * key_draws_.between(0.3, 0.99));
+      out_ += format(" heartbeat_ms: %.5g", chosen_ms);
+    }
+    const double rate_min = 1050 / chosen_ms;  // [Hz], one datagram per heartbeat
+    const bool rated = rate_min < tick_hz_ && key_draws_.chance(0.3);
+    if (rated) out_ += format(" rate_hz: %.6g", key_draws_.between(rate_min, tick_hz_));
     if (!rated || key_draws_.chance(0.5))
       out_ += format(" dead_band { weber: %.3g }", key_draws_.log_between(0.01, 0.4));
     out_ += " }\n";
