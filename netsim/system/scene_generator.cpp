@@ -215,7 +215,7 @@ class SceneGenerator {
   /// Steps of the simulated tools that keep the proof of passivity; a device moves no tool of such a scene.
   void numerics() {
     if (steppable_ && key_draws_.chance(kStepped))
-      out_ += format("numerics { substeps: %llu }\n", static_cast<unsigned long long>(2 + key_draws_.below(7)));
+      out_ += format("numerics { substeps: %zu }\n", 2 + key_draws_.below(7));
   }
 
   /// Datagrams that both ends hold back.
