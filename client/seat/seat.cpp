@@ -51,7 +51,12 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const transport:
       guards_(setup, caps.joints),
       clock_(dt_, setup.clock_runs_while_stopped),
       telemetry_(setup.tick_hz),
-      requests_(setup) {}
+      held_(setup::held_sample(setup)),
+      requests_(setup) {
+  if (!setup.send.is_on()) return;
+  pace_.emplace(setup_);
+  wait_ = from_seconds(2 * (setup.send.heartbeat + dt_));
+}
 
 Seat::Connection Seat::prepare(const transport::SecureChannel::Params& link) const {
   return {std::make_unique<transport::SecureChannel>(link), ToolChannels::make_ends(setup_)};
@@ -69,6 +74,7 @@ void Seat::reconnect(Connection& next) noexcept {
   tools_.clear_received();
   clock_.on_reconnect();
   telemetry_.restart();
+  if (pace_) pace_->restart();
   requests_.on_reconnect();
   close_out_.on_reconnect();
   state_.seat_tick = 0;
@@ -101,6 +107,7 @@ void Seat::on_force(Time now, const transport::SecureChannel::Opened& datagram) 
   if (force().session == wire::SessionState::kWaiting && decoded->message.session == wire::SessionState::kRunning)
     link.restart_statistics(now);
   tools_.receive(decoded->message);
+  held_.restart();
   fresh_ = true;
   for (std::size_t k = 0; k < tools_.size(); ++k)
     if (const LocalContactList& contacts = tools_.received(k).contacts; contacts.size > 0)
@@ -119,7 +126,7 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   const bool was_active = gate_.active();
   control::ForceGate::Input in{.now = now,
                                .fresh = std::exchange(fresh_, false),
-                               .loop_age = link().timing().loop_age(now),
+                               .loop_age = link().timing().loop_age(now) - wait_,
                                .rtt_p99 = link().timing().rtt_p99(),
                                .reset = requests_.take_gate_reset(),
                                .reading_valid = device_.update(device),
@@ -127,8 +134,10 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
                                .v = device_.v()};
   motion_scale_.update(device_.q(), device_.v());
   if (separation_.on()) separation_.update(device_.reading(), motion_scale_);
+  if (held_.on()) [[unlikely]]
+    tools_.predict(held_, link().timing().silence(now));
   if (was_active) {
-    in.wanted = motion_scale_.effort_at_hand(coupling_->step(coupling_input(seconds(link().timing().age(now)))));
+    in.wanted = motion_scale_.effort_at_hand(coupling_->step(coupling_input(sample_age(now))));
   } else {
     rest();
   }
@@ -146,7 +155,10 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
 
   fill_state(now, device.homed, in.wanted);
   if (!gate_.active() && gate_.phase() != control::GatePhase::kReleasing) close_out_.on_released();
-  state_due_ = true;
+  if (!pace_ || pace_->due(tick_, state_, tools_.further_samples())) [[likely]] {
+    state_due_ = true;
+    state_.with_telemetry = telemetry_.due(tick_, force().telemetry_every_tick);
+  }
 
   return {.seq = ++command_seq_,
           .expires = now + command_life_,
@@ -176,7 +188,7 @@ Coupling::Input Seat::coupling_input(double age) const noexcept {
 std::optional<hal::Vec3> offset_from_leader(const Seat& seat, Time now) noexcept {
   const wire::Ghost& ghost = seat.force().ghost;
   if (!seat.tools().heard() || ghost.leader == 0) return std::nullopt;
-  const double age = seconds(seat.link().timing().age(now));
+  const double age = seat.sample_age(now);
   hal::Vec3 offset = seat.device().reading().x;
   for (std::size_t k = 0; k < 3; ++k)
     offset[static_cast<Eigen::Index>(k)] -=
@@ -210,7 +222,6 @@ void Seat::fill_state(Time now, bool homed, const AxisArray& wanted) noexcept {
   const bool guard_latched = guards_.latched() && phase == control::GatePhase::kZero;
   state_.gate = wire_state(guard_latched ? control::GatePhase::kLatched : phase);  // both wait for a reset of the gate
   t.gate_trips = gate_.trips();
-  state_.with_telemetry = telemetry_.due(tick_, force().telemetry_every_tick);
   state_.engaged = engaged;
   state_.ready = homed && phase != control::GatePhase::kLatched && phase != control::GatePhase::kFault &&
                  !guards_.inhibit() && !close_out_.leaving() && !requests_.locally_stopped() &&

@@ -15,6 +15,7 @@
 #include "client/seat/seat_guards.h"
 #include "client/seat/seat_requests.h"
 #include "client/seat/session_clock.h"
+#include "client/seat/state_pace.h"
 #include "client/seat/telemetry_pace.h"
 #include "client/seat/tool_channels.h"
 #include "common/base/time.h"
@@ -95,6 +96,8 @@ class Seat {
   [[nodiscard]] const MotionScale& motion_scale() const noexcept { return motion_scale_; }
   [[nodiscard]] const SeatGuards& guards() const noexcept { return guards_; }
   [[nodiscard]] const SessionClock& clock() const noexcept { return clock_; }
+  /// Age of the received values for the law [s]; a sample that the server holds back counts as new.
+  [[nodiscard]] double sample_age(Time now) const noexcept { return seconds(link().timing().age(now)) - held_.held(); }
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes [N or N m]
 
  private:
@@ -119,6 +122,9 @@ class Seat {
   SeatGuards guards_;
   SessionClock clock_;
   TelemetryPace telemetry_;
+  std::optional<StatePace> pace_;  ///< empty: a STATE at every tick
+  control::HeldSample held_;
+  Duration wait_{};  ///< part of the loop age for which both ends may hold datagrams back; the gate does not count it
   SeatRequests requests_;
   CloseOut close_out_;
   wire::StateMessage state_{};

@@ -51,6 +51,16 @@ void ToolChannels::receive(const wire::ForceMessage& force) noexcept {
   heard_ = true;
 }
 
+void ToolChannels::predict(control::HeldSample& held, Duration silence) noexcept {
+  const double step = held.advance(seconds(silence));
+  const std::size_t axes = ends_[0]->dof();
+  held.predict(force_.port, axes, step);
+  for (wire::ToolForce& tool : further_) held.predict(tool.port, axes, step);
+  if (held.order() == 0) return;
+  for (std::size_t a = 0; a < force_.ghost.x.size(); ++a)
+    force_.ghost.x[a] += force_.ghost.v[a] * static_cast<float>(step);
+}
+
 double ToolChannels::authority() const noexcept {
   return std::ranges::max(tools_ |
                           std::views::transform([](const Coupling::Tool& tool) { return tool.received->alpha; }));

@@ -7,7 +7,9 @@
 
 #include "client/seat/coupling.h"
 #include "common/base/axes.h"
+#include "common/base/time.h"
 #include "common/control/channel.h"
+#include "common/control/send_pace.h"
 #include "proto/text/seat_setup.h"
 #include "proto/wire/wire_messages.h"
 
@@ -37,6 +39,10 @@ class ToolChannels {
   [[nodiscard]] std::span<wire::ToolForce> further_next() noexcept { return further_next_; }
   /// Takes a decoded FORCE, and the values in `further_next`.
   void receive(const wire::ForceMessage& force) noexcept TANDEM_REALTIME;
+
+  /// Advances the received samples, and the leader's hand, to what the server expects this client to predict.
+  /// @param silence  time since the newest FORCE arrived
+  void predict(control::HeldSample& held, Duration silence) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] std::size_t size() const noexcept { return tools_.size(); }
   [[nodiscard]] std::span<const Coupling::Tool> all() const noexcept { return tools_; }

@@ -66,12 +66,14 @@ std::string to_bytes(const ProbeResult& result) {
   const Exposure& e = result.exposure;
   Json values = Json::object();
   put_numbers(result.values, values);
-  return text({{"exposure", {e.s, e.engaged_s, e.held_s, e.saturated_s, e.trips, e.error_square}},
-               {"lived", result.lived_s},
-               {"one_way", number(result.one_way_s)},
-               {"trouble", result.trouble},
-               {"values", std::move(values)}},
-              -1);
+  return text(
+      {{"exposure",
+        {e.s, e.engaged_s, e.held_s, e.saturated_s, e.trips, e.error_square, e.sent_up, e.sent_down, e.send_ticks}},
+       {"lived", result.lived_s},
+       {"one_way", number(result.one_way_s)},
+       {"trouble", result.trouble},
+       {"values", std::move(values)}},
+      -1);
 }
 
 ProbeResult probe_result_from_bytes(const std::string& bytes) {
@@ -83,7 +85,10 @@ ProbeResult probe_result_from_bytes(const std::string& bytes) {
                   .held_s = e.at(2),
                   .saturated_s = e.at(3),
                   .trips = e.at(4),
-                  .error_square = e.at(5)};
+                  .error_square = e.at(5),
+                  .sent_up = e.at(6),
+                  .sent_down = e.at(7),
+                  .send_ticks = e.at(8)};
   out.lived_s = j.at("lived").get<double>();
   out.one_way_s = from_json(j.at("one_way"));
   out.trouble = j.at("trouble").get<std::string>();

@@ -99,6 +99,8 @@ constexpr FeelKey kExposure[] = {
     {"trips_per_min", "releases of the hand (gate trips)", "1/min"},
     {"saturated_share", "time at the motors' limit", "%", 100},
     {"delivered_error_n", "commanded minus delivered force, RMS", "N"},
+    {"sent_up_share", "datagrams of clients, of one per tick", "%", 100},
+    {"sent_down_share", "datagrams to clients, of one per tick", "%", 100},
 };
 constexpr std::array<FeelSection, 9> kSections{{
     {Probe::kPress, "Pressing", kContact},
@@ -139,6 +141,9 @@ void put_exposure(const Exposure& e, FeelValues& values) {
   values["saturated_share"] = share(e.saturated_s);
   values["trips_per_min"] = share(60 * e.trips);
   values["delivered_error_n"] = std::sqrt(share(e.error_square));
+  if (!(e.send_ticks > 0)) return;  // one datagram per tick
+  values["sent_up_share"] = e.sent_up / e.send_ticks;
+  values["sent_down_share"] = e.sent_down / e.send_ticks;
 }
 
 }  // namespace tandem::netsim

@@ -25,6 +25,8 @@ struct FeelTrace {
     std::vector<double> work;
     double force_max = 0;              ///< largest force that motor and gate allow this seat [N]
     std::vector<std::uint32_t> trips;  ///< trips of the force gate since the start
+    /// Datagrams since the start: of the client, and of the server to it. Empty for scenes without `send`.
+    std::vector<std::uint64_t> sent_up, sent_down;
   };
   double tick_hz = 1000;
   double one_way_s = 0;   ///< half of the leader's median round trip, without the server's tick [s]

@@ -36,6 +36,10 @@ void add_row(FeelTrace& trace, const Simulation& simulation) {
     hand.alpha.push_back(seat.alpha);
     hand.work.push_back(simulation.client(i).motor_work());
     hand.trips.push_back(simulation.client(i).program().gate_trips());
+    if (!simulation.scene().send.is_on() || simulation.seat(i) == nullptr) continue;
+    const transport::SecureChannel* const down = simulation.session().seat(i).link();
+    hand.sent_up.push_back(simulation.seat(i)->link().stats().sent);
+    hand.sent_down.push_back(down != nullptr ? down->stats().sent : 0);
   }
   const server::ToolRecord& tool = record.tools[0];
   trace.tool.push_back(vector_of(tool.x));

@@ -20,6 +20,9 @@ void Exposure::add(const Exposure& other) noexcept {
   saturated_s += other.saturated_s;
   trips += other.trips;
   error_square += other.error_square;
+  sent_up += other.sent_up;
+  sent_down += other.sent_down;
+  send_ticks += other.send_ticks;
 }
 
 Exposure exposure_of(const FeelTrace& trace, double from) {
@@ -35,7 +38,14 @@ Exposure exposure_of(const FeelTrace& trace, double from) {
     out.saturated_s += hand.f[i].norm() >= kSaturated * hand.force_max ? dt : 0;
     out.error_square += (hand.f_cmd[i] - hand.f[i]).squaredNorm() * dt;
   }
-  if (end > first) out.trips = hand.trips[end - 1] - hand.trips[first];
+  if (end <= first) return out;
+  out.trips = hand.trips[end - 1] - hand.trips[first];
+  for (const FeelTrace::Hand& each : trace.hands) {
+    if (each.sent_up.size() != trace.rows()) continue;
+    out.sent_up += static_cast<double>(each.sent_up[end - 1] - each.sent_up[first]);
+    out.sent_down += static_cast<double>(each.sent_down[end - 1] - each.sent_down[first]);
+    out.send_ticks += static_cast<double>(end - 1 - first);
+  }
   return out;
 }
 

@@ -34,6 +34,8 @@ struct Exposure {
   double s = 0, engaged_s = 0, held_s = 0, saturated_s = 0;  ///< [s]: all, engaged, tool braked, motor saturated
   double trips = 0;                                          ///< of the leader's gate
   double error_square = 0;                                   ///< (commanded - delivered)^2 [N^2 s]
+  /// Scenes with `send`: datagrams of all hands to and from the server, and ticks in which each could have sent one.
+  double sent_up = 0, sent_down = 0, send_ticks = 0;
 
   void add(const Exposure& other) noexcept;
 };

@@ -19,6 +19,7 @@ class SceneGenerator {
       : draws_(key),
         replica_draws_(key.derive(kReplicaDraws)),
         assist_draws_(key.derive(kAssistDraws)),
+        key_draws_(key.derive(kKeyDraws)),
         replica_(law == LawKind::kReplica),
         duration_s_(duration_s) {}
 
@@ -30,6 +31,8 @@ class SceneGenerator {
     for (std::size_t j = 0; j < tools_; ++j) out_ += weights(j) + "\n";
     for (std::size_t i = 0; replica_ && tools_ > 1 && i < masters_; ++i) follow(i);
     timeline();
+    numerics();
+    send();
     return std::move(out_);
   }
 
@@ -46,14 +49,16 @@ class SceneGenerator {
 
   void header() {
     const double limit = std::min(400.0, 2 * 0.2 * tick_hz_);
+    joints_ = axes_ == 3 && draws_.chance(0.25) && !replica_;
     out_ += format("version: 1  tick_hz: %g  dof: %zu  duration_s: %g  port: %s  ", tick_hz_, axes_, duration_s_,
-                   axes_ == 3 && draws_.chance(0.25) && !replica_ ? "JOINT" : "TIP");
+                   joints_ ? "JOINT" : "TIP");
     out_ += draws_.chance(0.1)
                 ? "alpha_step: true\n"
                 : format("alpha_slew_per_s: %.3g\n", draws_.chance(0.5) ? 1.0 : draws_.log_between(0.1, 100));
     const char* const mfs =
         std::array{"OPEN", "TANK", "SEED", "SEED_SIGNED"}[draws_.choose(std::array{0.7, 0.1, 0.1, 0.1})];
     const bool seeds = mfs[0] == 'S';  // these sources cut a velocity, which law REPLICA does not send
+    exact_ = seeds && !replica_;
     out_ +=
         format("channel { law: %s mfs: %s", replica_ ? "REPLICA" : "SET_POSITION", replica_ && seeds ? "OPEN" : mfs);
     if (draws_.chance(0.4)) out_ += format(" k_n_m: %.4g", draws_.log_between(100, 3000));
@@ -74,10 +79,11 @@ class SceneGenerator {
         format(" }\ndevice_coupling { k_c_n_m: %.4g b_n_s_m: %.3g m_c_kg: %.3g }\n",
                draws_.chance(0.6) ? limit : draws_.between(50, limit), draws_.chance(0.7) ? 0.5 : draws_.between(0, 2),
                draws_.chance(0.7) ? 0.02 : draws_.log_between(0.005, 0.2));
+    silence_ms_ = draws_.chance(0.6) ? 20.0 : draws_.between(10, 100);
     out_ += format(
         "gate { silence_limit_ms: %.3g loop_age_max_ms: %.5g latch: %s ramp_in_ms: %.4g force_max_n: %.3g }\n",
-        draws_.chance(0.6) ? 20.0 : draws_.between(10, 100), draws_.chance(0.5) ? 2500.0 : draws_.between(300, 2500),
-        draws_.chance(0.3) ? "true" : "false", draws_.chance(0.6) ? 500.0 : draws_.log_between(50, 1500), force_max);
+        silence_ms_, draws_.chance(0.5) ? 2500.0 : draws_.between(300, 2500), draws_.chance(0.3) ? "true" : "false",
+        draws_.chance(0.6) ? 500.0 : draws_.log_between(50, 1500), force_max);
   }
 
   std::string device() {
@@ -136,7 +142,10 @@ class SceneGenerator {
                                                   : "OBSERVER";
     out_ += format("seat { name: \"seat%zu\" kind: MASTER role: %s required: %s", i, role,
                    i < tools_ || draws_.chance(0.7) ? "true" : "false");
-    out_ += " device { " + device() + " } " + hand();
+    const bool separates = !joints_ && key_draws_.chance(kSeparates);
+    out_ += " device { " + device() + (separates ? " calibrate: true" : "") + " } " + hand();
+    if (separates) out_ += " force_separation: true";
+    if (!joints_ && key_draws_.chance(kScaled)) out_ += format(" motion_scale: %.3g", key_draws_.log_between(0.4, 2.5));
     if (replica_ && assist_draws_.chance(kAssisted))
       out_ += format(" assist { force_n: %.3g in_contact: %s }", assist_draws_.between(0, 3),
                      assist_draws_.chance(0.5) ? "true" : "false");
@@ -147,6 +156,7 @@ class SceneGenerator {
     const std::string ipc = format("k_s_n_m: %.4g m_s_kg: %.3g", std::min(400.0, 2 * 0.2 * tick_hz_),
                                    draws_.chance(0.7) ? 0.05 : draws_.log_between(0.02, 0.3));
     if (draws_.chance(0.2)) {
+      steppable_ = steppable_ && replica_;
       out_ += format("tool { name: \"tool%zu\" %s }\n", j, ipc.c_str());
       out_ += format("seat { name: \"slave%zu\" kind: SLAVE tool: \"tool%zu\" required: true", j, j);
       out_ += " device { " + device() + " } " + environment() + " }\n";
@@ -158,6 +168,7 @@ class SceneGenerator {
       out_ +=
           format("tool { name: \"tool%zu\" m_s_kg: %.3g slave { model: VIRTUAL %s } }\n", j, mass, surfaces.c_str());
     } else {
+      steppable_ = false;
       out_ +=
           format("tool { name: \"tool%zu\" %s slave { model: %s ", j, ipc.c_str(), axes_ == 1 ? "LINEAR" : "TOUCH") +
           slave + " " + surfaces + " } }\n";
@@ -201,17 +212,46 @@ class SceneGenerator {
       out_ += format("timeline { at_s: %.4f ", at) + weights(draws_.below(tools_)) + "}\n";
   }
 
-  static constexpr std::uint64_t kReplicaDraws = 0x72, kAssistDraws = 0x61;
+  /// Steps of the simulated tools that keep the proof of passivity; a device moves no tool of such a scene.
+  void numerics() {
+    if (steppable_ && key_draws_.chance(kStepped))
+      out_ += format("numerics { substeps: %zu }\n", 2 + key_draws_.below(7));
+  }
+
+  /// Datagrams that both ends hold back.
+  void send() {
+    // A sixth of the shortest silence that is tolerated, of the value as printed.
+    const double heartbeat_ms = (replica_ ? 100 : 0.999 * std::min(100.0, silence_ms_) - 0.05) / 6;
+    if (joints_ || exact_ || heartbeat_ms * tick_hz_ < 1000 || !key_draws_.chance(kHoldsBack)) return;
+    out_ += format("send { prediction_order: %d", key_draws_.chance(0.3) ? 0 : 1);
+    double chosen_ms = heartbeat_ms;
+    if (key_draws_.chance(0.3)) {
+      chosen_ms = std::max(1001 / tick_hz_, heartbeat_ms * key_draws_.between(0.3, 0.99));
+      out_ += format(" heartbeat_ms: %.5g", chosen_ms);
+    }
+    const double rate_min = 1050 / chosen_ms;  // [Hz], one datagram per heartbeat
+    const bool rated = rate_min < tick_hz_ && key_draws_.chance(0.3);
+    if (rated) out_ += format(" rate_hz: %.6g", key_draws_.between(rate_min, tick_hz_));
+    if (!rated || key_draws_.chance(0.5))
+      out_ += format(" dead_band { weber: %.3g }", key_draws_.log_between(0.01, 0.4));
+    out_ += " }\n";
+  }
+
+  static constexpr std::uint64_t kReplicaDraws = 0x72, kAssistDraws = 0x61, kKeyDraws = 0x6b;
   static constexpr double kVirtual = 0.75;  ///< share of the tools that the server simulates
   static constexpr double kAssisted = 0.4;  ///< share of the hands with assistance
+  /// Shares of the hands with a scale and with force separation, and of the scenes with substeps and held datagrams.
+  static constexpr double kScaled = 0.2, kSeparates = 0.1, kStepped = 0.3, kHoldsBack = 0.3;
 
   RandomDraws draws_;
-  RandomDraws replica_draws_,
-      assist_draws_;  ///< separate, so that a seed draws the same seats, tools and motions for every law
+  RandomDraws replica_draws_, assist_draws_,
+      key_draws_;  ///< separate, so that a seed draws the same seats, tools and motions for every law
   bool replica_;
   double duration_s_;
   std::size_t axes_ = 3, masters_ = 1, tools_ = 1, leaders_ = 1;
-  double tick_hz_ = 1000, damping_ = 0.2;
+  double tick_hz_ = 1000, damping_ = 0.2, silence_ms_ = 20;
+  bool joints_ = false, exact_ = false;
+  bool steppable_ = true;  ///< no device moves a tool
   std::string out_;
 };
 

@@ -63,8 +63,11 @@ void SilenceChecker::check(const ObservedSeat& seat) {
       if (power > 1e-9) seat.violated("silence_brakes");
     }
   }
-  const double extra =
+  double extra =
       seat.master_of_law_replica() ? silence_limits(gate, LawKind::kReplica, core.tools().authority()).most : 0;
+  // Each end may hold a datagram back for a heartbeat, and sends it at its next tick.
+  if (const SendSpec& send = seat.scene.send; send.is_on() && !seat.slave())
+    extra += 2 * (seat.tick() + (send.heartbeat > 0 ? send.heartbeat : heartbeat_max(gate, seat.scene.channel.law)));
   if (active && seconds(link.loop_age(seat.client.own_time(now))) > gate.loop_age_max + extra + 1e-9)
     seat.violated("loop_age");
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/axes.h"
+#include "proto/spec/send_spec.h"
 
 /// A scene after validation: every number is finite and in range, every name is resolved. Only proto/text/scene_text.h
 /// creates it.
@@ -92,6 +93,18 @@ struct SilenceLimits {
   const double hold = leads ? gate.local_hold : gate.follow_hold, least = leads ? kLocalLeast : kFollowLeast;
   const double most = hold > gate.silence_limit ? hold : gate.silence_limit;
   return {least < most ? least : most, most};
+}
+
+/// Returns the longest time between two datagrams of a scene with `send` [s]: a sixth of the shortest silence that a
+/// master's gate and the server tolerate. At 5 % random loss, five losses in a row occur every day or two.
+[[nodiscard]] constexpr double heartbeat_max(const GateSpec& gate, LawKind law) noexcept {
+  constexpr double kServerTolerates = 0.1, kIntervals = 6;  // server/session/seat_endpoint.cpp
+  double least = kServerTolerates;
+  for (const double authority : {0.0, 1.0}) {
+    const double tolerated = silence_limits(gate, law, authority).least;
+    if (tolerated < least) least = tolerated;
+  }
+  return least / kIntervals;
 }
 
 /// Share of the force limit and of the energy after a loss that a role may receive. Evaluators, which never lead, get
@@ -303,6 +316,7 @@ struct SceneSpec {
   CouplingSpec coupling;                  ///< coupling of every master's device
   GateSpec gate;                          ///< force gate of every seat
   NumericsSpec numerics;                  ///< steps of the simulated tools
+  SendSpec send;                          ///< datagrams of masters
   std::vector<SeatSpec> seats;            ///< masters first, then slaves
   std::vector<ToolSpec> tools;            ///< at least one
   std::vector<AuthorityRow> authority;    ///< one per tool

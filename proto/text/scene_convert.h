@@ -56,6 +56,13 @@ void check_friction(const NumericsSpec& numerics, const EnvironmentSpec& environ
 /// Rejects an integrator that cannot follow the friction of its device. @param path  of the message numerics
 void check_device_numerics(const SimDeviceSpec& device, const std::string& path, text::MessageValidator& validator);
 void write_numerics(const NumericsSpec& in, pb::Numerics& out);
+void read_send(const pb::Send& in, SendSpec& out);
+void write_send(const SendSpec& in, pb::Send& out);
+/// Returns the conflict of `send` with law, port, gate and tick; empty if there is none.
+[[nodiscard]] std::optional<LawProblem> send_problem(const SendSpec& send, const ChannelSpec& channel,
+                                                     const GateSpec& gate, PortSpace port, double tick_hz);
+/// Rejects a block that changes nothing.
+void check_send(const pb::Send& in, const std::string& path, text::MessageValidator& validator);
 void write_seat(const SeatSpec& in, pb::Seat& out);
 void write_slave(const SimDeviceSpec& device, const EnvironmentSpec& environment, pb::Slave& out);
 

@@ -36,6 +36,7 @@ pb::Scene to_proto(const SceneSpec& scene) {
   write_coupling(scene.coupling, *out.mutable_device_coupling());
   write_gate(scene.gate, *out.mutable_gate());
   write_numerics(scene.numerics, *out.mutable_numerics());
+  if (scene.send.is_on()) write_send(scene.send, *out.mutable_send());
   for (const auto& seat : scene.seats) {
     auto& s = *out.add_seat();
     write_seat(seat, s);

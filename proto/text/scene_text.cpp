@@ -82,6 +82,7 @@ std::optional<LawProblem> coupling_problem(const SceneSpec& scene) {
 std::optional<LawProblem> law_problem(const SceneSpec& scene) {
   if (auto problem = coupling_problem(scene)) return problem;
   if (auto problem = numerics_problem(scene)) return problem;
+  if (auto problem = send_problem(scene.send, scene.channel, scene.gate, scene.port, scene.tick_hz)) return problem;
   if (scene.channel.e0 > kE0Max)  // reachable by choose_law only: scene files have a lower maximum
     return LawProblem{"gate.force_max_n", "force_max_n^2 / (2 k_min_n_m) = " + text::number_text(scene.channel.e0) +
                                               " J must be at most " + text::number_text(kE0Max) +
@@ -110,6 +111,8 @@ std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::st
   read_coupling(in.device_coupling(), out.coupling);
   read_gate(in.gate(), out.gate);
   read_numerics(in.numerics(), out.numerics);
+  read_send(in.send(), out.send);
+  check_send(in.send(), "send", validator);
   resolve_e0(in.channel(), "channel", validator, out.gate, out.channel);
   check_gate(out.gate, out.tick_hz, "gate", validator);
   rules::read_seats_and_tools(in, validator, out);

@@ -76,6 +76,10 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   setup.coupling = scene.coupling;
   setup.gate = scene.gate;
   setup.numerics = scene.numerics;
+  if (scene.send.is_on() && scene.seats[seat].kind == SeatKind::kMaster) {
+    setup.send = scene.send;
+    if (!(setup.send.heartbeat > 0)) setup.send.heartbeat = heartbeat_max(scene.gate, scene.channel.law);
+  }
   setup.alpha_slew = scene.alpha_slew;
   setup.seat = scene.seats[seat];
   if (setup.seat.kind == SeatKind::kSlave && setup.seat.tool < scene.tools.size())
@@ -137,6 +141,7 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   write_gate(setup.gate, *message.mutable_gate());
   write_seat(setup.seat, *message.mutable_seat());
   write_numerics(setup.numerics, *message.mutable_numerics());
+  if (setup.send.is_on()) write_send(setup.send, *message.mutable_send());
   message.set_tool_index(static_cast<std::uint32_t>(setup.seat.tool));
   for (std::size_t axis = 0; axis < setup.dof && axis < kAxesMax; ++axis)
     message.add_axis_scale(setup.axis_scale[axis]);
@@ -177,10 +182,15 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     read_coupling(in.device_coupling(), out.coupling);
     read_gate(in.gate(), out.gate);
     read_numerics(in.numerics(), out.numerics);
+    read_send(in.send(), out.send);
     resolve_e0(in.channel(), "channel", validator, out.gate, out.channel);
     if (out.channel.law == LawKind::kReplica && out.port == PortSpace::kJoint)
       validator.error("channel.law", "is REPLICA, which needs port: TIP");
     check_gate(out.gate, out.tick_hz, "gate", validator);
+    check_send(in.send(), "send", validator);
+    if (const auto problem = send_problem(out.send, out.channel, out.gate, out.port, out.tick_hz))
+      validator.error(problem->key, problem->words);
+    if (out.send.is_on() && !(out.send.heartbeat > 0)) validator.error("send.heartbeat_ms", "is missing");
     read_seat(in.seat(), out.dof, "seat", validator, out.seat);
     if (out.seat.motion_scale != 1 && out.port == PortSpace::kJoint)
       validator.error("seat.motion_scale", "needs port: TIP");

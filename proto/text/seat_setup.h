@@ -43,6 +43,7 @@ struct SeatSetup {
   double m_s = 0.02,                 ///< mass of the tool this seat follows [kg]
       b_s = 0.2;                     ///< damping of that tool [N s/m]
   NumericsSpec numerics;             ///< steps of all simulated tools
+  SendSpec send;                     ///< datagrams of this seat; its heartbeat is above 0 if it is on
   EnvironmentSpec environment;       ///< of that tool: a master of law REPLICA simulates it
   double weight = 1;                 ///< weight of that tool's force in the force on this seat, C_ji (0, 1]
   std::vector<CoupledTool> further;  ///< masters of law REPLICA: the other tools, in the scene's order

@@ -55,6 +55,8 @@ SeatEndpoint::SeatEndpoint(const SceneSpec& scene, std::size_t seat, const AxisA
   further_rx_.resize(setup.further.size());
   further_next_.resize(setup.further.size());
   further_tx_.resize(setup.further.size());
+  held_ = setup::held_sample(setup);
+  if (held_.on()) pace_.emplace(setup);
 }
 
 void SeatEndpoint::attach(Time now, SeatConnection& entry) noexcept {
@@ -71,6 +73,8 @@ void SeatEndpoint::attach(Time now, SeatConnection& entry) noexcept {
   resume_ = entry.resume;
   force_scale_ = entry.force_scale;
   was_present_ = false;
+  if (pace_) pace_->restart();
+  held_.restart();
 }
 
 SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& from, const transport::Header& header,
@@ -107,6 +111,7 @@ SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& fr
       std::swap(rx_, next_);
       further_rx_.swap(further_next_);
       ++generation_;
+      held_.restart();
       break;
     }
     case wire::Type::kAuthority:
@@ -166,6 +171,8 @@ void SeatEndpoint::hold(std::span<const control::NearEnd> near) noexcept {
 
 void SeatEndpoint::move(Time now, double dt, std::span<const control::NearEnd> near) noexcept {
   input_.age = age_ = taken_ ? seconds(connection_->link().timing().age(now)) : 0;
+  if (held_.on() && taken_) [[unlikely]]
+    predict(now);
   input_.dt = dt;
   bool present = false;
   for (std::size_t k = 0; k < near.size(); ++k) {
@@ -174,6 +181,13 @@ void SeatEndpoint::move(Time now, double dt, std::span<const control::NearEnd> n
   }
   if (was_present_ && !present) ++outages_;
   was_present_ = present;
+}
+
+void SeatEndpoint::predict(Time now) noexcept {
+  const double step = held_.advance(seconds(connection_->link().timing().silence(now)));
+  input_.age = age_ -= held_.held();
+  held_.predict(rx_->port, scene_->dof, step);
+  for (PortSample& port : further_rx_) held_.predict(port, scene_->dof, step);
 }
 
 void SeatEndpoint::move(std::size_t k, const control::NearEnd& near) noexcept {
@@ -197,11 +211,13 @@ void SeatEndpoint::move(std::size_t k, const control::NearEnd& near) noexcept {
 }
 
 Transmit SeatEndpoint::transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept {
-  if (further_tx_.empty())
-    return taken_ ? connection_->seal(now, tick, wire::Type::kForce, tx, codec_, buffer) : Transmit{};
-  return !taken_
-             ? Transmit{}
-             : connection_->seal(now, tick, wire::Type::kForce, wire::ForceWithTools{tx, further_tx_}, codec_, buffer);
+  if (!taken_) return {};
+  const Transmit out = further_tx_.empty() ? connection_->seal(now, tick, wire::Type::kForce, tx, codec_, buffer)
+                                           : connection_->seal(now, tick, wire::Type::kForce,
+                                                               wire::ForceWithTools{tx, further_tx_}, codec_, buffer);
+  if (pace_ && out.size > 0) [[unlikely]]
+    pace_->sent(tick, tx, further_tx_);
+  return out;
 }
 
 Transmit SeatEndpoint::transmit_close(Time now, std::uint32_t tick, wire::CloseReason why,

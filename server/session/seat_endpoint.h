@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "common/control/esc_hub.h"
+#include "common/control/send_pace.h"
 #include "proto/spec/scene_spec.h"
 #include "proto/wire/wire_codec.h"
 #include "server/policy/roles.h"
 #include "server/session/connection.h"
+#include "server/session/force_pace.h"
 #include "server/session/misbehaviour_monitor.h"
 #include "server/session/seat_catalogue.h"
 
@@ -26,7 +28,7 @@ class SeatEndpoint {
   /// Attaches a client to the seat. Energies, statistics and link timing start from zero.
   /// @param entry  out: the previous contents of the seat, so that the caller's thread frees the memory
   void attach(Time now, SeatConnection& entry) noexcept;
-  /// Age of the newest sample when this end last moved [s].
+  /// Age of the newest sample when this end last moved [s]; a sample that the client holds back counts as new.
   [[nodiscard]] double age() const noexcept { return age_; }
   /// Time since the client was last heard; time since admission if it never was. @pre taken()
   [[nodiscard]] Duration silence(Time now) const noexcept { return connection_->silence(now); }
@@ -124,6 +126,11 @@ class SeatEndpoint {
   [[nodiscard]] bool reachable() const noexcept { return taken_ && connection_->proven_address() && generation_ > 0; }
   /// A FORCE that is due may be sent: the client was heard recently, or a keep-alive is due. @pre reachable()
   [[nodiscard]] bool may_send(Time now) noexcept { return connection_->may_send(now); }
+  /// Whether `tx` differs from what the client predicts, or must be sent anyway. Always true without `send` in the
+  /// scene.
+  [[nodiscard]] bool force_due(Time now, std::uint32_t tick) noexcept TANDEM_REALTIME {
+    return !pace_ || pace_->due(tick, tx, further_tx_, rx_->engaged && alive(now), rx_->port);
+  }
   /// The client has been silent for so long that nothing is sent to it any more. @pre reachable()
   [[nodiscard]] bool expired(Time now) const noexcept { return connection_->expired(now); }
   /// Seals `tx`, CLOSE, or a challenge that is due; size 0 if nothing is due.
@@ -138,6 +145,8 @@ class SeatEndpoint {
 
  private:
   void move(std::size_t end, const control::NearEnd& near) noexcept TANDEM_REALTIME;
+  /// Advances the received samples to what the client expects this end to predict.
+  void predict(Time now) noexcept TANDEM_REALTIME;
   /// Whether a position moved by more than 1 m or 5 rad between two samples. Also records if a received energy fell.
   [[nodiscard]] bool jumps(const PortSample& next, const PortSample& last) noexcept;
 
@@ -166,6 +175,8 @@ class SeatEndpoint {
   wire::Telemetry telemetry_{};
   std::vector<PortSample> further_rx_, further_next_;
   std::vector<wire::ToolForce> further_tx_;
+  std::optional<ForcePace> pace_;  ///< empty: a FORCE at every tick that the schedule allows
+  control::HeldSample held_;
   std::uint64_t generation_ = 0;
   double age_ = 0;
   std::array<bool, kToolsMax> was_engaged_{};  ///< per end

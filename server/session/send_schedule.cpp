@@ -48,7 +48,8 @@ void SendSchedule::begin_tick(Time now, std::uint32_t tick, ShedLevel level, con
   rewind();
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     const bool due = turn_begins(i, tick, level) && seats_[i].reachable();
-    due_[i] = due && (closing.due(i) != nullptr ? !seats_[i].expired(now) : seats_[i].may_send(now));
+    due_[i] = due && (closing.due(i) != nullptr ? !seats_[i].expired(now)
+                                                : seats_[i].force_due(now, tick) && seats_[i].may_send(now));
   }
 }
 

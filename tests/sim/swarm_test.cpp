@@ -16,6 +16,8 @@ TEST(SwarmCases, AreValidAndCoverAllScenesAndFaults) {
   std::set<std::size_t> masters, tools;
   std::set<netsim::Fault::Kind> faults;
   std::size_t remote = 0, joint = 0, one_axis = 0, evaluators = 0, scripted = 0, clocks = 0;
+  constexpr double kReplicaFault = 10;  // longest fault phase [s]
+  std::size_t stepped = 0, held = 0, rated = 0, scaled = 0, separated = 0;
   constexpr std::uint64_t kCases = 1000;
   for (std::uint64_t seed = 1; seed <= kCases; ++seed) {
     const netsim::SwarmCase c = netsim::generate_swarm_case(seed);  // throws if its scene is not valid
@@ -36,11 +38,21 @@ TEST(SwarmCases, AreValidAndCoverAllScenesAndFaults) {
     for (const auto& s : scene.seats) evaluators += s.role == Role::kEvaluator;
     scripted += c.setup.events.size() > 1;
     clocks += !c.setup.endpoints.empty();
+    held += scene.send.dead_band.has_value();
+    rated += scene.send.rate > 0;
+    for (const auto& s : scene.seats) {
+      scaled += s.motion_scale != 1;
+      separated += s.force_separation;
+    }
   }
   EXPECT_EQ(masters, (std::set<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8}));
   EXPECT_EQ(tools, (std::set<std::size_t>{1, 2, 3, 4}));
   EXPECT_EQ(faults.size(), netsim::kFaultNames.size()) << "a kind of fault never comes";
-  for (const std::size_t n : {remote, joint, one_axis, evaluators, scripted, clocks}) EXPECT_GT(n, kCases / 20);
+  for (const std::size_t n : {remote, joint, one_axis, evaluators, scripted, clocks, held, rated, scaled, separated})
+    EXPECT_GT(n, kCases / 20);
+  for (std::uint64_t seed = 1; seed <= kCases; ++seed)  // only law REPLICA simulates every tool
+    stepped += netsim::generate_swarm_case(seed, kReplicaFault, LawKind::kReplica).setup.scene.numerics.substeps > 1;
+  EXPECT_GT(stepped, kCases / 20);
 }
 
 TEST(SwarmCases, AreTheSameSessionEveryTime) {

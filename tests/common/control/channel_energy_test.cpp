@@ -26,6 +26,7 @@ struct Sum {
   double excess = -1;  ///< worst [J]
   double beyond = 0;   ///< channels above the bound of the laws with a ledger at both ends
   double moved = 0;    ///< [m]
+  double sent = 0;     ///< share of the samples, mean
   double channels = 0;
   bool finite = true;
 };
@@ -37,6 +38,7 @@ Sum judge_all(Trial trial, std::uint64_t channels) {
     sum.axis = std::max(sum.axis, v.worst_axis);
     sum.excess = std::max(sum.excess, v.excess);
     sum.moved = std::max(sum.moved, v.moved);
+    sum.sent += v.sent / static_cast<double>(channels);
     sum.finite &= v.finite;
     sum.beyond += v.given > 6 * test::kInitialEnergy + 1e-9 || !v.finite ? 1 : 0;
     ++sum.channels;
@@ -80,6 +82,38 @@ TEST_P(EnergyOracle, FindsTheBreachOfALawWhoseAccountLimitsNothing) {
   print(std::string(GetParam()) + ", unlimited", sum, test::stated_bound(GetParam()));
   EXPECT_GT(breach(GetParam(), sum), test::kInitialEnergy);
 }
+
+/// Laws under which datagrams may be held back.
+class EnergyOracleOfHeldSamples : public testing::TestWithParam<const char*> {};
+
+TEST_P(EnergyOracleOfHeldSamples, KeepsTheStatedBoundAlthoughSamplesAreHeldBack) {
+  for (const std::uint32_t order : {0U, 1U}) {
+    const Sum sum = judge_all({.law = GetParam(), .dead_band = true, .order = order}, test::seeds(500));
+    print(std::string(GetParam()) + ", dead-band " + std::to_string(order), sum, test::stated_bound(GetParam()));
+    EXPECT_LE(breach(GetParam(), sum), 1e-9);
+    EXPECT_TRUE(sum.finite);
+    EXPECT_GT(sum.moved, 0.02);
+    EXPECT_GT(sum.given, 0.1 * test::stated_bound(GetParam()));
+    std::printf("[  energy  ] %.1f %% of the samples sent\n", 100 * sum.sent);
+    EXPECT_LT(sum.sent, 0.8) << "samples are held back";
+  }
+}
+
+// Negative controls. The oracle finds accounts that limit nothing although samples are held back, and receivers that
+// predict energies as they predict motion: these spend what the other end never absorbed.
+TEST_P(EnergyOracleOfHeldSamples, FindsTheBreachOfALawWhoseAccountLimitsNothing) {
+  const Sum sum = judge_all({.law = GetParam(), .unlimited = true, .dead_band = true}, 60);
+  print(std::string(GetParam()) + ", unlimited", sum, test::stated_bound(GetParam()));
+  EXPECT_GT(breach(GetParam(), sum), test::kInitialEnergy);
+}
+TEST(EnergyOracleDeadBand, FindsTheBreachOfReceiversThatPredictEnergies) {
+  const Sum sum = judge_all({.law = "set_position", .dead_band = true, .predicts_energy = true}, 100);
+  print("set_position, energies predicted", sum, test::stated_bound("set_position"));
+  EXPECT_GT(breach("set_position", sum), test::kInitialEnergy);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, EnergyOracleOfHeldSamples, testing::Values("replica", "set_position"),
+                         [](const auto& law) { return std::string(law.param); });
 
 INSTANTIATE_TEST_SUITE_P(Laws, EnergyOracle, testing::Values("replica", "set_position", "tdpa", "wave", "pd", "raw"),
                          [](const auto& law) { return std::string(law.param); });

@@ -9,6 +9,7 @@
 #include "common/control/esc_hub.h"
 #include "common/control/ipc.h"
 #include "common/control/tool_copy.h"
+#include "tests/common/control/held_direction.h"
 #include "tests/common/control/hostile_network.h"
 
 namespace tandem::test {
@@ -329,6 +330,7 @@ Verdict judge(const Trial& trial) {
   double client_age = 0.05, server_age = 0.05;
   Liar to_client(mix64(trial.seed + 5)), to_server(mix64(trial.seed + 6));
   const bool lies = trial.delay == 0;
+  HeldDirection upward(trial, false, kCoupling), downward(trial, true, kCoupling);
   const double bound = stated_bound(trial.law);
   Verdict out;
   for (int now = 0; now < trial.ticks; ++now) {
@@ -336,22 +338,27 @@ Verdict judge(const Trial& trial) {
     if (const auto got = down.receive(now)) {
       at_client = *got;
       client_age = down.age_at_arrival;
+      downward.received(at_client);
     }
+    const double client_held = downward.predict(at_client);
     AxisArray q{};
     for (std::size_t a = 0; a < kDof; ++a) q[a] = hands[a].q;
-    const AxisArray motor = ends->client(lies ? to_client.told(at_client) : at_client, client_age, q);
+    const AxisArray motor = ends->client(lies ? to_client.told(at_client) : at_client, client_age - client_held, q);
     for (std::size_t a = 0; a < kDof; ++a) {
       if (random.below(1500) == 0) hands[a].wish = random.uniform(-0.1, 0.1);
       hands[a].step(motor[a]);
     }
-    up.send(now, ends->sample());
+    if (const PortSample sample = ends->sample(); upward.due(now, sample)) up.send(now, sample);
 
     server_age += kT;
     if (const auto got = up.receive(now)) {
       at_server = *got;
       server_age = up.age_at_arrival;
+      upward.received(at_server);
     }
-    down.send(now, ends->server(lies ? to_server.told(at_server) : at_server, server_age));
+    const double server_held = upward.predict(at_server);
+    const PortSample target = ends->server(lies ? to_server.told(at_server) : at_server, server_age - server_held);
+    if (downward.due(now, target)) down.send(now, target);
 
     double given = 0, granted = 0;
     for (std::size_t a = 0; a < kDof; ++a) {
@@ -365,6 +372,7 @@ Verdict judge(const Trial& trial) {
     out.given = std::max(out.given, given);
     out.excess = std::max(out.excess, given - bound - granted);
   }
+  out.sent = 0.5 * (upward.share() + downward.share());
   return out;
 }
 

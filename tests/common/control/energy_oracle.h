@@ -12,12 +12,17 @@ namespace tandem::test {
 
 /// Parameters of one run of the oracle.
 struct Trial {
-  std::string_view law;    ///< name of the law
-  std::uint64_t seed = 1;  ///< of hand, wall, network and, for `replica`, the other hands
-  int ticks = 3000;        ///< [ms]
-  int delay = 0;           ///< constant delay [ticks]; 0: a hostile network
-  bool unlimited = false;  ///< the accounts start with 1 kJ; a negative control, because they then limit nothing
-  bool grants = false;     ///< `replica`: the open flow sources pay for what a follower needs
+  std::string_view law;     ///< name of the law
+  std::uint64_t seed = 1;   ///< of hand, wall, network and, for `replica`, the other hands
+  int ticks = 3000;         ///< [ms]
+  int delay = 0;            ///< constant delay [ticks]; 0: a hostile network
+  bool unlimited = false;   ///< the accounts start with 1 kJ; a negative control, because they then limit nothing
+  bool grants = false;      ///< `replica`: the open flow sources pay for what a follower needs
+  bool dead_band = false;   ///< both ends hold datagrams back (common/control/send_pace.h)
+  std::uint32_t order = 1;  ///< `dead_band`: order of the prediction
+  /// `dead_band`: the receivers also extrapolate energies; a negative control, because they then spend what the other
+  /// end never absorbed.
+  bool predicts_energy = false;
 };
 
 /// Initial energy E_0 of each axis and end [J].
@@ -34,6 +39,7 @@ struct Verdict {
   /// Largest excess of `given` above the bound of the law and what was granted at that instant [J].
   double excess = -std::numeric_limits<double>::infinity();
   double moved = 0;  ///< largest distance of the tool from its start [m]
+  double sent = 0;   ///< share of the samples that both ends sent
   bool finite = true;
 };
 

@@ -126,6 +126,7 @@ TEST(FeelReport, TransfersProbeResultsBetweenProcessesUnchanged) {
 
 TEST(FeelKeys, MatchTheKeysOfProbes) {
   FeelSetup setup = contact_over(0);
+  setup.scene.send.rate = 500;  // the shares of datagrams exist only then
   const DrawnHand hand{HandKind::kPlain, 1, 0};
   setup.recordings = {{"still", hand.move([](double t) { return hal::Vec3(0.01 * t, 0, 0); }, 2)}};
   FeelValues all;
