@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/base/wrap_words.h"
 #include "netsim/plot/plot_style.h"
 #include "netsim/plot/ticks.h"
 
@@ -117,9 +118,9 @@ std::vector<PlacedMark> placed_marks(const Frame& f, const Panel& panel) {
   std::erase_if(marks, [](const PlacedMark& m) { return m.label->empty(); });
   std::ranges::sort(marks, {}, &PlacedMark::x);
   std::vector<double> row_ends;  // the title starts the lowest row
-  if (!panel.title.empty()) row_ends.push_back((characters(panel.title) + 2) * kCharacter);
+  if (!panel.title.empty()) row_ends.push_back(static_cast<double>(display_width(panel.title) + 2) * kCharacter);
   for (PlacedMark& m : marks) {
-    const double half = characters(*m.label) * kCharacter / 2;
+    const double half = static_cast<double>(display_width(*m.label)) * kCharacter / 2;
     m.x = std::clamp(m.x, std::min(half - kLeft, f.width), std::max(f.width + kRight - half, 0.0));
     while (m.row < row_ends.size() && row_ends[m.row] > m.x - half) ++m.row;
     if (m.row == row_ends.size()) row_ends.push_back(0);
@@ -235,7 +236,7 @@ std::string to_svg(const Figure& figure, double width) {
 
   double x = kLeft, top = 0;
   for (const Curve* entry : legend_of(figure)) {
-    const double wide = 37 + 6.7 * characters(entry->label);
+    const double wide = 37 + 6.7 * static_cast<double>(display_width(entry->label));
     if (top == 0 || x + wide > width) {
       x = top == 0 && width >= kTwoColumnsFrom ? kLeft : kRight;
       top += kLegend;

@@ -22,10 +22,6 @@ Ticks round_ticks(double lo, double hi, int wanted) {
   return ticks;
 }
 
-double characters(std::string_view text) {
-  return static_cast<double>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string number_text(double value, int decimals) {
   if (!std::isfinite(value)) return "–";
   char digits[400];

@@ -17,9 +17,6 @@ struct Ticks {
 /// not finite or not in order give no ticks.
 [[nodiscard]] Ticks round_ticks(double lo, double hi, int wanted);
 
-/// Returns the number of characters of UTF-8 text; all characters here are one column wide.
-[[nodiscard]] double characters(std::string_view text);
-
 /// Returns `value` with this number of decimals and the minus sign U+2212; "-0.0" is printed as "0.0". A value that is
 /// not finite gives an en dash.
 [[nodiscard]] std::string number_text(double value, int decimals);

@@ -24,6 +24,7 @@
 #include "proto/wire/wire_codec.h"
 #include "tests/common/base/counts.h"
 #include "tests/io/junk.h"
+#include "tests/io/machine_witness.h"
 #include "tests/io/programs.h"
 
 namespace tandem::test {
@@ -250,20 +251,20 @@ class Insider {
   std::uint64_t counter_ = 1'000'000;  // newer than all counters of the honest core
 };
 
-// "Hostile authenticated client: NaN, 1e308, 100 m jumps, 10 kHz, wrong lengths, instructor messages from a trainee":
-// only that client is quarantined. The effect on the other hand is measured in virtual time (Insider.*).
-TEST(HostileLive, QuarantinesOnlyTheMisbehavingClient) {
+/// One session with the misbehaving client. Returns whether the gate of the trainer's hand was judged.
+bool session_with_insider() {
+  const MachineWitness witness;
   const Folder folder;
   Process host = hosting("free_motion", {"--duration", "8", "--json", folder.file("s.json")});
   Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")});
   Insider insider{udp_of(host), "free_motion", "trainee"};
-  if (HasFailure()) return;
+  if (testing::Test::HasFailure()) return true;
   const Time timeout = io::monotonic_now() + 20s;
   while (!insider.runs() && io::monotonic_now() < timeout) {
     insider.tick();
     std::this_thread::sleep_for(1ms);
   }
-  ASSERT_TRUE(insider.runs()) << host.err();
+  EXPECT_TRUE(insider.runs()) << host.err();
   const double wrong[] = {std::numeric_limits<double>::quiet_NaN(), 1e308, std::numeric_limits<double>::infinity(), 100,
                           -100};
   const int milliseconds = static_cast<int>(draws(1500, 4000, 4000));
@@ -297,10 +298,23 @@ TEST(HostileLive, QuarantinesOnlyTheMisbehavingClient) {
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(host.wait(), 0) << host.err();
   const Json report = folder.json("s.json");
-  ASSERT_FALSE(report.is_discarded());
+  if (report.is_discarded()) {
+    ADD_FAILURE() << host.err();
+    return true;
+  }
   EXPECT_EQ(report["violations"], Json::array());
-  EXPECT_EQ(report["seats"][0]["gate_trips"], 0) << "the trainer's hand";
   EXPECT_EQ(report["ended_by"], "scene");
+  if (witness.machine_stood_still()) return false;
+  EXPECT_EQ(report["seats"][0]["gate_trips"], 0) << "the trainer's hand";
+  return true;
+}
+
+// "Hostile authenticated client: NaN, 1e308, 100 m jumps, 10 kHz, wrong lengths, instructor messages from a trainee":
+// only that client is quarantined. The effect on the other hand is measured in virtual time (Insider.*).
+TEST(HostileLive, QuarantinesOnlyTheMisbehavingClient) {
+  for (int session = 0; session < 3; ++session)
+    if (session_with_insider() || HasFailure()) return;
+  std::puts("[ NOT RUN ] HostileLive, gate of the other hand: this machine stood still in each of 3 sessions");
 }
 
 // "Keys in memory: core dumps off": a program that crashes leaves no dump to search. The twin shows that otherwise a

@@ -142,7 +142,7 @@ const std::array<Layer, 43> kLayers{{
      {"common/base", "netsim/engine", "netsim/models", "netsim/proxy"},
      {},
      "the proxy's core is the engine without sockets and clock; those belong to netsim/proxy/app"},
-    {"netsim/plot", {"netsim/plot"}, {}, "plots turn numbers into SVG"},
+    {"netsim/plot", {"common/base/wrap_words.h", "netsim/plot"}, {}, "plots turn numbers into SVG"},
     {"netsim/profiles",
      {"common/base", "netsim/engine", "netsim/models", "netsim/plot", "netsim/profiles", "netsim/quality", "proto"},
      {},

@@ -234,8 +234,9 @@ TEST(Authority, IsSettledOnlyIfAStepWouldMoveNothing) {
       ASSERT_EQ(every.held(), seldom.held());
     }
   }
-  EXPECT_GT(skipped, moved) << "most ticks move no authority";
-  EXPECT_GT(moved, 0);
+  const int ticks = skipped + moved;
+  EXPECT_GT(skipped, ticks / 10);
+  EXPECT_GT(moved, ticks / 10);
 }
 
 }  // namespace
