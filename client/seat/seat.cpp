@@ -7,6 +7,7 @@
 #include "client/seat/device_facts.h"
 #include "common/base/command_lifetime.h"
 #include "common/setup/device_stiffness.h"
+#include "common/setup/send_pace.h"
 
 namespace tandem::client {
 
@@ -54,7 +55,7 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const transport:
       held_(setup::held_sample(setup)),
       requests_(setup) {
   if (!setup.send.is_on()) return;
-  pace_.emplace(setup_);
+  pace_.emplace(setup::send_pace(setup_, control::Side::kClient), 1 + setup_.further.size());
   wait_ = from_seconds(2 * (setup.send.heartbeat + dt_));
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "common/setup/send_pace.h"
+#include "common/control/send_pace.h"
 #include "proto/wire/wire_messages.h"
 
 namespace tandem::client {
@@ -16,9 +16,9 @@ class StatePace {
  public:
   static constexpr std::uint32_t kRepeats = 10;  ///< ticks
 
-  /// @pre setup.send.is_on()
-  explicit StatePace(const SeatSetup& setup)
-      : pace_(setup::send_pace(setup, control::Side::kClient), 1 + setup.further.size()) {}
+  /// @param params  of this seat (setup::send_pace)
+  /// @param tools   number of tools, at least 1
+  StatePace(const control::SendPace::Params& params, std::size_t tools) : pace_(params, tools) {}
 
   /// Whether this tick has a STATE; a true result counts as sent.
   /// @param tick     number of the tick; may skip numbers

@@ -8,6 +8,7 @@
 
 #include "hal/core/device_load.h"
 #include "hal/core/port_map.h"
+#include "hal/sim/integrated_plant.h"
 #include "hal/sim/sim_calibration.h"
 
 namespace tandem::hal::sim {
@@ -32,6 +33,16 @@ constexpr double kLinearEncoder = 5.5e-5;    // [m]
 constexpr double kTouchResolution = 5.5e-5;  // [m] at the tip, datasheet
 constexpr double kTouchStiffness = 400.0;    // [N/m]
 constexpr Duration kPeriodMax = std::chrono::seconds(1);
+
+/// Plants of rarely used kinds are held by pointer.
+template <class Held>
+auto& body(Held& held) noexcept {
+  if constexpr (requires { *held; }) {
+    return *held;
+  } else {
+    return held;
+  }
+}
 
 DeviceError limit(std::string message) { return {Errc::kLimit, std::move(message)}; }
 
@@ -107,18 +118,21 @@ Result<std::unique_ptr<SimDevice>> SimDevice::make_uncalibrated(const SimSetup& 
   return std::unique_ptr<SimDevice>(new SimDevice(setup, touch_plant(setup, *q0), start));
 }
 
-SimDevice::Plant SimDevice::touch_plant(const SimSetup& setup, const Vec3& q0) noexcept {
+SimDevice::Plant SimDevice::touch_plant(const SimSetup& setup, const Vec3& q0) {
   if (const auto& numerics = setup.device.numerics)
-    return IntegratedPlant<TouchDynamics>({setup.device, setup.environment}, *numerics, q0);
+    return std::make_unique<IntegratedPlant<TouchDynamics>>(TouchDynamics(setup.device, setup.environment), *numerics,
+                                                            q0);
   return TouchPlant(setup.device, setup.environment, q0);
 }
 
-SimDevice::Plant SimDevice::linear_plant(const SimSetup& setup, const Vec3& start) noexcept {
+SimDevice::Plant SimDevice::linear_plant(const SimSetup& setup, const Vec3& start) {
   if (const auto& numerics = setup.device.numerics)
-    return IntegratedPlant<LinearDynamics>({setup.device, setup.environment, start}, *numerics,
-                                           LinearDynamics::Q(start[0]));
+    return std::make_unique<IntegratedPlant<LinearDynamics>>(LinearDynamics(setup.device, setup.environment, start),
+                                                             *numerics, LinearDynamics::Q(start[0]));
   return LinearPlant(setup.device, setup.environment, start);
 }
+
+SimDevice::~SimDevice() = default;
 
 SimDevice::SimDevice(const SimSetup& setup, Plant plant, const Vec3& start)
     : spec_(setup.device), plant_(std::move(plant)), hand_(setup.hand, start, setup.motion) {
@@ -170,7 +184,8 @@ void SimDevice::make_caps() {
 
 void SimDevice::read_truth() noexcept {
   std::visit(
-      [this](const auto& plant) {
+      [this](const auto& held) {
+        const auto& plant = body(held);
         const Vec3 &q = plant.q(), &dq = plant.dq();
         for (std::size_t i = 0; i < caps_.joints; ++i) {
           ground_truth_.q[i] = q[static_cast<int>(i)];
@@ -275,7 +290,8 @@ void SimDevice::move(const Vec3& tau, HandPull pull, double middle, double lengt
   if (!(length > 0.0)) return;
   pull.x += (middle - 0.5 * period) * pull.v;
   std::visit(
-      [&](auto& plant) {
+      [&](auto& held) {
+        auto& plant = body(held);
         plant.advance(tau, pull, length);
         ground_truth_.f_environment += length / period * plant.environment_force();
         ground_truth_.f_hand += length / period * plant.hand_force();

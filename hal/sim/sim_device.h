@@ -9,12 +9,16 @@
 
 #include "hal/core/device.h"
 #include "hal/sim/hand.h"
-#include "hal/sim/integrated_plant.h"
 #include "hal/sim/linear_plant.h"
 #include "hal/sim/touch_plant.h"
 #include "proto/spec/scene_spec.h"
 
 namespace tandem::hal::sim {
+
+template <class Dynamics>
+class IntegratedPlant;
+struct TouchDynamics;
+struct LinearDynamics;
 
 /// Ground truth of a simulation: the state of the plant itself, without encoder and filter. A device does not report
 /// it.
@@ -57,6 +61,7 @@ class SimDevice final : public SteppedDevice {
   /// Returns a new device, calibrated if its setup requests that. Error: a failed calibration, a number that is not
   /// finite or out of range, or a start pose out of reach.
   [[nodiscard]] static Result<std::unique_ptr<SimDevice>> make(const SimSetup& setup);
+  ~SimDevice() override;
 
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
   [[nodiscard]] const State& state() const noexcept override { return state_; }
@@ -82,9 +87,10 @@ class SimDevice final : public SteppedDevice {
   }
 
  private:
-  using Plant = std::variant<TouchPlant, LinearPlant, IntegratedPlant<TouchDynamics>, IntegratedPlant<LinearDynamics>>;
-  [[nodiscard]] static Plant touch_plant(const SimSetup& setup, const Vec3& q0) noexcept;
-  [[nodiscard]] static Plant linear_plant(const SimSetup& setup, const Vec3& start) noexcept;
+  using Plant = std::variant<TouchPlant, LinearPlant, std::unique_ptr<IntegratedPlant<TouchDynamics>>,
+                             std::unique_ptr<IntegratedPlant<LinearDynamics>>>;
+  [[nodiscard]] static Plant touch_plant(const SimSetup& setup, const Vec3& q0);
+  [[nodiscard]] static Plant linear_plant(const SimSetup& setup, const Vec3& start);
   SimDevice(const SimSetup& setup, Plant plant, const Vec3& start);
   [[nodiscard]] static Result<std::unique_ptr<SimDevice>> make_uncalibrated(const SimSetup& setup);
   void make_caps();

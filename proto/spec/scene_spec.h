@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/base/axes.h"
-#include "proto/spec/send_spec.h"
 
 /// A scene after validation: every number is finite and in range, every name is resolved. Only proto/text/scene_text.h
 /// creates it.
@@ -299,6 +298,23 @@ struct PhaseSpec {
   double from = 0,       ///< begin on the session clock [s]
       to = 0;            ///< end on the session clock [s]
   bool contact = false;  ///< the report evaluates contact forces
+};
+
+/// Changes that a participant does not notice, as shares of the present value (common/control/send_pace.h).
+struct DeadBandSpec {
+  double weber = 0.1;           ///< Weber fraction [1]
+  double velocity_floor = 0.1;  ///< the share is never of less than this velocity of the hand [m/s]
+  double force_floor = 0.6;     ///< the share is never of less than this force on the hand [N]
+};
+
+/// When masters send STATE, and the server sends FORCE to them. Default: at every tick.
+struct SendSpec {
+  double rate = 0;                        ///< largest rate of datagrams [Hz]; 0: one per tick
+  std::optional<DeadBandSpec> dead_band;  ///< empty: a datagram is sent whenever `rate` allows
+  double heartbeat = 0;                   ///< longest time between two datagrams [s]; 0: the default, heartbeat_max
+  std::uint32_t prediction_order = 1;     ///< prediction of values that are not sent: 0 holds, 1 extrapolates linearly
+  /// Whether some ticks have no datagram.
+  [[nodiscard]] bool is_on() const noexcept { return rate > 0 || dead_band; }
 };
 
 /// A validated scene.

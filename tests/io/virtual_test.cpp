@@ -205,7 +205,12 @@ TEST(NetsimSwarm, ReportsNetworkAndClocksOfASingleSession) {
   ASSERT_EQ(one.wait(), 0) << one.err();
   EXPECT_NE(one.out().find("  network of seat"), std::string::npos) << one.out();
   EXPECT_NE(one.out().find("round trip: "), std::string::npos) << one.out();
-  EXPECT_EQ(folder.json("s.json")["seeds"][0]["quality"].size(), 2u);
+  auto listing = netsim({"swarm", "--first", "17", "--scene"});
+  ASSERT_EQ(listing.wait(), 0);
+  std::size_t seats = 0;
+  for (std::size_t at = 0; (at = listing.out().find("\nseat {", at)) != std::string::npos; ++at) ++seats;
+  EXPECT_GE(seats, 2u) << listing.out();
+  EXPECT_EQ(folder.json("s.json")["seeds"][0]["quality"].size(), seats);
   bool clocks = false;
   for (int seed = 1; seed <= 20; ++seed) {
     auto scene = netsim({"swarm", "--first", std::to_string(seed), "--scene"});

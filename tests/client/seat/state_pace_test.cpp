@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/setup/send_pace.h"
+
 namespace tandem::client {
 namespace {
 
@@ -14,7 +16,7 @@ struct AtRest {
     for (tick = 0; tick < 100; ++tick) static_cast<void>(pace().due(tick, state, {}));
   }
   StatePace& pace() {
-    if (!pace_) pace_.emplace(setup);
+    if (!pace_) pace_.emplace(setup::send_pace(setup, control::Side::kClient), 1 + setup.further.size());
     return *pace_;
   }
   /// STATEs in the next ticks.
