@@ -312,9 +312,7 @@ bool session_with_insider() {
 // "Hostile authenticated client: NaN, 1e308, 100 m jumps, 10 kHz, wrong lengths, instructor messages from a trainee":
 // only that client is quarantined. The effect on the other hand is measured in virtual time (Insider.*).
 TEST(HostileLive, QuarantinesOnlyTheMisbehavingClient) {
-  for (int session = 0; session < 3; ++session)
-    if (session_with_insider() || HasFailure()) return;
-  std::puts("[ NOT RUN ] HostileLive, gate of the other hand: this machine stood still in each of 3 sessions");
+  repeat_disturbed("HostileLive, gate of the other hand", session_with_insider);
 }
 
 // "Keys in memory: core dumps off": a program that crashes leaves no dump to search. The twin shows that otherwise a

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <atomic>
 #include <chrono>
+#include <cstdio>
+#include <functional>
 #include <thread>
 
 namespace tandem::test {
@@ -29,5 +33,13 @@ class MachineWitness {
   std::atomic<Clock::rep> longest_{0};
   std::jthread thread_{[this](const std::stop_token& end) { watch(end); }};
 };
+
+/// Repeats a session that could not be judged because the machine stood still, and says so if no repetition could.
+/// @param session  returns whether it was judged
+inline void repeat_disturbed(const char* what, const std::function<bool()>& session) {
+  for (int n = 0; n < 3; ++n)
+    if (session() || testing::Test::HasFailure()) return;
+  std::printf("[ NOT RUN ] %s: this machine stood still in each of 3 sessions\n", what);
+}
 
 }  // namespace tandem::test
