@@ -97,7 +97,8 @@ TEST(Ticket, RejectsSignedContentThatIsNoTicket) {
     ticket.content = std::move(content);
     return rpc::encode(ticket);
   };
-  const TicketUse use = sample_use(sample_ticket());
+  const auto sample = sample_ticket();
+  const TicketUse use = sample_use(sample);
   const auto content = rpc::decode_signed_ticket(signed_sample(key))->content;
   EXPECT_TRUE(check_ticket(resigned(content), key.verifier(), use));
   auto unknown = content;
@@ -182,7 +183,8 @@ TEST(Ticket, IsValidFromItsFirstToItsLastSecond) {
 
 TEST(Ticket, RejectsEveryFlippedBit) {
   const auto key = test::ticket_key();
-  const TicketUse use = sample_use(sample_ticket());
+  const auto sample = sample_ticket();
+  const TicketUse use = sample_use(sample);
   const auto bytes = signed_sample(key);
   // Layout: 08 version, 15 kid, 1a length content, 22 40 signature.
   const std::size_t content_at = 9, content_size = rpc::decode_signed_ticket(bytes)->content.size();
