@@ -56,7 +56,8 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const transport:
       requests_(setup) {
   if (!setup.send.is_on()) return;
   pace_.emplace(setup::send_pace(setup_, control::Side::kClient), 1 + setup_.further.size());
-  wait_ = from_seconds(2 * (setup.send.heartbeat + dt_));
+  wait_ = from_seconds(2 * (held_.limit() + dt_));
+  telemetry_ = TelemetryPace(setup.tick_hz, 1);  // heartbeats come one tick before telemetry is due
 }
 
 Seat::Connection Seat::prepare(const transport::SecureChannel::Params& link) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -11,9 +12,12 @@ namespace tandem::client {
 /// wire::kTelemetryHz per second.
 class TelemetryPace {
  public:
-  /// @param tick_hz  rate of STATE [Hz], above 0
-  explicit TelemetryPace(double tick_hz) noexcept
-      : interval_(static_cast<std::uint32_t>(std::ceil(tick_hz / wire::kTelemetryHz))) {}
+  /// @param tick_hz  rate of ticks [Hz], above 0
+  /// @param early    ticks by which a STATE may carry telemetry before it is due
+  explicit TelemetryPace(double tick_hz, std::uint32_t early = 0) noexcept
+      : interval_(static_cast<std::uint32_t>(std::ceil(tick_hz / wire::kTelemetryHz))) {
+    interval_ -= std::min(early, interval_ - 1);
+  }
 
   /// Whether the STATE of this tick carries telemetry; a true result counts as carried.
   /// @param tick   number of the tick; may skip numbers

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,11 +20,11 @@ namespace tandem::control {
 ///     |f - f'| > weber max(|f|, force_floor)                   if the receiver uses f
 ///     e_in - e_in' > energy, on any axis                       credit that the receiver may spend
 ///
-/// Norms are over the axes. Held energies are smaller than the true ones, because they never decrease: the receiver's
-/// ledger spends no more than with every sample. Its bound therefore holds unchanged.
-/// Source: Hinterseer, Hirche, Chaudhuri, Steinbach, Buss 2008: "Perception-based data reduction and transmission of
-/// haptic data in telepresence and teleaction systems", IEEE Trans. Signal Processing 56(2). The floors are additions:
-/// near rest, a share of the present value is below the noise of encoders.
+/// Norms are over the axes. Energies never decrease, so a held one is at most the true one: the receiver's ledger
+/// spends no more than with every sample. Its bound therefore holds unchanged. Source: Hinterseer, Hirche, Chaudhuri,
+/// Steinbach, Buss 2008: "Perception-based data reduction and transmission of haptic data in telepresence and
+/// teleaction systems", IEEE Trans. Signal Processing 56(2). The floors are additions: near rest, a share of the
+/// present value is below the noise of encoders.
 class SendPace {
  public:
   /// Values are in the units of the channel's port.
@@ -90,12 +91,14 @@ class HeldSample {
 
   /// Whether the sender may hold back samples.
   [[nodiscard]] bool on() const noexcept { return limit_ > 0; }
+  /// Longest time between two datagrams of the sender [s].
+  [[nodiscard]] double limit() const noexcept { return limit_; }
   /// A new sample arrived.
   void restart() noexcept { held_ = 0; }
   /// Returns the time by which the newest sample is to be advanced now [s], at least 0.
   /// @param silence  time since it arrived [s]
   [[nodiscard]] double advance(double silence) noexcept TANDEM_REALTIME {
-    const double now = silence < limit_ ? silence : limit_;  // 24 h before the first datagram
+    const double now = silence < limit_ ? silence : limit_;  // the silence is 24 h before the first datagram
     const double step = now > held_ ? now - held_ : 0;
     held_ += step;
     return step;
@@ -106,12 +109,15 @@ class HeldSample {
   void predict(PortSample& sample, std::size_t axes, double step) const noexcept TANDEM_REALTIME {
     predict(sample, axes, step, order_);
   }
-  /// The same for a prediction of this order.
+  /// The same for a prediction of this order. The result stays in the range of positions that a datagram may have: both
+  /// ends pass it on to others.
   static void predict(PortSample& sample, std::size_t axes, double step, std::uint32_t order) noexcept TANDEM_REALTIME {
     if (order == 0) return;
-    for (std::size_t a = 0; a < axes; ++a) sample.x[a] += sample.v[a] * step;
+    for (std::size_t a = 0; a < axes; ++a) sample.x[a] = std::clamp(sample.x[a] + sample.v[a] * step, -kReach, kReach);
   }
   [[nodiscard]] std::uint32_t order() const noexcept { return order_; }
+
+  static constexpr double kReach = 10;  ///< largest absolute position on the wire [m]
 
  private:
   double limit_;

@@ -18,7 +18,7 @@ struct Forces {
   using Matrix = Eigen::Matrix<S, N, N>;
   Matrix m = Matrix::Identity();  ///< inertia, positive definite [kg or kg m^2]
   Matrix k = Matrix::Zero();      ///< -df/dq of the springs, symmetric, not negative
-  Matrix b = Matrix::Zero();      ///< -df/dv of the dampers, symmetric, not negative
+  Matrix b = Matrix::Zero();      ///< of the dampers, symmetric, not negative: -df/dv, of friction -f/v
   Vector f = Vector::Zero();      ///< sum of all forces [N or N m]
   Eigen::Matrix<S, 3, 1> environment = Eigen::Matrix<S, 3, 1>::Zero();  ///< of the surfaces on the tip [N]
   Eigen::Matrix<S, 3, 1> hand = Eigen::Matrix<S, 3, 1>::Zero();         ///< of the hand on the tip [N]

@@ -229,7 +229,8 @@ class SceneGenerator {
       chosen_ms = std::max(1001 / tick_hz_, heartbeat_ms * key_draws_.between(0.3, 0.99));
       out_ += format(" heartbeat_ms: %.5g", chosen_ms);
     }
-    const double rate_min = 1050 / chosen_ms;  // [Hz], one datagram per heartbeat
+    const double rate_min =
+        1.001 * tick_hz_ / std::floor(chosen_ms * 1e-3 * tick_hz_ + 1e-9);  // [Hz], one per heartbeat
     const bool rated = rate_min < tick_hz_ && key_draws_.chance(0.3);
     if (rated) out_ += format(" rate_hz: %.6g", key_draws_.between(rate_min, tick_hz_));
     if (!rated || key_draws_.chance(0.5))

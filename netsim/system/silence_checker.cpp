@@ -65,9 +65,12 @@ void SilenceChecker::check(const ObservedSeat& seat) {
   }
   double extra =
       seat.master_of_law_replica() ? silence_limits(gate, LawKind::kReplica, core.tools().authority()).most : 0;
-  // Each end may hold a datagram back for a heartbeat, and sends it at its next tick.
-  if (const SendSpec& send = seat.scene.send; send.is_on() && !seat.slave())
-    extra += 2 * (seat.tick() + (send.heartbeat > 0 ? send.heartbeat : heartbeat_max(gate, seat.scene.channel.law)));
+  if (const SendSpec& send = seat.scene.send; send.is_on() && !seat.slave()) {
+    double hold = send.rate > 0 ? 1 / send.rate + seat.tick() : 0;
+    if (send.dead_band)
+      hold = std::max(hold, send.heartbeat > 0 ? send.heartbeat : heartbeat_max(gate, seat.scene.channel.law));
+    extra += 2 * (seat.tick() + hold);  // each end may hold a datagram back for so long, and sends it at its next tick
+  }
   if (active && seconds(link.loop_age(seat.client.own_time(now))) > gate.loop_age_max + extra + 1e-9)
     seat.violated("loop_age");
 }

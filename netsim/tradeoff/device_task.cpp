@@ -47,7 +47,7 @@ HandPull pull_at(const DeviceTask& task, Real t, Real length) noexcept {
 ToolSample sample_at(const DeviceTask& task, const Vec3& q, const Vec3& dq, double t) noexcept {
   const Vec3 hand = to_vec(hand_at(task.path, t).x);
   Vec3 tip(q[0], 0, 0), velocity(dq[0], 0, 0);
-  double energy = 0.5 * task.device.mass * dq[0] * dq[0];
+  double energy = 0.5 * (task.device.mass + task.device.load) * dq[0] * dq[0];
   if (task.device.model == DeviceModel::kTouch) {
     TouchPlant meter(task.device, {}, q);
     meter.set(q, dq);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <variant>
@@ -34,9 +35,11 @@ struct ModelRow {
   std::optional<double> apart_path_m, apart_force_n;
   ModelCost cost;
   bool pareto = false;  ///< of the choices for the device: no stable row is better in force error and cost at once
+  /// Steps of the built-in scheme per tick: at most 0.25 ms each (hal/sim/touch_plant.h).
+  [[nodiscard]] double built_in_steps() const noexcept { return std::ceil(1 / (choice.tick_hz * 0.25e-3) - 1e-9); }
   /// Cost per second: instructions, or else steps.
   [[nodiscard]] double work_per_s() const noexcept {
-    return choice.tick_hz * cost.instructions.value_or(choice.numerics ? choice.numerics->substeps : 1);
+    return choice.tick_hz * cost.instructions.value_or(choice.numerics ? choice.numerics->substeps : built_in_steps());
   }
 };
 

@@ -31,7 +31,7 @@ struct HandPoint {
   std::array<S, 3> x{}, v{};
 };
 
-/// Returns the task for a scene. @pre the first tool is simulated (`ToolSpec::is_virtual`)
+/// Returns the task of the first tool, simulated or not: its hand, body and surfaces.
 [[nodiscard]] ToolTask tool_task(const SceneSpec& scene);
 
 /// Returns the hand at time `t` [s], in double for runs and in long double for the reference.

@@ -94,11 +94,14 @@ struct SilenceLimits {
   return {least < most ? least : most, most};
 }
 
+/// Silence of a seat for which the server keeps its end of the spring, unless its client tolerates more [s].
+inline constexpr double kServerHold = 0.1;
+
 /// Returns the longest time between two datagrams of a scene with `send` [s]: a sixth of the shortest silence that a
 /// master's gate and the server tolerate. At 5 % random loss, five losses in a row occur every day or two.
 [[nodiscard]] constexpr double heartbeat_max(const GateSpec& gate, LawKind law) noexcept {
-  constexpr double kServerTolerates = 0.1, kIntervals = 6;  // server/session/seat_endpoint.cpp
-  double least = kServerTolerates;
+  constexpr double kIntervals = 6;
+  double least = kServerHold;
   for (const double authority : {0.0, 1.0}) {
     const double tolerated = silence_limits(gate, law, authority).least;
     if (tolerated < least) least = tolerated;

@@ -192,6 +192,8 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
       validator.error(problem->key, problem->words);
     if (out.send.is_on() && !(out.send.heartbeat > 0)) validator.error("send.heartbeat_ms", "is missing");
     read_seat(in.seat(), out.dof, "seat", validator, out.seat);
+    if (out.send.is_on() && out.seat.kind != SeatKind::kMaster)
+      validator.error("send", "is given to a SLAVE seat, which sends at every tick");
     if (out.seat.motion_scale != 1 && out.port == PortSpace::kJoint)
       validator.error("seat.motion_scale", "needs port: TIP");
     out.seat.tool = in.tool_index();

@@ -20,8 +20,9 @@ constexpr std::array<text::MessageKey<DeadBandSpec>, 3> kDeadBandKeys{
      {"velocity_floor_m_s", &DeadBandSpec::velocity_floor},
      {"force_floor_n", &DeadBandSpec::force_floor}}};
 constexpr double kRounding = 1e-9;  ///< relative; a written maximum counts as the maximum
-/// Rounds to 6 digits for messages, so that a user may write the number shown.
+/// Rounds to 4 decimals for messages, so that a user may write the number shown.
 double round_down(double ms) { return std::floor(ms * 1e4) / 1e4; }
+double round_up(double hz) { return std::ceil(hz * 1e4) / 1e4; }
 
 }  // namespace
 
@@ -59,11 +60,14 @@ std::optional<LawProblem> send_problem(const SendSpec& send, const ChannelSpec& 
   if (send.rate > tick_hz * (1 + kRounding))
     return LawProblem{"send.rate_hz", "must be at most tick_hz = " + number_text(tick_hz) + " Hz"};
   const double heartbeat = send.heartbeat > 0 ? send.heartbeat : longest;
-  if (send.rate > 0 && send.rate * heartbeat < 1 - kRounding)
-    return LawProblem{"send.rate_hz", "must be at least " + number_text(1 / heartbeat) +
-                                          " Hz: one datagram per heartbeat of " + number_text(heartbeat * 1e3) + " ms"};
-  if (heartbeat * tick_hz < 1 - kRounding)
+  const double ticks = std::floor(heartbeat * tick_hz * (1 + kRounding));
+  if (ticks < 1)
     return LawProblem{"send.heartbeat_ms", "must be at least one tick = " + number_text(1e3 / tick_hz) + " ms"};
+  const double slowest = tick_hz / ticks;
+  if (send.rate > 0 && send.rate < slowest * (1 - kRounding))
+    return LawProblem{"send.rate_hz", "must be at least " + number_text(round_up(slowest)) +
+                                          " Hz: one datagram per heartbeat of " + number_text(heartbeat * 1e3) +
+                                          " ms, in whole ticks"};
   return std::nullopt;
 }
 

@@ -58,7 +58,7 @@ struct Telemetry {
 };
 inline constexpr double kTelemetryHz = 60;  ///< rate of telemetry while no report, trace or recording is on [Hz]
 
-/// Client to server, every tick, 1 kHz. No reply but FORCE.
+/// Client to server, every tick, 1 kHz, unless the scene has `send`. No reply but FORCE.
 struct StateMessage {
   PortSample port;
   Telemetry telemetry;
@@ -110,8 +110,9 @@ struct ToolForce {
   LocalContactList contacts;  ///< surfaces near that tool, law REPLICA
 };
 
-/// Server to client, every tick, 1 kHz. No reply. For a seat that is coupled to several tools, law REPLICA, it holds
-/// the first tool. One ToolForce follows for each of the others, and a STATE has one more PortSample for each.
+/// Server to client, every tick, 1 kHz, unless the scene has `send`. No reply. For a seat that is coupled to several
+/// tools, law REPLICA, it holds the first tool. One ToolForce follows for each of the others, and a STATE has one more
+/// PortSample for each.
 struct ForceMessage : ToolForce {
   SessionState session = SessionState::kWaiting;
   bool engage = false;  ///< the server requests engagement of this seat

@@ -155,7 +155,8 @@ void AuthorityControl::execute(Time now, std::size_t j) noexcept {
 }
 
 /// First seat whose link is too stale for a change of authority over a tool; nullopt if there is none. The limit is
-/// the `silence_limit` of the seat's gate, 20 ms unless the scene sets another. A seat that gains authority must be
+/// the `silence_limit` of the seat's gate, 20 ms unless the scene sets another. A seat that holds back datagrams may
+/// lose two heartbeats before that counts. A seat that gains authority must be
 /// present and within the limit. A present seat that loses authority must be within the limit at scheduling, so that
 /// it receives the announcement. At execution it may be lost as well: it then loses its authority anyway. While the
 /// tool is braked no authority moves, so no link is checked.
@@ -169,7 +170,7 @@ std::optional<std::size_t> AuthorityControl::stale_party(Time now, std::size_t t
     const double gain = weights[i] - row.requested()[i];
     const bool present = (*present_)[i];
     const bool judged = gain > kTolerance || (gain < -kTolerance && stage == Stage::kScheduling && present);
-    if (judged && (!present || seats_[i].silence(now) > limit)) return i;
+    if (judged && (!present || seats_[i].silence(now) > limit + 2 * seats_[i].held_back())) return i;
   }
   return std::nullopt;
 }

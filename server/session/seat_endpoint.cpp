@@ -6,11 +6,9 @@
 
 namespace tandem::server {
 
+static_assert(control::HeldSample::kReach == wire::kPositionMaxM, "what is predicted fits into a datagram");
+
 namespace {
-/// Silence for which a seat keeps its end of the spring. Then its authority moves to other seats, or the tool is
-/// braked. With the ramp-down of a lost holder's authority (`common/control/authority.cpp`, 100 ms) this ends within
-/// 220 ms (ARCHITECTURE.md, invariant 38).
-constexpr Duration kHoldLimit = std::chrono::milliseconds(100);
 /// Margin added to the silence limit of the client's gate: a client that reports more silence receives nothing.
 constexpr Duration kDeafMargin = std::chrono::milliseconds(10);
 /// The link counts as one-way if the client's echoes stay the same for this long while its datagrams arrive. The limit
@@ -24,10 +22,12 @@ double silence_limit(const SceneSpec& scene, std::size_t seat) {
   return scene.seats[seat].kind == SeatKind::kMaster ? silence_limits(scene.gate, scene.channel.law, 1).most
                                                      : scene.gate.silence_limit;
 }
-/// A hand that simulates its tool (law `replica`) keeps its end for as long as its own gate tolerates silence: the
-/// tool waits for it.
+/// Silence for which a seat keeps its end of the spring. Then its authority moves to other seats, or the tool is
+/// braked. With the ramp-down of a lost holder's authority (`common/control/authority.cpp`, 100 ms) this ends within
+/// 220 ms (ARCHITECTURE.md, invariant 38). A hand that simulates its tool (law `replica`) keeps its end for as long as
+/// its own gate tolerates silence: the tool waits for it.
 SilenceLimits hold_limits(const SceneSpec& scene, std::size_t seat) {
-  const double usual = seconds(kHoldLimit);
+  const double usual = kServerHold;
   const bool simulates = scene.channel.law == LawKind::kReplica && scene.seats[seat].kind == SeatKind::kMaster;
   if (!simulates) return {usual, usual};
   const SilenceLimits own = silence_limits(scene.gate, scene.channel.law, 1);

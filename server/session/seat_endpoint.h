@@ -30,6 +30,8 @@ class SeatEndpoint {
   void attach(Time now, SeatConnection& entry) noexcept;
   /// Age of the newest sample when this end last moved [s]; a sample that the client holds back counts as new.
   [[nodiscard]] double age() const noexcept { return age_; }
+  /// Longest time for which the client may hold back a datagram; 0 without `send` in the scene.
+  [[nodiscard]] Duration held_back() const noexcept { return from_seconds(held_.limit()); }
   /// Time since the client was last heard; time since admission if it never was. @pre taken()
   [[nodiscard]] Duration silence(Time now) const noexcept { return connection_->silence(now); }
   void release() noexcept { taken_ = false; }

@@ -127,12 +127,15 @@ void Session::handle_requests(Time now, std::size_t i) noexcept {
 }
 
 void Session::on_tick(Time now, std::uint32_t missed) noexcept {
+  recorded_ = false;
   if (over()) return;
   const std::uint32_t catch_up = clock_.begin_tick(now, missed);
   for (std::uint32_t i = 0; i <= catch_up && !over(); ++i) run_one_tick(now);
-  if (!over() && ++since_record_ >= record_interval_) {
+  // Until the session runs, every tick makes a record, so that the first running one has a record at any interval.
+  if (!over() && (++since_record_ >= record_interval_ || !record_.running)) {
     since_record_ = 0;
     record_tick(*this, leading_hands_, record_);
+    recorded_ = true;
   }
   if (participants_.any_removal()) participants_.step_removals(now);
   fill_force_messages(now);

@@ -76,7 +76,7 @@ class Session {
   /// @param interval  [ticks], at least 1
   void set_record_interval(std::uint32_t interval) noexcept { record_interval_ = interval; }
   /// The last call of `on_tick` made a record.
-  [[nodiscard]] bool recorded() const noexcept { return since_record_ == 0; }
+  [[nodiscard]] bool recorded() const noexcept { return recorded_; }
   /// Random tokens for path challenges. The thread that runs the session fills the store before the first datagram and
   /// between ticks.
   [[nodiscard]] PathTokens& path_tokens() noexcept { return path_tokens_; }
@@ -137,7 +137,8 @@ class Session {
   std::uint64_t epoch_ = 1;
   std::uint64_t unmatched_datagrams_ = 0;
   bool telemetry_every_tick_ = true;
-  std::uint32_t record_interval_ = 1, since_record_ = ~std::uint32_t{0} - 1;  ///< [ticks]
+  std::uint32_t record_interval_ = 1, since_record_ = 0;  ///< [ticks]
+  bool recorded_ = false;                                 ///< the last tick made a record
   TickRecord record_{};
 };
 

@@ -62,7 +62,7 @@ Counted counted(const SceneSpec& scene, const netsim::SimpleNetwork& net, std::u
 }
 
 TEST(DeadBand, SavesDatagramsWithoutLossTripsOrViolations) {
-  for (const std::string name : {"free_motion", "contact", "two_by_two", "lesson"})
+  for (const std::string name : {"free_motion", "contact", "two_by_two", "lesson", "contact_remote"})
     for (const bool replica : {true, false}) {
       SCOPED_TRACE(name + (replica ? ", replica" : ", set_position"));
       SceneSpec scene = replica ? with_dead_band(test::shipped(name)) : set_position_with_dead_band(name);
@@ -85,6 +85,33 @@ TEST(DeadBand, SavesDatagramsWithoutLossTripsOrViolations) {
         EXPECT_LE(c.trips, all.trips);
         EXPECT_NEAR(c.ticks, all.ticks, 0.01 * all.ticks) << "seats are engaged as long as without";
       }
+    }
+}
+
+// A link on which datagrams are held back is not stale: authority moves to and from hands at rest as it does without.
+TEST(DeadBand, MovesAuthorityBetweenHandsAtRestAsWithout) {
+  for (const double silence_limit : {0.01, 0.02})
+    for (const netsim::SimpleNetwork& net : {test::delayed(0), test::delayed(10, 5, 5)}) {
+      SCOPED_TRACE(silence_limit);
+      SceneSpec scene = test::shipped("free_motion");
+      scene.gate.silence_limit = silence_limit;
+      scene.phases.clear();
+      scene.timeline.clear();
+      for (SeatSpec& seat : scene.seats) {
+        seat.hand = {};
+        seat.hand.model = HandModel::kResting;
+      }
+      for (int i = 0; i < 20; ++i) scene.timeline.push_back({.at = 3 + 0.5 * i, .row = {}});
+      for (std::size_t i = 0; i < 20; ++i)
+        scene.timeline[i].row = {.alpha = {i % 2 == 0 ? 0.0 : 1.0, i % 2 == 0 ? 1.0 : 0.0}};
+      scene.duration = 14;
+      double led[2] = {0, 0};  // ticks in which the first hand has authority
+      for (const bool held : {false, true})
+        static_cast<void>(test::run(held ? with_dead_band(scene) : scene, net, 1, [&](netsim::Simulation& s) {
+          led[held] += s.session().tool(0).authority.requested()[0];
+        }));
+      EXPECT_GT(led[0], 5000);
+      EXPECT_NEAR(led[1], led[0], 2);
     }
 }
 

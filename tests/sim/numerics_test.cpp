@@ -66,8 +66,7 @@ TEST(NumericsInSessions, ServerAndClientStepWithTheSame) {
   }
 }
 
-// Devices stepped otherwise than by their own scheme meet the same session: every invariant holds, and hands press
-// alike.
+// Devices may be stepped otherwise than by their own scheme: every invariant holds, and hands press alike.
 TEST(NumericsInSessions, DevicesMayHaveNumericsOfTheirOwn) {
   const auto pressed = [](const std::optional<NumericsSpec>& numerics) {
     SceneSpec scene = pressing({});

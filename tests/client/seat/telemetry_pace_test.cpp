@@ -26,6 +26,19 @@ TEST(TelemetryPace, SendsEveryTickWhileTheServerRecords) {
   EXPECT_EQ(carried(pace, 1000, 16, false), 0) << "the interval counts from the last one";
 }
 
+// Heartbeats at 1 kHz come every 16 ticks, one before telemetry is due.
+TEST(TelemetryPace, LetsEveryHeartbeatCarryTelemetryIfItMayBeEarly) {
+  TelemetryPace pace(1000, 1), punctual(1000), slow(60, 1);
+  int early = 0, late = 0;
+  for (std::uint32_t tick = 0; tick < 1600; tick += 16) {
+    early += pace.due(tick, false) ? 1 : 0;
+    late += punctual.due(tick, false) ? 1 : 0;
+  }
+  EXPECT_EQ(early, 100);
+  EXPECT_EQ(late, 50);
+  for (std::uint32_t tick = 0; tick < 10; ++tick) EXPECT_TRUE(slow.due(tick, false));
+}
+
 TEST(TelemetryPace, BeginsWithTelemetryOnEachConnection) {
   TelemetryPace pace(1000);
   EXPECT_TRUE(pace.due(5, false));

@@ -60,8 +60,12 @@ TEST(SceneSend, RefusesAHeartbeatNearTheToleratedSilence) {
 }
 
 TEST(SceneSend, RefusesARateAboveTheTickOrBelowTheHeartbeat) {
-  EXPECT_EQ(to_text(errors_of(scene_with("send { rate_hz: 60 }"))), "");
-  expect_one(scene_with("channel { law: SET_POSITION } send { rate_hz: @100 }"), "send.rate_hz", "at least 300 Hz");
+  EXPECT_EQ(to_text(errors_of(scene_with("send { rate_hz: 62.5 }"))), "") << "every 16th of 1000 ticks";
+  expect_one(scene_with("send { rate_hz: @62 }"), "send.rate_hz", "at least 62.5 Hz");
+  expect_one(scene_with("tick_hz: 100 send { rate_hz: @60 }"), "send.rate_hz", "at least 100 Hz");
+  expect_one(scene_with("channel { law: SET_POSITION } send { rate_hz: @100 }"), "send.rate_hz",
+             "at least 333.3334 Hz");
+  EXPECT_EQ(to_text(errors_of(scene_with("channel { law: SET_POSITION } send { rate_hz: 333.3334 }"))), "");
   EXPECT_NE(to_text(errors_of(scene_with("send { rate_hz: 50 }"))).find("must be in [60, 10000] Hz"),
             std::string::npos);
   expect_one(scene_with("tick_hz: 2000 send { rate_hz: @3000 }"), "send.rate_hz", "2000");
@@ -122,6 +126,9 @@ TEST(SceneSend, IsCheckedInASetupFromTheNetwork) {
   setup = seat_setup(*scene, 0);
   setup.send.dead_band->weber = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refused(setup).find("weber"), std::string::npos);
+  setup = seat_setup(*scene, 0);
+  setup.seat.kind = SeatKind::kSlave;
+  EXPECT_NE(refused(setup).find("send: is given to a SLAVE seat"), std::string::npos) << refused(setup);
 }
 
 }  // namespace

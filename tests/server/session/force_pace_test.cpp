@@ -68,6 +68,24 @@ TEST(ForcePace, RepeatsEveryChangeThatMustNotWait) {
   }
 }
 
+// The server filters the delays from which this fraction follows, so it moves a little at every tick.
+TEST(ForcePace, RepeatsNoSlowChangeOfTheSlavesPull) {
+  AtRest seat;
+  seat.force.slave_pull = 0.5;
+  static_cast<void>(seat.sent(26));
+  int sent = 0;
+  for (int tick = 0; tick < 160; ++tick) {
+    seat.force.slave_pull += 1e-6;
+    sent += seat.sent(1);
+  }
+  EXPECT_EQ(sent, 10) << "heartbeats";
+  seat.force.slave_pull += 0.02;
+  EXPECT_EQ(seat.sent(10), 10);
+  static_cast<void>(seat.sent(16));
+  seat.force.slave_pull = 0;
+  EXPECT_EQ(seat.sent(10), 10) << "the slave no longer pulls";
+}
+
 TEST(ForcePace, SendsAgainWhatTheSocketDidNotTake) {
   AtRest seat;
   seat.force.stops = 1;
