@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "netsim/system/hold_limit.h"
 #include "server/report/violations.h"
 #include "server/session/session.h"
 
@@ -55,7 +56,8 @@ class AuthorityTransferChecker {
   }
   [[nodiscard]] bool link_is_stale(const server::Session& session, std::size_t i) const {
     const server::SeatEndpoint& seat = session.seat(i);
-    return !seat.taken() || seconds(seat.silence(session.clock().last_tick())) > scene_->gate.silence_limit + 1e-9;
+    const double limit = scene_->gate.silence_limit + 2 * hold_limit(*scene_, session.clock().dt());
+    return !seat.taken() || seconds(seat.silence(session.clock().last_tick())) > limit + 1e-9;
   }
 
   struct Decision {

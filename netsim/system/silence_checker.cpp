@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/command_lifetime.h"
+#include "netsim/system/hold_limit.h"
 
 namespace tandem::netsim {
 namespace {
@@ -65,12 +66,8 @@ void SilenceChecker::check(const ObservedSeat& seat) {
   }
   double extra =
       seat.master_of_law_replica() ? silence_limits(gate, LawKind::kReplica, core.tools().authority()).most : 0;
-  if (const SendSpec& send = seat.scene.send; send.is_on() && !seat.slave()) {
-    double hold = send.rate > 0 ? 1 / send.rate + seat.tick() : 0;
-    if (send.dead_band)
-      hold = std::max(hold, send.heartbeat > 0 ? send.heartbeat : heartbeat_max(gate, seat.scene.channel.law));
-    extra += 2 * (seat.tick() + hold);  // each end may hold a datagram back for so long, and sends it at its next tick
-  }
+  if (seat.scene.send.is_on() && !seat.slave())  // each end may hold a datagram back, and sends it at its next tick
+    extra += 2 * (seat.tick() + hold_limit(seat.scene, seat.tick()));
   if (active && seconds(link.loop_age(seat.client.own_time(now))) > gate.loop_age_max + extra + 1e-9)
     seat.violated("loop_age");
 }

@@ -6,7 +6,7 @@
 
 namespace tandem::server {
 
-static_assert(control::HeldSample::kReach == wire::kPositionMaxM, "what is predicted fits into a datagram");
+static_assert(control::HeldSample::kReach == wire::kPositionMaxM, "a prediction fits into a datagram");
 
 namespace {
 /// Margin added to the silence limit of the client's gate: a client that reports more silence receives nothing.

@@ -111,7 +111,8 @@ TEST(DeadBand, MovesAuthorityBetweenHandsAtRestAsWithout) {
           led[held] += s.session().tool(0).authority.requested()[0];
         }));
       EXPECT_GT(led[0], 5000);
-      EXPECT_NEAR(led[1], led[0], 2);
+      // A bad network defers some changes by 50 ticks each, with and without a dead-band.
+      EXPECT_NEAR(led[1], led[0], net.loss > 0 ? 150 : 2);
     }
 }
 

@@ -62,7 +62,9 @@ TEST(SceneSend, RefusesAHeartbeatNearTheToleratedSilence) {
 TEST(SceneSend, RefusesARateAboveTheTickOrBelowTheHeartbeat) {
   EXPECT_EQ(to_text(errors_of(scene_with("send { rate_hz: 62.5 }"))), "") << "every 16th of 1000 ticks";
   expect_one(scene_with("send { rate_hz: @62 }"), "send.rate_hz", "at least 62.5 Hz");
-  expect_one(scene_with("tick_hz: 100 send { rate_hz: @60 }"), "send.rate_hz", "at least 100 Hz");
+  EXPECT_NE(
+      to_text(errors_of(scene_with("tick_hz: 100 send { rate_hz: 60 }"))).find("rate_hz = 60: must be at least 100 Hz"),
+      std::string::npos);
   expect_one(scene_with("channel { law: SET_POSITION } send { rate_hz: @100 }"), "send.rate_hz",
              "at least 333.3334 Hz");
   EXPECT_EQ(to_text(errors_of(scene_with("channel { law: SET_POSITION } send { rate_hz: 333.3334 }"))), "");
