@@ -181,7 +181,8 @@ TEST(HeldSample, KeepsTheReceiverWithinTheDeadBand) {
   }
 }
 
-// A hostile client states the fastest velocity at the limit of its reach. What the receiver passes on stays in range.
+// A hostile client states the fastest velocity at the limit of its reach. The prediction of the receiver stays in
+// range.
 TEST(HeldSample, StaysInTheRangeOfPositionsOnTheWire) {
   for (const double side : {1.0, -1.0}) {
     HeldSample held(0.016, 1);
