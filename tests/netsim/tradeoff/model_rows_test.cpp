@@ -120,7 +120,7 @@ TEST(DeviceRows, MarkTheFrontAndUnstableRows) {
   SceneSpec scene = scene_of(1, true);
   scene.tools[0].is_virtual = false;
   scene.tools[0].slave = scene.seats[0].device;
-  scene.tools[0].environment.wall->k = 1e6;  // h^2 k / m = 10: beyond the limit 4 of an explicit step
+  scene.tools[0].environment.wall->k = 1e7;  // h^2 k / m = 100: beyond the limits of all explicit steps
   auto rows = measure_models(device_choices(scene, {1000}, {1}), {}, kAlways);
   mark_pareto(rows);
   const auto of = [&](IntegratorKind how) {
