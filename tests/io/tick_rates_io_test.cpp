@@ -115,13 +115,13 @@ double virtual_force(const Folder& folder, const PressScene& press, Live::Tool* 
   return sum / static_cast<double>(std::max<std::size_t>(n, 1));
 }
 
-/// Returns whether the force was judged. Under law `set_position` it is not if the machine stood still.
+/// Returns whether the force was judged. It is not if the machine stood still.
 bool expect_one_force(const Folder& folder, const Live& live) {
   SCOPED_TRACE(live.press.tick_hz);
   const double felt = live.force(), simulated = virtual_force(folder, live.press);
   std::printf("[   live   ] %.0f Hz: %.3f N live, %.3f N in virtual time, %.3f N by the springs\n", live.press.tick_hz,
               felt, simulated, live.press.force());
-  if (!live.press.replica && live.witness.machine_stood_still()) return false;
+  if (live.witness.machine_stood_still()) return false;
   EXPECT_NEAR(felt / simulated, 1, within(live.press));
   EXPECT_NEAR(felt / live.press.force(), 1, within(live.press));
   return true;
@@ -129,29 +129,38 @@ bool expect_one_force(const Folder& folder, const Live& live) {
 
 /// Law `replica`: the tool presses as hard as the hand feels. On its way it is where it is in virtual time. The
 /// tolerance is two more ticks of a busy machine's network at 50 mm/s.
-void expect_one_tool(const Folder& folder, const Live& live) {
+/// Returns whether this was judged. It is not if the machine stood still. Tools then meet again only as far as motion
+/// gives energy for it: a second later, at rest, the hand may feel 15 % less, and the tool press 12 % harder than that.
+bool expect_one_tool(const Folder& folder, const Live& live) {
   SCOPED_TRACE(live.press.tick_hz);
   Live::Tool simulated;
   virtual_force(folder, live.press, &simulated);
   const Live::Tool tool = live.tool();
   std::printf("[   live   ] %.0f Hz: hand - tool %.3f mm live, %.3f mm in virtual time\n", live.press.tick_hz,
               1e3 * tool.behind, 1e3 * simulated.behind);
+  if (live.witness.machine_stood_still()) return false;
   EXPECT_NEAR(tool.depth * PressScene::kWall / live.force(), 1, 0.05);
   EXPECT_NEAR(tool.behind, simulated.behind, 0.5e-3 + 2 * 0.05 / live.press.tick_hz);
+  return true;
 }
 
-/// One session at each rate, at the same time. Returns whether all forces were judged.
-bool press_at(std::initializer_list<double> rates) {
+/// Waits for the end of a session and judges it. Returns whether all of it was judged.
+bool judge(const Folder& folder, Live& live) {
+  live.end();
+  if (testing::Test::HasFatalFailure()) return true;
+  bool judged = expect_one_force(folder, live);
+  if (live.press.replica) judged = expect_one_tool(folder, live) && judged;
+  live.expect_missed_ticks_are_counted();
+  return judged;
+}
+
+/// One session at each rate, at the same time. Returns whether all of them were judged.
+bool press_at(std::initializer_list<double> rates, bool replica = false) {
   const Folder folder;
   std::list<Live> sessions;
-  for (const double tick_hz : rates) sessions.emplace_back(folder, tick_hz);
+  for (const double tick_hz : rates) sessions.emplace_back(folder, tick_hz, replica);
   bool judged = true;
-  for (Live& live : sessions) {
-    live.end();
-    if (testing::Test::HasFatalFailure()) return true;
-    judged = expect_one_force(folder, live) && judged;
-    live.expect_missed_ticks_are_counted();
-  }
+  for (Live& live : sessions) judged = judge(folder, live) && judged;
   return judged;
 }
 
@@ -168,27 +177,12 @@ TEST(TickRatesLive, RenderTheSameForceAt10kHz) {
 }
 
 TEST(TickRatesLive, RenderTheSameForceUnderReplicaFrom100To500HzAsInVirtualTime) {
-  const Folder folder;
-  Live a(folder, 100, true), b(folder, 200, true), c(folder, 500, true);
-  for (Live* live : {&a, &b, &c}) {
-    live->end();
-    if (HasFatalFailure()) return;
-    expect_one_force(folder, *live);
-    expect_one_tool(folder, *live);
-    live->expect_missed_ticks_are_counted();
-  }
+  repeat_disturbed("TickRatesLive, replica at 100 to 500 Hz", [] { return press_at({100, 200, 500}, true); });
 }
 
 TEST(TickRatesLive, RenderTheSameForceUnderReplicaFrom1To4kHz) {
-  const Folder folder;
-  for (const double tick_hz : {1000, 2000, 4000}) {  // sequential: together they need more than two cores
-    Live live(folder, tick_hz, true);
-    live.end();
-    if (HasFatalFailure()) return;
-    expect_one_force(folder, live);
-    expect_one_tool(folder, live);
-    live.expect_missed_ticks_are_counted();
-  }
+  for (const double tick_hz : {1000, 2000, 4000})  // sequential: together they need more than two cores
+    repeat_disturbed("TickRatesLive, replica from 1 to 4 kHz", [tick_hz] { return press_at({tick_hz}, true); });
 }
 
 /// A device with its own rate of 1000 exchanges per second: a recorded motion at rest.
