@@ -16,6 +16,7 @@ TANDEM_PACKAGES=(
   "libcli11-dev: command lines and --help"
   "nlohmann-json3-dev: writes the JSON reports"
   "libasio-dev: the control connection's sockets and timers"
+  "libboost-dev: HTTP and WebSocket of tandem-console"
   "libssl-dev: TLS of the control connection, keys, SHA-256 of traces"
   "libsodium-dev: keys of datagrams, and their cipher for processors without AES"
   "prometheus-cpp-dev: writes the server's metrics"

@@ -91,8 +91,8 @@ std::optional<std::string> error_in_own_include(const SourceFile& file, const La
   if (is_within(path, "tests")) return "programs do not know their tests";
   if (is_pump(path) && !is_pump(file.path)) return "a core does not know what is in an app or io folder";
   if (is_within(path, "tandem") && !is_within(file.path, "tandem")) return "only other projects include the public API";
-  if (has_folder(path, "app") && top_folder(path) != "common" && top_folder(path) != top_folder(file.path) &&
-      !is_within(file.path, "tandem")) {
+  if (has_folder(path, "app") && !is_within(file.path, "server/console/app") && top_folder(path) != "common" &&
+      top_folder(path) != top_folder(file.path) && !is_within(file.path, "tandem")) {
     return "an app folder serves its own program";
   }
   if (is_within(path, "hal/backends") && top_folder(file.path) != "hal" && top_folder(file.path) != "client") {

@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 43> kLayers{{
+const std::array<Layer, 44> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -120,6 +120,11 @@ const std::array<Layer, 43> kLayers{{
      {"Eigen"},
      "the session core knows control laws, secure datagrams and the device interface; sockets, clocks and files belong "
      "to server/app"},
+    {"server/console",
+     {"common/base", "proto/rpc", "server/console", "server/policy"},
+     {"json"},
+     "server/console decides what browsers may send and writes JSON: no session, no socket; those belong to "
+     "server/console/app"},
     {"server",
      {"common", "proto", "hal/core/device.h", "hal/core/port_map.h", "server"},
      {},

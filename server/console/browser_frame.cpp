@@ -1,0 +1,142 @@
+#include "server/console/browser_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "common/base/sanitize.h"
+#include "server/policy/roles.h"
+
+namespace tandem::console {
+namespace {
+
+using nlohmann::json;
+
+/// Reader of one object. The first mistake counts; later reads return defaults.
+class Reader {
+ public:
+  explicit Reader(const json& object) : object_(object) {}
+
+  void only(std::initializer_list<std::string_view> keys) {
+    for (const auto& [key, value] : object_.items())
+      if (std::ranges::find(keys, key) == keys.end()) fail("unknown key \"" + sanitize(key, 32) + "\"");
+  }
+  std::uint64_t integer(const char* key, std::uint64_t max) {
+    const auto found = object_.find(key);
+    if (found != object_.end() && found->is_number_unsigned() && found->get<std::uint64_t>() <= max)
+      return found->get<std::uint64_t>();
+    fail("\"" + std::string(key) + "\" must be an integer in [0, " + std::to_string(max) + "]");
+    return 0;
+  }
+  std::uint32_t integer32(const char* key, std::uint32_t max = std::numeric_limits<std::uint32_t>::max()) {
+    return static_cast<std::uint32_t>(integer(key, max));
+  }
+  std::string text(const char* key, std::size_t max) {
+    const auto found = object_.find(key);
+    if (found != object_.end() && found->is_string()) {
+      const auto& value = found->get_ref<const std::string&>();
+      if (value.size() <= max && sanitize(value, max) == value) return value;
+    }
+    fail("\"" + std::string(key) + "\" must be a text of at most " + std::to_string(max) +
+         " bytes without control characters");
+    return {};
+  }
+  std::vector<double> authority(const char* key) {
+    std::vector<double> values;
+    const auto found = object_.find(key);
+    double sum = 0;
+    if (found != object_.end() && found->is_array() && found->size() <= kMastersMax)
+      for (const json& value : *found) {
+        const double number = value.is_number() ? value.get<double>() : -1;
+        if (!(number >= 0 && number <= 1)) break;
+        values.push_back(number);
+        sum += number;
+      }
+    if (values.empty() || values.size() != found->size() || std::abs(sum - 1) > 1e-9)
+      fail("\"" + std::string(key) + "\" must be 1 to " + std::to_string(kMastersMax) +
+           " numbers in [0, 1] whose sum is 1");
+    return values;
+  }
+  void fail(std::string text) {
+    if (error_.empty()) error_ = std::move(text);
+  }
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+ private:
+  const json& object_;
+  std::string error_;
+};
+
+rpc::Body order_of(Reader& in, const std::string& order, const rpc::Id& session) {
+  if (order == "stop" || order == "pause") {
+    in.only({"type", "id", "order", "why"});
+    const std::string why = in.text("why", rpc::kTextMax);
+    if (order == "stop") return rpc::StopSession{session, why};
+    return rpc::PauseSession{session, why};
+  }
+  if (order == "resume") {
+    in.only({"type", "id", "order", "stop"});
+    return rpc::ResumeSession{session, in.integer32("stop")};
+  }
+  if (order == "authority") {
+    in.only({"type", "id", "order", "tool", "version", "alpha"});
+    const std::uint32_t tool = in.integer32("tool", static_cast<std::uint32_t>(kToolsMax) - 1);
+    const std::uint32_t version = in.integer32("version");
+    return rpc::SetAuthority{session, tool, version, in.authority("alpha")};
+  }
+  if (order == "remove") {
+    in.only({"type", "id", "order", "seat", "why"});
+    const std::string seat = in.text("seat", rpc::kNameMax);
+    return rpc::RemoveParticipant{session, seat, in.text("why", rpc::kTextMax)};
+  }
+  if (order == "drain") {
+    in.only({"type", "id", "order", "grace_s"});
+    return rpc::Drain{in.integer32("grace_s", 3600)};
+  }
+  in.fail("\"order\" must be stop, pause, resume, authority, remove or drain");
+  return rpc::Ping{};
+}
+
+}  // namespace
+
+std::expected<BrowserFrame, FrameError> parse_browser_frame(std::string_view text, AccessRole role,
+                                                            const rpc::Id& session) {
+  const json frame = json::parse(text, nullptr, false);
+  if (!frame.is_object()) return std::unexpected(FrameError{true, std::nullopt, "the frame is no JSON object"});
+  FrameError error;
+  if (const auto id = frame.find("id"); id != frame.end() && id->is_number_unsigned())
+    error.id = id->get<std::uint64_t>();
+  const auto refuse = [&error](std::string why) {
+    error.text = std::move(why);
+    return std::unexpected(error);
+  };
+  constexpr std::uint64_t kIdMax = (std::uint64_t{1} << 53U) - 1;  // larger integers are not exact in a browser
+  Reader in(frame);
+  const std::string type = in.text("type", 16);
+  BrowserFrame parsed;
+  if (type == "ack") {
+    in.only({"type", "n"});
+    parsed = Ack{in.integer("n", kIdMax)};
+  } else if (type == "watch") {
+    in.only({"type", "id", "session"});
+    const std::uint64_t id = in.integer("id", kIdMax);
+    parsed = Watch{id, in.text("session", 32)};
+  } else if (type == "order") {
+    const std::uint64_t id = in.integer("id", kIdMax);
+    Order order{id, order_of(in, in.text("order", 16), session)};
+    if (in.error().empty()) {
+      const rpc::Kind kind = rpc::kind_of({0, order.body});
+      if (!server::allowed(role, kind)) return refuse(server::forbidden_text(role, kind));
+    }
+    parsed = std::move(order);
+  } else {
+    in.fail("\"type\" must be ack, watch or order; this gateway supports no other type");
+  }
+  if (!in.error().empty()) return refuse(in.error());
+  return parsed;
+}
+
+}  // namespace tandem::console

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "proto/rpc/rpc_messages.h"
+
+namespace tandem::console {
+
+inline constexpr std::size_t kFrameMax = 16384;    ///< frame of a browser [bytes]
+inline constexpr unsigned kFramesPerSecond = 120;  ///< frames of one browser
+
+/// The page drew state `n`.
+struct Ack {
+  std::uint64_t n = 0;
+};
+/// The page asks for the scene of a session, 32 hexadecimal digits.
+struct Watch {
+  std::uint64_t id = 0;
+  std::string session;
+};
+/// Command of a person, as the server receives it.
+struct Order {
+  std::uint64_t id = 0;
+  rpc::Body body;
+};
+using BrowserFrame = std::variant<Ack, Watch, Order>;
+
+struct FrameError {
+  bool close = false;  ///< no JSON object: the gateway closes the connection
+  std::optional<std::uint64_t> id{};
+  std::string text;  ///< cause and remedy
+};
+
+/// Parses a frame of a browser. Refuses unknown types and keys, values out of range, and orders that the role may not
+/// give (server/policy/roles.h).
+/// @param session  the session of the gateway's connection, which orders get
+[[nodiscard]] std::expected<BrowserFrame, FrameError> parse_browser_frame(std::string_view text, AccessRole role,
+                                                                          const rpc::Id& session);
+
+}  // namespace tandem::console
