@@ -62,7 +62,7 @@ std::string random_secret() {
 
 class LiveSocket;
 
-/// What all connections share.
+/// State that all connections share.
 struct Shared {
   LiveSource& source;
   std::string release;

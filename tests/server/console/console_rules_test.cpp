@@ -1,4 +1,4 @@
-// What the gateway decides without sockets: tokens, cookies, origins, frames of browsers and their rights, JSON.
+// Decisions of the gateway without sockets: tokens, cookies, origins, frames of browsers and their rights, JSON.
 #include <gtest/gtest.h>
 
 #include <cmath>
