@@ -1,7 +1,6 @@
 // The only source that compiles Boost.Beast.
 #include "server/console/app/web_server.h"
 
-#include <openssl/rand.h>
 #include <unistd.h>
 
 #include <array>
@@ -18,14 +17,14 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
-#include "common/base/hex.h"
 #include "common/io/clock.h"
 #include "server/console/acknowledgement_window.h"
+#include "server/console/app/connection_slot.h"
 #include "server/console/app/page_files.h"
+#include "server/console/app/random_secret.h"
 #include "server/console/browser_frame.h"
 #include "server/console/live_json.h"
 #include "server/console/one_time_token.h"
@@ -53,13 +52,6 @@ constexpr const char* kPolicy =
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 beast::string_view boosted(std::string_view text) { return {text.data(), text.size()}; }
 
-std::string random_secret() {
-  std::array<std::byte, 32> bytes;
-  if (RAND_bytes(reinterpret_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size())) != 1)
-    throw std::runtime_error("the system gives no random numbers");
-  return to_hex(bytes);
-}
-
 class LiveSocket;
 
 /// State that all connections share.
@@ -73,24 +65,10 @@ struct Shared {
   std::set<LiveSocket*> sockets{};
 };
 
-/// Counts a connection during its life.
-class Slot {
- public:
-  explicit Slot(Shared& shared) : shared_(&shared) { ++shared.connections; }
-  ~Slot() {
-    if (shared_ != nullptr) --shared_->connections;
-  }
-  Slot(Slot&& other) noexcept : shared_(std::exchange(other.shared_, nullptr)) {}
-  Slot& operator=(Slot&&) = delete;
-
- private:
-  Shared* shared_;
-};
-
 /// The WebSocket of one page.
 class LiveSocket : public std::enable_shared_from_this<LiveSocket> {
  public:
-  LiveSocket(Tcp::socket socket, Shared& shared, Slot slot)
+  LiveSocket(Tcp::socket socket, Shared& shared, ConnectionSlot slot)
       : stream_(std::move(socket)), shared_(shared), slot_(std::move(slot)) {
     shared_.sockets.insert(this);
   }
@@ -229,7 +207,7 @@ class LiveSocket : public std::enable_shared_from_this<LiveSocket> {
 
   websocket::stream<beast::tcp_stream> stream_;
   Shared& shared_;
-  Slot slot_;
+  ConnectionSlot slot_;
   beast::flat_buffer buffer_;
   std::deque<std::string> queue_;  ///< at most kQueueMax; the first one is being written
   AcknowledgementWindow window_;
@@ -242,7 +220,8 @@ class LiveSocket : public std::enable_shared_from_this<LiveSocket> {
 /// One HTTP connection.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(Tcp::socket socket, Shared& shared) : stream_(std::move(socket)), shared_(shared), slot_(shared) {}
+  HttpConnection(Tcp::socket socket, Shared& shared)
+      : stream_(std::move(socket)), shared_(shared), slot_(shared.connections) {}
 
   void read() {
     parser_.emplace();
@@ -329,7 +308,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   beast::tcp_stream stream_;
   Shared& shared_;
-  Slot slot_;
+  ConnectionSlot slot_;
   beast::flat_buffer buffer_{kHeaderMax + kBodyMax};
   std::optional<http::request_parser<http::string_body>> parser_;
   Response response_;
