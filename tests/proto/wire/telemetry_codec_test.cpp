@@ -78,7 +78,7 @@ void expect_same(double got, double sent) {
   if (std::isnan(sent)) {
     EXPECT_TRUE(std::isnan(got));
   } else {
-    EXPECT_EQ(got, sent);
+    EXPECT_EQ(got, sent) << std::hexfloat << got << " " << sent;
   }
 }
 template <std::size_t N>
