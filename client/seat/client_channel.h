@@ -55,10 +55,9 @@ class ClientChannel {
   /// The same for a message of another codec.
   template <class Message, class Codec>
   [[nodiscard]] std::optional<std::size_t> seal(Time now, std::uint32_t tick, wire::Type type, const Message& message,
-                                                const Codec& codec, std::span<std::byte> buffer) noexcept
-      TANDEM_REALTIME {
-    const std::size_t plain =
-        codec.encode(link_->preamble(now, tick), message, buffer.subspan(transport::kHeaderSize));
+                                                const Codec& codec,
+                                                std::span<std::byte> buffer) noexcept TANDEM_REALTIME {
+    const std::size_t plain = codec.encode(link_->preamble(now, tick), message, buffer.subspan(transport::kHeaderSize));
     const std::size_t size = plain == 0 ? 0 : link_->seal(now, type, buffer, plain);
     return size == 0 ? std::nullopt : std::optional{size};
   }

@@ -17,7 +17,8 @@ static_assert(sizeof(Preamble) == kPreambleSize && std::is_trivially_copyable_v<
 
 /// Writes the preamble, then the body by `values`. @param size  size of both  @return size; 0 if `out` is too small
 template <class Write>
-static std::size_t write(const Preamble& preamble, std::size_t size, std::span<std::byte> out, Write&& values) noexcept {
+static std::size_t write(const Preamble& preamble, std::size_t size, std::span<std::byte> out,
+                         Write&& values) noexcept {
   if (out.size() < size) return 0;
   std::memcpy(out.data(), &preamble, kPreambleSize);
   FieldWriter writer{out.subspan(kPreambleSize, size - kPreambleSize)};
@@ -35,7 +36,7 @@ static inline Preamble read_preamble(std::span<const std::byte> in) noexcept {
 /// error.
 template <class Read>
 static std::expected<Preamble, DecodeError> read_into(std::span<const std::byte> in, std::size_t size,
-                                               Read&& values) noexcept {
+                                                      Read&& values) noexcept {
   if (in.size() != size) return std::unexpected(DecodeError::kSize);
   FieldReader reader{in.subspan(kPreambleSize)};
   values(reader);

@@ -126,8 +126,7 @@ void read_link(FieldReader& values, WatchedLink& out, std::size_t seats) noexcep
   walk_link(values, out, flags, seats);
   if ((flags & kUpKnown) == 0) out.loss_up_percent = out.gap_up_ms = kUnknown;
   if ((flags & kRttKnown) == 0) out.rtt_p50_ms = kUnknown;
-  if ((flags & kDownKnown) == 0)
-    out.loss_down_percent = out.gap_down_ms = out.age_p99_ms = out.margin_min_j = kUnknown;
+  if ((flags & kDownKnown) == 0) out.loss_down_percent = out.gap_down_ms = out.age_p99_ms = out.margin_min_j = kUnknown;
 }
 
 void read_authority(FieldReader& values, WatchedAuthority& out, const TelemetryLayout& layout) noexcept {
@@ -159,37 +158,35 @@ std::size_t TelemetryCodec::encode(const Preamble& preamble, const SessionTeleme
 }
 
 Decoded<SessionTelemetry> TelemetryCodec::decode_telemetry(std::span<const std::byte> in) const noexcept {
-  return body::read<SessionTelemetry>(
-      in, telemetry_size(layout_), [this](FieldReader& values, SessionTelemetry& out) {
-        std::uint32_t state = 0;
-        walk_head(values, out, state);
-        values.require((state & 0xffU) <= static_cast<std::uint32_t>(SessionState::kOverloaded));
-        out.state = static_cast<SessionState>(state & 0xffU);
-        out.shed_level = state >> kShedAt & 0xffU;
-        values.require(out.shed_level <= kShedLevelMax);
-        std::array<std::uint32_t, kSeatsMax> flags{};
-        values.words(5, flags, layout_.seats, kSeatFlagsMax);
-        for (std::size_t i = 0; i < layout_.seats; ++i)
-          values.require(read_seat_flags(flags[i], i < layout_.masters, out.seats[i]));
-        for (std::size_t i = 0; i < layout_.masters; ++i) {
-          walk_hand(values, out.seats[i]);
-          if ((flags[i] & kPoseKnown) == 0) out.seats[i].x = out.seats[i].f = none();
-        }
-        for (std::size_t j = 0; j < layout_.tools; ++j) read_tool(values, out.tools[j]);
-        read_link(values, out.link, layout_.seats);
-        read_authority(values, out.authority, layout_);
-      });
+  return body::read<SessionTelemetry>(in, telemetry_size(layout_), [this](FieldReader& values, SessionTelemetry& out) {
+    std::uint32_t state = 0;
+    walk_head(values, out, state);
+    values.require((state & 0xffU) <= static_cast<std::uint32_t>(SessionState::kOverloaded));
+    out.state = static_cast<SessionState>(state & 0xffU);
+    out.shed_level = state >> kShedAt & 0xffU;
+    values.require(out.shed_level <= kShedLevelMax);
+    std::array<std::uint32_t, kSeatsMax> flags{};
+    values.words(5, flags, layout_.seats, kSeatFlagsMax);
+    for (std::size_t i = 0; i < layout_.seats; ++i)
+      values.require(read_seat_flags(flags[i], i < layout_.masters, out.seats[i]));
+    for (std::size_t i = 0; i < layout_.masters; ++i) {
+      walk_hand(values, out.seats[i]);
+      if ((flags[i] & kPoseKnown) == 0) out.seats[i].x = out.seats[i].f = none();
+    }
+    for (std::size_t j = 0; j < layout_.tools; ++j) read_tool(values, out.tools[j]);
+    read_link(values, out.link, layout_.seats);
+    read_authority(values, out.authority, layout_);
+  });
 }
 
 std::size_t TelemetryCodec::encode(const Preamble& preamble, const WatchMessage&,
                                    std::span<std::byte> out) const noexcept {
-  return body::write(preamble, kWatchSize, out,
-                     [](FieldWriter& values) { values.zeros(1, detail::kWatchPadding); });
+  return body::write(preamble, kWatchSize, out, [](FieldWriter& values) { values.zeros(1, detail::kWatchPadding); });
 }
 
 Decoded<WatchMessage> TelemetryCodec::decode_watch(std::span<const std::byte> in) const noexcept {
-  return body::read<WatchMessage>(
-      in, kWatchSize, [](FieldReader& values, WatchMessage&) { values.zeros(1, detail::kWatchPadding); });
+  return body::read<WatchMessage>(in, kWatchSize,
+                                  [](FieldReader& values, WatchMessage&) { values.zeros(1, detail::kWatchPadding); });
 }
 
 }  // namespace tandem::wire

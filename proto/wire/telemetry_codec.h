@@ -27,8 +27,8 @@ constexpr std::size_t watched_authority_body(std::size_t masters) { return scala
 inline constexpr std::size_t kWatchSize = kPreambleSize + detail::nested(detail::kWatchPadding);
 constexpr std::size_t telemetry_size(const TelemetryLayout& l) {
   return kPreambleSize + detail::scalar(4, 1, 4) + detail::packed(l.seats, 4) +
-         l.masters * detail::nested(detail::kWatchedHandBody) + l.tools * detail::nested(detail::kWatchedToolBody) + detail::nested(detail::kWatchedLinkBody) +
-         detail::nested(detail::watched_authority_body(l.masters));
+         l.masters * detail::nested(detail::kWatchedHandBody) + l.tools * detail::nested(detail::kWatchedToolBody) +
+         detail::nested(detail::kWatchedLinkBody) + detail::nested(detail::watched_authority_body(l.masters));
 }
 static_assert(telemetry_size({kSeatsMax, kMastersMax, kToolsMax}) <= kPlaintextMax, "the largest scene fits");
 static_assert(kWatchSize > kPathSize, "a challenge is smaller than its trigger");
@@ -46,8 +46,7 @@ class TelemetryCodec {
                                    std::span<std::byte> out) const noexcept TANDEM_REALTIME;
 
   [[nodiscard]] Decoded<SessionTelemetry> decode_telemetry(std::span<const std::byte> plaintext) const noexcept;
-  [[nodiscard]] Decoded<WatchMessage> decode_watch(std::span<const std::byte> plaintext) const noexcept
-      TANDEM_REALTIME;
+  [[nodiscard]] Decoded<WatchMessage> decode_watch(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
 
  private:
   TelemetryLayout layout_;

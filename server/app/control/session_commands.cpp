@@ -169,8 +169,8 @@ void SessionCommands::disconnect_revoked() {
         const auto& peer = slots.slots()[slot];
         if (!revoked(peer.owner)) continue;
         slots.remove(slot);
-        registry_.post(
-            entry, {.what = ShardRequest::What::kRemovePeer, .peers = peers, .place = slot, .cid = peer.cid});
+        registry_.post(entry,
+                       {.what = ShardRequest::What::kRemovePeer, .peers = peers, .place = slot, .cid = peer.cid});
       }
     };
     remove_peers(entry.link_tests, ShardRequest::Peers::kLinkTests);

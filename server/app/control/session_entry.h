@@ -8,9 +8,9 @@
 
 #include "common/auth/limiter.h"
 #include "server/app/control/console_tickets.h"
-#include "server/app/control/slot_reservations.h"
 #include "server/app/control/removed_workstations.h"
 #include "server/app/control/seat_reservation.h"
+#include "server/app/control/slot_reservations.h"
 #include "server/app/control/status_notices.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/shard.h"

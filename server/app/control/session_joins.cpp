@@ -20,8 +20,8 @@ using rpc::ErrorCode;
 using rpc::ErrorReply;
 using ResumeMatch = SeatReservation::ResumeMatch;
 
-constexpr std::uint32_t kSlotRetryS = 3;      // a silent peer's slot is free by then
-constexpr std::uint8_t kConsolePlace = 0;     // no seat has it, so no datagram opens under a console's keys
+constexpr std::uint32_t kSlotRetryS = 3;   // a silent peer's slot is free by then
+constexpr std::uint8_t kConsolePlace = 0;  // no seat has it, so no datagram opens under a console's keys
 
 bool is_watcher(const rpc::Welcome& joined) noexcept { return WatcherSlots::has_place(place_of(joined.server_cid)); }
 bool is_console(const rpc::Welcome& joined) noexcept {
@@ -227,16 +227,14 @@ template <class Slots>
 void reserve_slot(SessionRegistry& registry, SessionEntry& entry, Slots& slots, ShardRequest::Peers peers,
                   const char* what, std::function<JoinReply(std::uint8_t place)> admit,
                   std::function<void(JoinReply)> answer) {
-  const ErrorReply full{ErrorCode::kFull,
-                        format("all %zu %s of this session are taken; try again in %u s", Slots::kMax, what, kSlotRetryS),
-                        kSlotRetryS};
+  const ErrorReply full{
+      ErrorCode::kFull,
+      format("all %zu %s of this session are taken; try again in %u s", Slots::kMax, what, kSlotRetryS), kSlotRetryS};
   if (!slots.begin_join()) return answer(full);
   ShardRequest query{.what = ShardRequest::What::kQueryPeers, .peers = peers};
   query.done = [&slots, full, admit = std::move(admit), answer = std::move(answer)](ShardRequest& asked) {
     const bool accepted = asked.result == JoinResult::kAccepted;
-    JoinReply reply = !accepted                      ? session_ends()
-                      : !slots.enough(asked.place)   ? full
-                                                     : admit(slots.next_place());
+    JoinReply reply = !accepted ? session_ends() : !slots.enough(asked.place) ? full : admit(slots.next_place());
     if (std::holds_alternative<ErrorReply>(reply)) slots.cancel_join();
     answer(std::move(reply));
   };
@@ -261,11 +259,12 @@ void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
                                  " needs a seat; a console has the role instructor, operator or recorder",
                              0});
   if (!request.hello.watch) return answer(admit_console(entry, request, *ticket, kConsolePlace));
-  reserve_slot(registry_, entry, entry.watchers, ShardRequest::Peers::kWatchers, "places of watching consoles",
-               [this, &entry, request, ticket = *ticket](std::uint8_t place) {
-                 return admit_console(entry, request, ticket, place);
-               },
-               std::move(answer));
+  reserve_slot(
+      registry_, entry, entry.watchers, ShardRequest::Peers::kWatchers, "places of watching consoles",
+      [this, &entry, request, ticket = *ticket](std::uint8_t place) {
+        return admit_console(entry, request, ticket, place);
+      },
+      std::move(answer));
 }
 
 JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& request,
@@ -290,12 +289,13 @@ JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& re
 /// Any enrolled workstation may test its link, because that touches no seat. The number of peers is limited.
 void SessionJoins::join_link_test(SessionEntry& entry, const JoinRequest& request,
                                   std::function<void(JoinReply)> answer) {
-  reserve_slot(registry_, entry, entry.link_tests, ShardRequest::Peers::kLinkTests, "link-test slots",
-               [&entry, has_aes = request.hello.has_aes](std::uint8_t place) {
-                 return make_welcome(entry, place, AccessRole::kObserver, has_aes, "",
-                                     encoded(entry.session().seat_catalogue().setup(0)));
-               },
-               std::move(answer));
+  reserve_slot(
+      registry_, entry, entry.link_tests, ShardRequest::Peers::kLinkTests, "link-test slots",
+      [&entry, has_aes = request.hello.has_aes](std::uint8_t place) {
+        return make_welcome(entry, place, AccessRole::kObserver, has_aes, "",
+                            encoded(entry.session().seat_catalogue().setup(0)));
+      },
+      std::move(answer));
 }
 
 // ---- Joined connections ----

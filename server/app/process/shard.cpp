@@ -151,8 +151,8 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
       request.result = live->session().admit(now, request.seat, request.connection, request.same_owner);
       break;
     case ShardRequest::What::kAdmitPeer:
-      request.result =
-          slots_of(live->session(), request.peers).admit(now, request.connection.link, request.place, request.every_tick);
+      request.result = slots_of(live->session(), request.peers)
+                           .admit(now, request.connection.link, request.place, request.every_tick);
       break;
     case ShardRequest::What::kCommand:
       request.outcome = execute_command(live->session(), now, request.command);

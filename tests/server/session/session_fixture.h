@@ -173,9 +173,9 @@ class SessionFixture {
   Time now{1h};
   std::unique_ptr<Session> session;
   std::vector<FixtureSeat> seats;
-  std::map<std::uint8_t, int> forces, challenges;  ///< by address
+  std::map<std::uint8_t, int> forces, challenges;      ///< by address
   std::vector<std::pair<std::uint8_t, Bytes>> others;  ///< of the last tick, to addresses of no seat
-  Fingerprint told;                                ///< every byte that the server has sent
+  Fingerprint told;                                    ///< every byte that the server has sent
 
  private:
   /// Gives the connection other keys or another rekey policy.

@@ -36,8 +36,8 @@ struct Watched : SessionFixture {
     const auto joined = netsim::simulate_watch_join(*session, now, RandomKey{77}, n + std::uint64_t{1}, recorder);
     EXPECT_TRUE(joined);
     watchers.push_back(std::make_unique<Watcher>());
-    watchers.back()->watch =
-        std::make_unique<SessionWatch>(telemetry_layout(scene), session->seat_catalogue().tick(), joined->channel_params);
+    watchers.back()->watch = std::make_unique<SessionWatch>(telemetry_layout(scene), session->seat_catalogue().tick(),
+                                                            joined->channel_params);
     watchers.back()->at = static_cast<std::uint8_t>(200 + n);
     return *watchers.back();
   }
@@ -118,7 +118,8 @@ TEST(Watchers, SeeAnAnnouncedTransferWithItsOrigin) {
   Watched s;
   Watched::Watcher& recorder = s.add(true);
   s.steps(1500);
-  wire::AuthorityMessage wish{.version = s.session->authority().version(), .tool = 0, .masters = 2, .alpha = {0.25, 0.75}};
+  wire::AuthorityMessage wish{
+      .version = s.session->authority().version(), .tool = 0, .masters = 2, .alpha = {0.25, 0.75}};
   ASSERT_EQ(s.session->authority().request(s.now, {AccessRole::kInstructor}, wish), CommandResult::kDone);
   s.step();
   const wire::WatchedAuthority& seen = recorder.watch->authority_over(0);
@@ -255,7 +256,7 @@ TEST(Watchers, SeeASeatThatIsFreeAsUnknown) {
   s.steps(500);
   ASSERT_TRUE(std::isfinite(recorder.watch->newest()->seats[1].x[0]));
   s.seats[1].core->leave();
-  s.steps(50);
+  s.steps(500);
   const wire::WatchedSeatState& free = recorder.watch->newest()->seats[1];
   EXPECT_FALSE(free.taken || free.heard || free.engaged);
   EXPECT_TRUE(std::isnan(free.x[0]) && std::isnan(free.f[0]));

@@ -4,8 +4,8 @@
 
 #include "server/app/control/console_tickets.h"
 #include "server/app/control/drain_schedule.h"
-#include "server/app/control/slot_reservations.h"
 #include "server/app/control/removed_workstations.h"
+#include "server/app/control/slot_reservations.h"
 
 namespace tandem::server {
 namespace {
