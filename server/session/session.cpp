@@ -152,7 +152,11 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
 
 void Session::serve_watchers(Time now) noexcept {
   if (!watchers_.on_tick(now, lifecycle_.load_state().level)) return;
-  if (!recorded_) record_tick(*this, leading_hands_, record_);
+  if (!recorded_) {  // `running` stays that of the last record, because it decides which ticks make one
+    const bool running = record_.running;
+    record_tick(*this, leading_hands_, record_);
+    record_.running = running;
+  }
   fill_telemetry(*this, now, watchers_.next_turn(), watchers_.telemetry());
 }
 

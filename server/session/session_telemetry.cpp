@@ -1,5 +1,10 @@
 #include "server/session/session_telemetry.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "proto/wire/wire_codec.h"
+
 namespace tandem::server {
 
 namespace {
@@ -17,8 +22,10 @@ wire::WatchedSeatState seat_state(const Session& session, Time now, std::size_t 
   out.engaged = record.engaged;
   out.gate = record.gate;
   if (!seat.ever_heard() || i >= session.scene().masters()) return out;
-  out.x = record.x;
-  out.f = record.f_out;
+  // The record has the force that the tool feels: with a motion scale, another one than that on the hand.
+  out.f = seat.telemetry().f_out;
+  const auto sendable = [](double x) { return std::abs(x) <= wire::kPositionMaxM; };  // scaled by up to 4
+  if (std::ranges::all_of(record.x, sendable)) out.x = record.x;
   return out;
 }
 
