@@ -18,8 +18,8 @@ Process watch(const std::string& address, Words arguments = {}) {
 
 /// The same with its output in a file, because nobody reads a pipe here before the program ends.
 Process watch_into(const std::string& file, const std::string& address, const std::string& role) {
-  return Process({"/bin/sh", "-c", "exec \"$0\" watch --server \"$1\" --json --role \"$2\" > \"$3\"", TANDEM_CLIENT, address,
-                  role, file});
+  return Process({"/bin/sh", "-c", "exec \"$0\" watch --server \"$1\" --json --role \"$2\" > \"$3\"", TANDEM_CLIENT,
+                  address, role, file});
 }
 
 std::vector<Json> lines_of(const std::string& text) {
