@@ -256,7 +256,10 @@ TEST(Watchers, SeeASeatThatIsFreeAsUnknown) {
   s.steps(500);
   ASSERT_TRUE(std::isfinite(recorder.watch->newest()->seats[1].x[0]));
   s.seats[1].core->leave();
-  s.steps(500);
+  int ms = 0;
+  while (!s.seats[1].core->closed() && ms < 5000) s.step(), ++ms;
+  ASSERT_TRUE(s.seats[1].core->closed());
+  s.steps(10);
   const wire::WatchedSeatState& free = recorder.watch->newest()->seats[1];
   EXPECT_FALSE(free.taken || free.heard || free.engaged);
   EXPECT_TRUE(std::isnan(free.x[0]) && std::isnan(free.f[0]));
