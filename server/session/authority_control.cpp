@@ -179,13 +179,13 @@ void AuthorityControl::show_cancelled(std::size_t seat) noexcept {
   cancelled_ticks_[seat] = static_cast<std::uint32_t>(std::lround(kCancelledShown / clock_->dt()));
 }
 
-/// The parties of the last scheduled change over a tool, for the notice to seat `i`.
 std::uint32_t AuthorityControl::origin(std::size_t j) const noexcept {
   const std::uint8_t by = tools_[j].transfer.latest_by();
   if (by == AuditEvent::kTimeline) return wire::TransferParties::kScene;
   return by < seats_.size() ? by + 1U : wire::TransferParties::kOperator;
 }
 
+/// The parties of the last scheduled change over a tool, for the notice to seat `i`.
 wire::TransferParties AuthorityControl::parties(std::size_t j, std::size_t i) const noexcept {
   const AuthorityTransfer& transfer = tools_[j].transfer;
   const control::MasterArray &after = transfer.scheduled(), &before = tools_[j].authority.requested();

@@ -16,7 +16,7 @@ namespace tandem::server {
 
 /// Clients without a seat that exchange datagrams with a session, in a fixed number of slots: link-test peers and
 /// watchers. Each sends one type of datagram, which keeps its slot, and gets one type in return, at its validated
-/// address. What they send reaches no seat and no tool.
+/// address. Nothing that they send reaches a seat or a tool.
 class PeerSlots {
  public:
   /// @param count        number of slots

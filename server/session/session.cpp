@@ -211,7 +211,7 @@ void Session::fill_force_messages(Time now) noexcept {
     m.session_tick = clock_.session_tick();
     m.authority_version = authority_.version();
     m.missing = missing_now;
-    m.telemetry_every_tick = telemetry_every_tick_ || watchers_.any_recorder();
+    m.telemetry_every_tick = telemetry_every_tick_ || watchers_.record_every_tick(lifecycle_.load_state().level);
     m.stops = stop_.latch().stops();
     authority_.fill_notice(i, timeline_waits, m);
   }

@@ -21,7 +21,7 @@ wire::WatchedSeatState seat_state(const Session& session, Time now, std::size_t 
   out.stopped = seat.last_state().stop;
   out.engaged = record.engaged;
   out.gate = record.gate;
-  if (!seat.ever_heard() || i >= session.scene().masters()) return out;
+  if (!seat.sent_telemetry() || i >= session.scene().masters()) return out;
   // The record has the force that the tool feels: with a motion scale, another one than that on the hand.
   out.f = seat.telemetry().f_out;
   const auto sendable = [](double x) { return std::abs(x) <= wire::kPositionMaxM; };  // scaled by up to 4
@@ -35,7 +35,7 @@ wire::WatchedToolState tool_state(const Session& session, Time now, std::size_t 
   wire::WatchedToolState out;
   out.touching = session.touching(now, j);
   out.braked = record.held;
-  if (tool.spec().remote && !session.seat(tool.spec().seat).ever_heard()) return out;
+  if (tool.spec().remote && !session.seat(tool.spec().seat).sent_telemetry()) return out;
   out.x = record.x;
   out.f = record.f_env;
   out.depth = record.penetration;
@@ -52,6 +52,7 @@ wire::WatchedLink link_of(const Session& session, Time now, std::size_t i) noexc
   out.loss_up_percent = link.stats().loss_percent();
   out.gap_up_ms = ms(link.longest_gap(now));
   if (link.timing().rtt_samples() > 0) out.rtt_p50_ms = ms(link.timing().rtt_p50());
+  if (!seat.sent_telemetry()) return out;
   const wire::Telemetry& said = seat.telemetry();
   out.loss_down_percent = said.down_loss_percent;
   out.gap_down_ms = said.down_longest_gap_ms;
@@ -71,8 +72,8 @@ wire::WatchedAuthority authority_of(const Session& session, std::size_t j) noexc
     out.transfer_by = session.authority().origin(j);
   }
   for (std::size_t k = 0; k < session.scene().masters(); ++k) {
-    out.wanted[k] = tool.transfer.scheduled()[k];
-    out.applied[k] = tool.authority.alpha(k);
+    out.wanted[k] = std::clamp(tool.transfer.scheduled()[k], 0.0, 1.0);
+    out.applied[k] = std::clamp(tool.authority.alpha(k), 0.0, 1.0);  // a ramp may round to a little below 0
   }
   return out;
 }

@@ -26,8 +26,10 @@ class Watchers {
   [[nodiscard]] PeerSlots& slots() noexcept { return slots_; }
   /// False if there is no watcher: no call has anything to do then.
   [[nodiscard]] bool any() const noexcept { return slots_.any(); }
-  /// A watcher records the session: seats should send telemetry at every tick.
-  [[nodiscard]] bool any_recorder() const noexcept { return slots_.any_every_tick(); }
+  /// A watcher gets every tick at this shed level: seats should send telemetry at every tick.
+  [[nodiscard]] bool record_every_tick(ShedLevel level) const noexcept {
+    return slots_.any_every_tick() && level == ShedLevel::kNone;
+  }
   /// @return false if the header names no watcher
   /// @param header  of the datagram `bytes`
   bool on_datagram(Time now, const PeerAddress& from, const transport::Header& header, std::span<const std::byte> bytes,

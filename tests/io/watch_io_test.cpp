@@ -1,4 +1,4 @@
-// `tandem-client watch` with real programs: what it shows, how it ends, how many may watch.
+// `tandem-client watch` with real programs: its output, its ends, and the number of watchers.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -16,7 +16,7 @@ Process watch(const std::string& address, Words arguments = {}) {
   return Process(std::move(command));
 }
 
-/// The same with its output in a file, because nobody reads a pipe here before the program ends.
+/// The same with its output in a file, because a full pipe would stop the program.
 Process watch_into(const std::string& file, const std::string& address, const std::string& role) {
   return Process({"/bin/sh", "-c", "exec \"$0\" watch --server \"$1\" --json --role \"$2\" > \"$3\"", TANDEM_CLIENT,
                   address, role, file});

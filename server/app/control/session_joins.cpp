@@ -10,6 +10,7 @@
 #include "common/io/log.h"
 #include "proto/text/scene_bytes.h"
 #include "proto/text/seat_setup.h"
+#include "server/app/control/slot_join.h"
 #include "server/policy/roles.h"
 #include "server/session/connection_id.h"
 
@@ -73,7 +74,6 @@ std::vector<std::byte> encoded(const SceneSpec& scene) {
   return {bytes.begin(), bytes.end()};
 }
 
-ErrorReply session_ends() { return {ErrorCode::kSessionOver, "the session is ending", 0}; }
 ErrorReply seat_taken(const std::string& seat) {
   return {ErrorCode::kSeatTaken, "seat " + seat + " is taken already", 2};
 }
@@ -220,29 +220,6 @@ void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const
 
 // ---- Consoles and link tests ----
 
-namespace {
-
-/// Reserves a slot for a peer without a seat, and replies with what `admit` makes of its place in connection ids.
-template <class Slots>
-void reserve_slot(SessionRegistry& registry, SessionEntry& entry, Slots& slots, ShardRequest::Peers peers,
-                  const char* what, std::function<JoinReply(std::uint8_t place)> admit,
-                  std::function<void(JoinReply)> answer) {
-  const ErrorReply full{
-      ErrorCode::kFull,
-      format("all %zu %s of this session are taken; try again in %u s", Slots::kMax, what, kSlotRetryS), kSlotRetryS};
-  if (!slots.begin_join()) return answer(full);
-  ShardRequest query{.what = ShardRequest::What::kQueryPeers, .peers = peers};
-  query.done = [&slots, full, admit = std::move(admit), answer = std::move(answer)](ShardRequest& asked) {
-    const bool accepted = asked.result == JoinResult::kAccepted;
-    JoinReply reply = !accepted ? session_ends() : !slots.enough(asked.place) ? full : admit(slots.next_place());
-    if (std::holds_alternative<ErrorReply>(reply)) slots.cancel_join();
-    answer(std::move(reply));
-  };
-  registry.post(entry, std::move(query));
-}
-
-}  // namespace
-
 void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
                                 std::function<void(JoinReply)> answer) {
   const auto* ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential);
@@ -336,7 +313,10 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
     if (is_watcher(welcome)) {
       joins.peers = ShardRequest::Peers::kWatchers;
       joins.every_tick = welcome.role == AccessRole::kRecorder;
-      joins.done = [entry, occupy](ShardRequest& asked) { occupy(entry->watchers, asked); };
+      joins.done = [this, entry, occupy, welcome](ShardRequest& asked) {
+        occupy(entry->watchers, asked);
+        if (!entry->consoles.contains(welcome.resume_secret)) stop_watching(*entry, welcome);  // it has gone already
+      };
     } else {
       joins.done = [entry, occupy](ShardRequest& asked) { occupy(entry->link_tests, asked); };
     }
@@ -383,17 +363,22 @@ bool SessionJoins::is_current(const rpc::Welcome& joined) const {
                             : entry->link_tests.find(joined.server_cid).has_value();
 }
 
+/// The right of a console to see the session ends with its control connection.
+void SessionJoins::stop_watching(SessionEntry& entry, const rpc::Welcome& joined) {
+  const auto slot = entry.watchers.find(joined.server_cid);
+  if (!slot) return;
+  entry.watchers.remove(*slot);
+  registry_.post(entry, {.what = ShardRequest::What::kRemovePeer,
+                         .peers = ShardRequest::Peers::kWatchers,
+                         .place = *slot,
+                         .cid = joined.server_cid});
+}
+
 /// Recorders only query status, so their ticket counts as used.
 void SessionJoins::on_disconnected(const rpc::Welcome& joined, bool in_vain) {
   SessionEntry* const entry = registry_.find(joined.session_id);
   if (entry == nullptr || !is_console(joined)) return;
-  if (const auto slot = entry->watchers.find(joined.server_cid)) {  // its right to see the session has ended
-    entry->watchers.remove(*slot);
-    registry_.post(*entry, {.what = ShardRequest::What::kRemovePeer,
-                            .peers = ShardRequest::Peers::kWatchers,
-                            .place = *slot,
-                            .cid = joined.server_cid});
-  }
+  stop_watching(*entry, joined);
   const auto ticket = entry->consoles.take(joined.resume_secret);
   if (in_vain && allowed(joined.role, Right::kStopSession) != Grant::kNo) restore_ticket(ticket, *entry);
 }

@@ -1,4 +1,4 @@
-// What watchers see of seats with a motion scale; and that a watcher does not change which ticks make a record.
+// Values that watchers get of seats with a motion scale; and that a watcher does not change which ticks make a record.
 #include <gtest/gtest.h>
 
 #include <cmath>

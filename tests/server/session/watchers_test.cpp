@@ -219,7 +219,7 @@ TEST(Watchers, FillEightSlotsAndAreRefusedThen) {
   EXPECT_TRUE(netsim::simulate_watch_join(*s.session, s.now, RandomKey{78}, 2));
 }
 
-TEST(Watchers, AreToldWhyTheWatchEnds) {
+TEST(Watchers, ReceiveTheReasonWhyTheWatchEnds) {
   Watched s;
   Watched::Watcher &console = s.add(), &revoked = s.add();
   s.steps(300);

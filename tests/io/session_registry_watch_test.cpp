@@ -1,0 +1,69 @@
+// Consoles that watch a session: their joins over TLS, against a session on its own tick thread.
+#include <list>
+
+#include "proto/text/scene_bytes.h"
+#include "tests/io/live_server.h"
+
+namespace tandem::server::test {
+namespace {
+
+using rpc::ErrorCode;
+
+const rpc::Id kId = LiveServer::kId;
+
+/// Polls until the condition holds; fails the test at the time limit instead of hanging it.
+bool comes_true(const std::function<bool()>& so) {
+  for (const auto until = std::chrono::steady_clock::now() + kTimeout; std::chrono::steady_clock::now() < until;) {
+    if (so()) return true;
+    std::this_thread::sleep_for(20ms);
+  }
+  return false;
+}
+
+/// Joins as a watching console.
+JoinedClient watching(LiveServer& live_server, const std::string& name, AccessRole role) {
+  auth::Identity key = live_server.enrolled(name);
+  auto connection = live_server.connect(key);
+  rpc::Hello hello = LiveServer::hello(live_server.ticket(key, role));
+  hello.watch = true;
+  auto welcome = connection.ask(hello, kTimeout);
+  return {std::move(key), std::move(connection), std::move(welcome)};
+}
+
+TEST(Consoles, WatchASessionWithTheRightsOfTheirRole) {
+  LiveServer live_server;
+  {
+    JoinedClient office = watching(live_server, "office", AccessRole::kOperator);
+    ASSERT_TRUE(office.welcomed()) << text_of(office.welcome);
+    const auto setup = std::span{reinterpret_cast<const char*>(office.in().setup.data()), office.in().setup.size()};
+    const auto scene = decode_scene(setup, "lesson");
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(effective_scene_text(*scene), effective_scene_text(live_server.scene()));
+    EXPECT_TRUE(done(office.ask(rpc::StopSession{kId, "why"})));
+    JoinedClient archive = watching(live_server, "archive", AccessRole::kRecorder);
+    ASSERT_TRUE(archive.welcomed()) << text_of(archive.welcome);
+    EXPECT_NE(office.in().server_cid, archive.in().server_cid);
+    EXPECT_EQ(reason_of(archive.ask(rpc::StopSession{kId, "why"})), ErrorCode::kNotAllowed);
+    EXPECT_EQ(reason_of(archive.ask(rpc::SetAuthority{kId, 0, 1, {0.5, 0.5}})), ErrorCode::kNotAllowed);
+  }
+  std::list<JoinedClient> all;
+  EXPECT_TRUE(comes_true([&] {  // the server notices shortly afterwards that the first two have gone
+    while (all.size() < Watchers::kMax) {
+      JoinedClient next = watching(live_server, "w" + std::to_string(all.size()), AccessRole::kRecorder);
+      if (!next.welcomed()) return false;
+      all.push_back(std::move(next));
+    }
+    return true;
+  }));
+  const auto ninth = watching(live_server, "ninth", AccessRole::kRecorder);
+  EXPECT_EQ(reason_of(ninth.welcome), ErrorCode::kFull);
+  EXPECT_NE(text_of(ninth.welcome).find("all 8 places of watching consoles"), std::string::npos)
+      << text_of(ninth.welcome);
+  JoinedClient console = joined(live_server, "desk", AccessRole::kOperator);
+  EXPECT_TRUE(console.welcomed()) << "a console that does not watch needs no place";
+  all.pop_front();  // its control connection ends: so does its right to see the session
+  EXPECT_TRUE(comes_true([&] { return watching(live_server, "next", AccessRole::kRecorder).welcomed(); }));
+}
+
+}  // namespace
+}  // namespace tandem::server::test
