@@ -20,14 +20,16 @@ bool comes_true(const std::function<bool()>& so) {
   return false;
 }
 
-/// Joins as a watching console.
-JoinedClient watching(LiveServer& live_server, const std::string& name, AccessRole role) {
-  auth::Identity key = live_server.enrolled(name);
+/// Joins as a watching console. Without WATCH its slot is free after 2 s.
+JoinedClient watching(LiveServer& live_server, auth::Identity key, AccessRole role) {
   auto connection = live_server.connect(key);
   rpc::Hello hello = LiveServer::hello(live_server.ticket(key, role));
   hello.watch = true;
   auto welcome = connection.ask(hello, kTimeout);
   return {std::move(key), std::move(connection), std::move(welcome)};
+}
+JoinedClient watching(LiveServer& live_server, const std::string& name, AccessRole role) {
+  return watching(live_server, live_server.enrolled(name), role);
 }
 
 TEST(Consoles, WatchASessionWithTheRightsOfTheirRole) {
@@ -46,22 +48,19 @@ TEST(Consoles, WatchASessionWithTheRightsOfTheirRole) {
     EXPECT_EQ(reason_of(archive.ask(rpc::StopSession{kId, "why"})), ErrorCode::kNotAllowed);
     EXPECT_EQ(reason_of(archive.ask(rpc::SetAuthority{kId, 0, 1, {0.5, 0.5}})), ErrorCode::kNotAllowed);
   }
-  std::list<JoinedClient> all;
-  EXPECT_TRUE(comes_true([&] {  // the server notices shortly afterwards that the first two have gone
-    while (all.size() < Watchers::kMax) {
-      JoinedClient next = watching(live_server, "w" + std::to_string(all.size()), AccessRole::kRecorder);
-      if (!next.welcomed()) return false;
-      all.push_back(std::move(next));
-    }
-    return true;
+  std::vector<auth::Identity> keys;  // made before, so that all joins are within two seconds
+  for (std::size_t n = 0; n <= Watchers::kMax; ++n) keys.push_back(live_server.enrolled("w" + std::to_string(n)));
+  const auto last_of = [&] {
+    std::list<JoinedClient> all;
+    for (const auth::Identity& key : keys) all.push_back(watching(live_server, key, AccessRole::kRecorder));
+    return std::pair(reason_of(all.back().welcome), text_of(all.back().welcome));
+  };
+  EXPECT_TRUE(comes_true([&] {  // on a busy machine the first slots may be free again before the last join
+    const auto [reason, text] = last_of();
+    return reason == ErrorCode::kFull && text.find("all 8 places of watching consoles") != std::string::npos;
   }));
-  const auto ninth = watching(live_server, "ninth", AccessRole::kRecorder);
-  EXPECT_EQ(reason_of(ninth.welcome), ErrorCode::kFull);
-  EXPECT_NE(text_of(ninth.welcome).find("all 8 places of watching consoles"), std::string::npos)
-      << text_of(ninth.welcome);
   JoinedClient console = joined(live_server, "desk", AccessRole::kOperator);
   EXPECT_TRUE(console.welcomed()) << "a console that does not watch needs no place";
-  all.pop_front();  // its control connection ends: so does its right to see the session
   EXPECT_TRUE(comes_true([&] { return watching(live_server, "next", AccessRole::kRecorder).welcomed(); }));
 }
 
