@@ -20,16 +20,17 @@ bool comes_true(const std::function<bool()>& so) {
   return false;
 }
 
-/// Joins as a watching console. Without WATCH its slot is free after 2 s.
-JoinedClient watching(LiveServer& live_server, auth::Identity key, AccessRole role) {
-  auto connection = live_server.connect(key);
+/// A request to watch. Without WATCH the slot is free after 2 s.
+rpc::Hello watching_hello(const LiveServer& live_server, const auth::Identity& key, AccessRole role) {
   rpc::Hello hello = LiveServer::hello(live_server.ticket(key, role));
   hello.watch = true;
-  auto welcome = connection.ask(hello, kTimeout);
-  return {std::move(key), std::move(connection), std::move(welcome)};
+  return hello;
 }
 JoinedClient watching(LiveServer& live_server, const std::string& name, AccessRole role) {
-  return watching(live_server, live_server.enrolled(name), role);
+  auth::Identity key = live_server.enrolled(name);
+  auto connection = live_server.connect(key);
+  auto welcome = connection.ask(watching_hello(live_server, key, role), kTimeout);
+  return {std::move(key), std::move(connection), std::move(welcome)};
 }
 
 TEST(Consoles, WatchASessionWithTheRightsOfTheirRole) {
@@ -51,9 +52,13 @@ TEST(Consoles, WatchASessionWithTheRightsOfTheirRole) {
   std::vector<auth::Identity> keys;  // made before, so that all joins are within two seconds
   for (std::size_t n = 0; n <= Watchers::kMax; ++n) keys.push_back(live_server.enrolled("w" + std::to_string(n)));
   const auto last_of = [&] {
-    std::list<JoinedClient> all;
-    for (const auth::Identity& key : keys) all.push_back(watching(live_server, key, AccessRole::kRecorder));
-    return std::pair(reason_of(all.back().welcome), text_of(all.back().welcome));
+    std::list<auth::ControlClient> open;
+    std::expected<rpc::Body, auth::ClientError> reply;
+    for (const auth::Identity& key : keys) {
+      open.push_back(live_server.connect(key));
+      reply = open.back().ask(watching_hello(live_server, key, AccessRole::kRecorder), kTimeout);
+    }
+    return std::pair(reason_of(reply), text_of(reply));
   };
   EXPECT_TRUE(comes_true([&] {  // on a busy machine the first slots may be free again before the last join
     const auto [reason, text] = last_of();
