@@ -8,6 +8,7 @@
 #include "client/seat/seat.h"
 #include "common/base/command_hints.h"
 #include "common/io/clock.h"
+#include "proto/text/scene_bytes.h"
 
 namespace tandem::client {
 namespace {
@@ -26,28 +27,40 @@ std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
   return Accepted{std::move(*hello), std::move(*welcome)};
 }
 
-std::expected<JoinedSeat, JoinError> make_seat(ServerConnection& server, const rpc::Welcome& welcome,
-                                               const rpc::Hello& hello) {
-  const auto text = std::span{reinterpret_cast<const char*>(welcome.setup.data()), welcome.setup.size()};
-  auto setup = decode_seat_setup(text);
-  if (!setup)
-    return join_failure("the server sent a setup this client cannot accept: " +
-                        (setup.error().empty() ? std::string() : setup.error().front().message));
+/// The client's end of the datagrams, with the secrets that both ends export from the connection.
+std::expected<transport::SecureChannel::Params, JoinError> channel_params(ServerConnection& server,
+                                                                          const rpc::Welcome& welcome,
+                                                                          const rpc::Hello& hello, double tick_hz) {
   const auto secrets = server.client().export_secrets(
       {welcome.session_id, welcome.epoch, welcome.server_cid, welcome.role, welcome.seat});
   if (!secrets) return join_failure(secrets.error());
   const transport::Cipher cipher =
       welcome.cipher == rpc::Cipher::kAes256Gcm ? transport::Cipher::kAes256Gcm : transport::Cipher::kChaCha20Poly1305;
+  return transport::SecureChannel::Params{.outgoing = transport::Direction::kToServer,
+                                          .own_cid = hello.client_cid,
+                                          .peer_cid = welcome.server_cid,
+                                          .tick = from_seconds(1.0 / tick_hz),
+                                          .secrets = transport::secrets_from_exporter(secrets->bytes, cipher)};
+}
+
+std::span<const char> setup_of(const rpc::Welcome& welcome) {
+  return {reinterpret_cast<const char*>(welcome.setup.data()), welcome.setup.size()};
+}
+
+std::expected<JoinedSeat, JoinError> make_seat(ServerConnection& server, const rpc::Welcome& welcome,
+                                               const rpc::Hello& hello) {
+  auto setup = decode_seat_setup(setup_of(welcome));
+  if (!setup)
+    return join_failure("the server sent a setup this client cannot accept: " +
+                        (setup.error().empty() ? std::string() : setup.error().front().message));
+  const auto link = channel_params(server, welcome, hello, setup->tick_hz);
+  if (!link) return std::unexpected(link.error());
   JoinedSeat seat{.setup = std::move(*setup),
-                  .link = {.outgoing = transport::Direction::kToServer,
-                           .own_cid = hello.client_cid,
-                           .peer_cid = welcome.server_cid,
-                           .secrets = transport::secrets_from_exporter(secrets->bytes, cipher)},
+                  .link = *link,
                   .udp = server.options().server,
                   .welcome = welcome,
                   .server = server.client().server(),
                   .local = server.local() != nullptr};
-  seat.link.tick = from_seconds(1.0 / seat.setup.tick_hz);
   if (!hello.link_test) seat.connection = server.release();
   return seat;
 }
@@ -113,6 +126,19 @@ std::expected<Console, JoinError> join_console(const JoinOptions& options) {
   auto accepted = request_join(server);
   if (!accepted) return std::unexpected(accepted.error());
   return Console{accepted->welcome, server.release()};
+}
+
+std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options) {
+  ServerConnection server{options};
+  auto accepted = request_join(server);
+  if (!accepted) return std::unexpected(accepted.error());
+  auto scene = decode_scene(setup_of(accepted->welcome), accepted->welcome.session_name);
+  if (!scene)
+    return join_failure("the server sent a scene this client cannot accept: " +
+                        (scene.error().empty() ? std::string() : scene.error().front().message));
+  const auto link = channel_params(server, accepted->welcome, accepted->hello, scene->tick_hz);
+  if (!link) return std::unexpected(link.error());
+  return JoinedWatcher{std::move(*scene), *link, options.server, {accepted->welcome, server.release()}};
 }
 
 std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, const ResumeState& own,

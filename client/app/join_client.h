@@ -15,6 +15,7 @@
 #include "common/transport/secure_channel.h"
 #include "hal/core/device.h"
 #include "proto/rpc/rpc_messages.h"
+#include "proto/spec/scene_spec.h"
 #include "proto/text/seat_setup.h"
 
 namespace tandem::auth {
@@ -33,6 +34,7 @@ struct JoinOptions {
   hal::DeviceCaps caps = {};
   Duration timeout{};  ///< connect and reply timeout
   int signals = -1;    ///< signalfd (common/io/signals.h); -1: none
+  bool watch = false;  ///< with `console`: it also gets TELEMETRY
   std::optional<AccessRole>
       console{};  ///< joins as console instead of a seat; the role counts only on the server's own computer
 };
@@ -55,6 +57,14 @@ struct Console {
   std::shared_ptr<auth::ControlClient> connection;
 };
 
+/// A console that watches the session.
+struct JoinedWatcher {
+  SceneSpec scene;  ///< of the session
+  transport::SecureChannel::Params link;
+  io::SocketAddress udp;  ///< destination of the datagrams
+  Console console;
+};
+
 /// Reason of a failed join.
 struct JoinError {
   bool interrupted = false;  ///< a signal ended it
@@ -68,6 +78,10 @@ struct JoinError {
 
 /// Joins without a seat, by a ticket. @pre options.console, no options.seat
 [[nodiscard]] std::expected<Console, JoinError> join_console(const JoinOptions& options);
+
+/// Joins without a seat, by a ticket, and with datagrams that show the session.
+/// @pre options.console, options.watch, no options.seat
+[[nodiscard]] std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options);
 
 /// Credentials and facts that a client needs to resume its seat.
 struct ResumeState {

@@ -60,6 +60,7 @@ rpc::Hello base_hello(const JoinOptions& options) {
   rpc::Hello hello;
   hello.seat = options.seat;
   hello.link_test = options.seat.empty() && !options.console;
+  hello.watch = options.watch;
   if (!options.console) hello.device = device_facts(options.caps);
   hello.has_aes = transport::fastest_cipher() == transport::Cipher::kAes256Gcm;
   const auto cid = auth::random_bytes<std::array<std::byte, 4>>();

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   tandem::client::add_enroll_command(root);
   tandem::client::add_sessions_command(root);
   tandem::client::add_control_command(root);
+  tandem::client::add_watch_command(root);
   tandem::io::log_to_stderr("tandem-client");
   return program.run({argv + 1, argv + argc});
 }

@@ -8,8 +8,6 @@ namespace tandem::client {
 
 namespace {
 
-constexpr unsigned kCloseRepeats = 3;  // a CLOSE can be lost
-
 double s(std::int64_t ns) { return seconds(Duration{ns}); }
 
 }  // namespace
@@ -84,7 +82,7 @@ void LinkTest::leave() noexcept {
   if (leaving_) return;
   leaving_ = true;
   probe_due_ = false;
-  close_due_ = closed_ ? 0 : kCloseRepeats;
+  close_due_ = closed_ ? 0 : ClientChannel::kCloseRepeats;
 }
 
 Duration LinkTest::silence(Time now) const noexcept {

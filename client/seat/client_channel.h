@@ -15,6 +15,8 @@ namespace tandem::client {
 /// server's address validation. A seat and a link test use the same one. No heap after construction.
 class ClientChannel {
  public:
+  static constexpr unsigned kCloseRepeats = 3;  ///< of a CLOSE that ends the connection, because one can be lost
+
   /// @throws std::runtime_error if the crypto library lacks the cipher
   ClientChannel(const transport::SecureChannel::Params& link, const wire::Codec& codec)
       : link_(std::make_unique<transport::SecureChannel>(link)), codec_(codec) {}
@@ -48,8 +50,14 @@ class ClientChannel {
   template <class Message>
   [[nodiscard]] std::optional<std::size_t> seal(Time now, std::uint32_t tick, wire::Type type, const Message& message,
                                                 std::span<std::byte> buffer) noexcept TANDEM_REALTIME {
-    const std::size_t plain =
-        codec_.encode(link_->preamble(now, tick), message, buffer.subspan(transport::kHeaderSize));
+    return seal(now, tick, type, message, codec_, buffer);
+  }
+  /// The same for a message of another codec.
+  template <class Message, class Codec>
+  [[nodiscard]] std::optional<std::size_t> seal(Time now, std::uint32_t tick, wire::Type type, const Message& message,
+                                                const Codec& codec,
+                                                std::span<std::byte> buffer) noexcept TANDEM_REALTIME {
+    const std::size_t plain = codec.encode(link_->preamble(now, tick), message, buffer.subspan(transport::kHeaderSize));
     const std::size_t size = plain == 0 ? 0 : link_->seal(now, type, buffer, plain);
     return size == 0 ? std::nullopt : std::optional{size};
   }

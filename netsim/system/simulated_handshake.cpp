@@ -55,16 +55,29 @@ std::expected<SimulatedJoin, server::JoinResult> simulate_join(server::Session& 
   return SimulatedJoin{catalogue.setup_for(seat, client::device_facts(caps)), client};
 }
 
-std::expected<SimulatedJoin, server::JoinResult> simulate_link_test_join(server::Session& session, Time now,
-                                                                         RandomKey key, std::uint64_t number) {
+namespace {
+std::expected<SimulatedJoin, server::JoinResult> join_slot(server::Session& session, server::PeerSlots& slots, Time now,
+                                                           RandomKey key, std::uint64_t number, std::size_t place,
+                                                           bool every_tick) {
   fill_path_tokens(session, key.derive(number).derive(3), 0);
   const server::SeatCatalogue& catalogue = session.seat_catalogue();
-  const transport::SecureChannel::Params client = client_end(key.derive(number), 0, kSeatsMax + 1, catalogue.tick());
+  const transport::SecureChannel::Params client = client_end(key.derive(number), 0, place, catalogue.tick());
   auto link = std::make_unique<transport::SecureChannel>(server_end(client));
-  std::size_t place = 0;
-  const server::JoinResult result = session.link_test_peers().admit(now, link, place);
+  std::size_t slot = 0;
+  const server::JoinResult result = slots.admit(now, link, slot, every_tick);
   if (result != server::JoinResult::kAccepted) return std::unexpected(result);
   return SimulatedJoin{catalogue.setup(0), client};
+}
+}  // namespace
+
+std::expected<SimulatedJoin, server::JoinResult> simulate_link_test_join(server::Session& session, Time now,
+                                                                         RandomKey key, std::uint64_t number) {
+  return join_slot(session, session.link_test_peers().slots(), now, key, number, kSeatsMax + 1, true);
+}
+
+std::expected<SimulatedJoin, server::JoinResult> simulate_watch_join(server::Session& session, Time now, RandomKey key,
+                                                                     std::uint64_t number, bool recorder) {
+  return join_slot(session, session.watchers().slots(), now, key, number, kSeatsMax + 2, recorder);
 }
 
 }  // namespace tandem::netsim

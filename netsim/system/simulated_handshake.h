@@ -32,5 +32,10 @@ void fill_path_tokens(server::Session& session, RandomKey key, std::uint64_t fir
 [[nodiscard]] std::expected<SimulatedJoin, server::JoinResult> simulate_link_test_join(server::Session& session,
                                                                                        Time now, RandomKey key,
                                                                                        std::uint64_t number);
+/// Joins a watcher, which has no seat; the setup is that of the first seat.
+/// @param recorder  it gets TELEMETRY at every tick
+[[nodiscard]] std::expected<SimulatedJoin, server::JoinResult> simulate_watch_join(server::Session& session, Time now,
+                                                                                   RandomKey key, std::uint64_t number,
+                                                                                   bool recorder = false);
 
 }  // namespace tandem::netsim

@@ -43,6 +43,8 @@ bool read(const wire_pb::Hello& in, Hello& out) {
   out.client_cid = in.client_cid();
   out.has_aes = in.has_aes();
   out.link_test = in.visit();
+  out.watch = in.watch();
+  good = good && !(in.watch() && (in.visit() || !in.seat().empty()));
   return in.has_device() && read(in.device(), out.device) && good;
 }
 void write(const Hello& in, wire_pb::Hello& out) {
@@ -65,6 +67,7 @@ void write(const Hello& in, wire_pb::Hello& out) {
   d.set_latency_s(in.device.latency_s);
   out.set_has_aes(in.has_aes);
   out.set_visit(in.link_test);
+  out.set_watch(in.watch);
 }
 
 bool read(const wire_pb::RateLimits& in, RateLimits& out) {

@@ -66,7 +66,7 @@ struct Hello {
   Credential credential;
   std::uint32_t client_cid = 0;
   DeviceFacts device;
-  bool has_aes = false, link_test = false;
+  bool has_aes = false, link_test = false, watch = false;  ///< `watch`: without seat and link test
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 

@@ -14,6 +14,8 @@
 /// contradictions are reported to the validator. `write_*` set every field in force.
 namespace tandem {
 
+/// A scene with every value in force.
+[[nodiscard]] pb::Scene to_proto(const SceneSpec& scene);
 void read_channel(const pb::Channel& in, const std::string& path, text::MessageValidator& validator, ChannelSpec& out);
 void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out);
 void read_gate(const pb::Gate& in, GateSpec& out);

@@ -17,6 +17,8 @@ void write_rows(const SceneSpec& scene, const AuthorityRow& row,
   }
 }
 
+}  // namespace
+
 pb::Scene to_proto(const SceneSpec& scene) {
   pb::Scene out;
   out.set_version(1);
@@ -85,8 +87,6 @@ pb::Scene to_proto(const SceneSpec& scene) {
   }
   return out;
 }
-
-}  // namespace
 
 std::string effective_scene_text(const SceneSpec& scene) {
   return (scene.endless() ? "duration_s: none given, the session lasts until it is ended\n" : "") +

@@ -67,6 +67,11 @@ class FieldWriter {
     structure(tag(number, Encoding::kFixed32));
     put(value);
   }
+  template <std::size_t N>
+  void words(std::uint32_t number, const std::array<std::uint32_t, N>& in, std::size_t count, std::uint32_t) noexcept {
+    array(number, 4 * count);
+    copy(in.data(), count);
+  }
   void long_word(std::uint32_t number, std::uint64_t value) noexcept {
     structure(tag(number, Encoding::kFixed64));
     put(value);
@@ -156,6 +161,13 @@ class FieldReader {
     structure(tag(number, Encoding::kFixed32));
     out = get<std::uint32_t>();
     in_range_ &= out <= limit;
+  }
+  /// @param limit  largest value
+  template <std::size_t N>
+  void words(std::uint32_t number, std::array<std::uint32_t, N>& out, std::size_t count, std::uint32_t limit) noexcept {
+    array(number, 4 * count);
+    copy(out.data(), count);
+    for (std::size_t i = 0; i < count; ++i) in_range_ &= out[i] <= limit;
   }
   void long_word(std::uint32_t number, std::uint64_t& out) noexcept {
     structure(tag(number, Encoding::kFixed64));

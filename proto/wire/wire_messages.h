@@ -23,9 +23,11 @@ enum class Type : std::uint8_t {
   kClose = 8,
   kAuthority = 9,
   kLinkProbe = 10,
-  kLinkReport = 11
+  kLinkReport = 11,
+  kTelemetry = 12,
+  kWatch = 13
 };
-inline constexpr std::uint8_t kFirstType = 3, kLastType = 11;
+inline constexpr std::uint8_t kFirstType = 3, kLastType = 13;
 
 using tandem::PortSample;
 

@@ -68,6 +68,8 @@ bool allowed(AccessRole role, wire::Type from_client) noexcept {
     case wire::Type::kPing:
     case wire::Type::kLinkProbe:  // of link-test peers, which have no role
     case wire::Type::kLinkReport:
+    case wire::Type::kTelemetry:
+    case wire::Type::kWatch:  // of watchers, which have a console's role and no seat
       return false;
   }
   return false;

@@ -179,14 +179,17 @@ void AuthorityControl::show_cancelled(std::size_t seat) noexcept {
   cancelled_ticks_[seat] = static_cast<std::uint32_t>(std::lround(kCancelledShown / clock_->dt()));
 }
 
+std::uint32_t AuthorityControl::origin(std::size_t j) const noexcept {
+  const std::uint8_t by = tools_[j].transfer.latest_by();
+  if (by == AuditEvent::kTimeline) return wire::TransferParties::kScene;
+  return by < seats_.size() ? by + 1U : wire::TransferParties::kOperator;
+}
+
 /// The parties of the last scheduled change over a tool, for the notice to seat `i`.
 wire::TransferParties AuthorityControl::parties(std::size_t j, std::size_t i) const noexcept {
   const AuthorityTransfer& transfer = tools_[j].transfer;
   const control::MasterArray &after = transfer.scheduled(), &before = tools_[j].authority.requested();
-  const std::uint8_t by = transfer.latest_by();
-  wire::TransferParties p{.by = wire::TransferParties::kOperator, .tool = static_cast<std::uint32_t>(j)};
-  if (by == AuditEvent::kTimeline) p.by = wire::TransferParties::kScene;
-  if (by < seats_.size()) p.by = by + 1U;
+  wire::TransferParties p{.by = origin(j), .tool = static_cast<std::uint32_t>(j)};
   std::size_t gain = 0, one = i;
   for (std::size_t k = 0; k < masters_; ++k)
     if (after[k] - before[k] > kTolerance) ++gain, one = k;

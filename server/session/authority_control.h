@@ -51,6 +51,8 @@ class AuthorityControl {
   /// Fills the authority notice of the next FORCE to a seat: the last decision that affects it, until it is executed.
   void fill_notice(std::size_t seat, bool clock_stopped, wire::ForceMessage& message) noexcept TANDEM_REALTIME;
 
+  /// Origin of the last pending change over a tool, as TransferParties::by. @pre a change is pending
+  [[nodiscard]] std::uint32_t origin(std::size_t tool) const noexcept;
   /// Number of the newest decision, which `AuthorityTransfer::scheduled` of all tools stands for.
   [[nodiscard]] std::uint32_t version() const noexcept { return version_; }
 

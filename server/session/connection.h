@@ -40,8 +40,9 @@ class Connection {
   [[nodiscard]] std::optional<Transmit> poll_challenge(Time now, std::uint32_t tick, wire::Codec& codec,
                                                        std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
   /// Seals `message` for the validated address; size 0 if there is no such address or the buffer is too small.
-  template <class Message>
-  [[nodiscard]] Transmit seal(Time now, std::uint32_t tick, wire::Type type, const Message& message, wire::Codec& codec,
+  /// @param codec  encodes such a message
+  template <class Message, class Codec>
+  [[nodiscard]] Transmit seal(Time now, std::uint32_t tick, wire::Type type, const Message& message, const Codec& codec,
                               std::span<std::byte> buffer) noexcept {
     if (!proven_address_) return {};
     return {*proven_address_, write(now, tick, type, message, codec, buffer)};
@@ -73,8 +74,8 @@ class Connection {
   [[nodiscard]] const transport::SecureChannel& link() const noexcept { return *link_; }
 
  private:
-  template <class Message>
-  std::size_t write(Time now, std::uint32_t tick, wire::Type type, const Message& message, wire::Codec& codec,
+  template <class Message, class Codec>
+  std::size_t write(Time now, std::uint32_t tick, wire::Type type, const Message& message, const Codec& codec,
                     std::span<std::byte> buffer) noexcept {
     if (buffer.size() < transport::kHeaderSize) return 0;
     const std::size_t plain = codec.encode(link_->preamble(now, tick), message, buffer.subspan(transport::kHeaderSize));

@@ -5,8 +5,8 @@
 namespace tandem::server {
 
 /// Connection id of a client at the server. The low byte is the place in a session: the seat's number plus one, then
-/// the link-test slots. The next byte is the session's slot. The upper two bytes are drawn at random for each join, so
-/// that old ids match nothing.
+/// places of link tests and of watchers. The next byte is the session's slot. The upper two bytes are drawn at random
+/// for each join, so that old ids match nothing.
 [[nodiscard]] constexpr std::uint32_t connection_id(std::uint16_t drawn, std::uint8_t slot,
                                                     std::uint8_t place) noexcept {
   return std::uint32_t{drawn} << 16 | std::uint32_t{slot} << 8 | place;

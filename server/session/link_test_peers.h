@@ -1,14 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 #include "proto/wire/wire_codec.h"
-#include "server/session/close_out.h"
-#include "server/session/connection.h"
-#include "server/session/seat_catalogue.h"
+#include "server/session/peer_slots.h"
 
 namespace tandem::server {
 
@@ -21,44 +18,33 @@ class LinkTestPeers {
   /// @param layout       of the scene's first seat
   /// @param session_end  close-out of the session; must outlive this
   LinkTestPeers(const wire::BodyLayout& layout, Duration tick, const CloseOut& session_end)
-      : codec_(layout), tick_(tick), session_end_(&session_end) {}
+      : slots_(kMax, tick, session_end), codec_(layout) {}
 
-  /// Admits a peer to a free slot.
-  /// @param link  in: the peer's channel; out: the channel that the slot held before
-  /// @param place  out: index of the slot
-  /// @return kAccepted, kSeatTaken (all slots are in use) or kSessionOver
-  [[nodiscard]] JoinResult admit(Time now, std::unique_ptr<transport::SecureChannel>& link,
-                                 std::size_t& place) noexcept;
-  /// Number of free slots.
-  [[nodiscard]] std::size_t places_free(Time now) const noexcept;
+  [[nodiscard]] PeerSlots& slots() noexcept { return slots_; }
   /// False if no peer is connected: no call has anything to do then.
-  [[nodiscard]] bool any() const noexcept { return any_; }
-  /// Removes a peer: it receives CLOSE, then its slot is free. @return false if the slot does not hold connection
-  /// `cid`
-  bool remove(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept;
+  [[nodiscard]] bool any() const noexcept { return slots_.any(); }
   /// @return false if the header names no link-test peer
   /// @param header  of the datagram `bytes`
   bool on_datagram(Time now, const PeerAddress& from, const transport::Header& header, std::span<const std::byte> bytes,
-                   PathTokens& tokens) noexcept TANDEM_REALTIME;
-  /// Removes peers that have been silent for more than 2 s, and marks a LINK_REPORT as due for the others.
-  void on_tick(Time now) noexcept TANDEM_REALTIME;
-
-  /// Writes the next datagram, CLOSE at the end of the session; nullopt if none is due.
+                   PathTokens& tokens) noexcept TANDEM_REALTIME {
+    return slots_.on_datagram(now, from, header, bytes, tokens, wire::Type::kLinkProbe,
+                              [this](std::span<const std::byte> in) { return codec_.decode_link_probe(in); });
+  }
+  /// Removes silent peers, and marks a LINK_REPORT as due for the others.
+  void on_tick(Time now) noexcept TANDEM_REALTIME { static_cast<void>(slots_.on_tick(now, 1, 1)); }
+  /// Writes the next datagram; nullopt if none is due.
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::uint32_t tick,
-                                                      std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
+                                                      std::span<std::byte> buffer) noexcept TANDEM_REALTIME {
+    return slots_.poll_transmit(now, tick, buffer, [&](Connection& to) {
+      const transport::SecureChannelStats& s = to.link().stats();
+      const wire::LinkReport report{static_cast<std::uint32_t>(s.accepted), static_cast<std::uint32_t>(s.late)};
+      return to.seal(now, tick, wire::Type::kLinkReport, report, codec_, buffer);
+    });
+  }
 
  private:
-  struct Peer {
-    std::optional<Connection> connection;  ///< kept after the peer has left, until another joins
-    bool connected = false, send_due = false;
-    unsigned closes_left = 0;  ///< CLOSE datagrams still to send to a removed peer
-    wire::CloseReason close_reason = wire::CloseReason::kRemoved;
-  };
-  std::array<Peer, kMax> peers_;
-  bool any_ = false;  ///< a peer is connected, or was at the last tick
+  PeerSlots slots_;
   wire::Codec codec_;
-  Duration tick_;
-  const CloseOut* session_end_;
 };
 
 }  // namespace tandem::server

@@ -67,6 +67,7 @@ void SeatEndpoint::attach(Time now, SeatConnection& entry) noexcept {
   generation_ = 0;
   *rx_ = {};
   telemetry_ = {};
+  sent_telemetry_ = false;
   std::ranges::fill(further_rx_, PortSample{});
   was_engaged_ = {};
   misbehaviour_ = {};
@@ -107,7 +108,10 @@ SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& fr
       if (jumped && alive(now) && rx_->engaged && next_->engaged) misbehaviour_.report_misbehaviour(now);
       heard.accepted_state = true;
       connection_->on_accepted_message(now, from, *opened, *preamble, tokens);
-      if (next_->with_telemetry) telemetry_ = next_->telemetry;
+      if (next_->with_telemetry) {
+        telemetry_ = next_->telemetry;
+        sent_telemetry_ = true;
+      }
       std::swap(rx_, next_);
       further_rx_.swap(further_next_);
       ++generation_;

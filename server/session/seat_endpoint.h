@@ -104,6 +104,8 @@ class SeatEndpoint {
   [[nodiscard]] const wire::StateMessage& last_state() const noexcept { return *rx_; }
   /// Newest telemetry, of the newest STATE or of an earlier one.
   [[nodiscard]] const wire::Telemetry& telemetry() const noexcept { return telemetry_; }
+  /// Whether this client has sent any: until then `telemetry` is all zeros.
+  [[nodiscard]] bool sent_telemetry() const noexcept { return sent_telemetry_; }
   [[nodiscard]] MisbehaviourMonitor& misbehaviour() noexcept { return misbehaviour_; }
   [[nodiscard]] const MisbehaviourMonitor& misbehaviour() const noexcept { return misbehaviour_; }
   [[nodiscard]] bool poll_flood() noexcept { return taken_ && connection_->poll_flood(); }
@@ -175,6 +177,7 @@ class SeatEndpoint {
   std::unique_ptr<wire::StateMessage> rx_ = std::make_unique<wire::StateMessage>(),
                                       next_ = std::make_unique<wire::StateMessage>();
   wire::Telemetry telemetry_{};
+  bool sent_telemetry_ = false;
   std::vector<PortSample> further_rx_, further_next_;
   std::vector<wire::ToolForce> further_tx_;
   std::optional<ForcePace> pace_;  ///< empty: a FORCE at every tick that the schedule allows

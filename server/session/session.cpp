@@ -6,6 +6,7 @@
 
 #include "server/session/connection_id.h"
 #include "server/session/session_record.h"
+#include "server/session/session_telemetry.h"
 
 namespace tandem::server {
 
@@ -31,6 +32,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       participants_(seats_, clock_, audit_),
       link_test_peers_(body_layout(seat_setup(scene, 0)), from_seconds(1.0 / scene.tick_hz),
                        participants_.closing().session),
+      watchers_(scene, participants_.closing().session),
       control_(scene, std::move(slaves), scale, seats_, participants_.present()),
       start_(scene, seats_, participants_.present(), clock_),
       stop_(scene, participants_, start_, audit_),
@@ -101,7 +103,9 @@ void Session::on_datagram(Time now, const PeerAddress& from, std::span<const std
   }
   const std::size_t i = static_cast<std::size_t>(place_of(header->cid)) - 1;
   if (i >= seats_.size() || !seats_[i].taken() || seats_[i].link()->own_cid() != header->cid) {
-    if (!link_test_peers_.on_datagram(now, from, *header, bytes, path_tokens_)) ++unmatched_datagrams_;
+    if (!link_test_peers_.on_datagram(now, from, *header, bytes, path_tokens_) &&
+        !watchers_.on_datagram(now, from, *header, bytes, path_tokens_))
+      ++unmatched_datagrams_;
     return;
   }
   handle_message(now, i, seats_[i].on_datagram(now, from, *header, bytes, path_tokens_));
@@ -143,6 +147,17 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
     if (auto* link = seat.link()) link->tick(now);
   send_.begin_tick(now, clock_.tick(), lifecycle_.load_state().level, participants_.closing());
   if (link_test_peers_.any()) link_test_peers_.on_tick(now);
+  if (watchers_.any()) serve_watchers(now);
+}
+
+void Session::serve_watchers(Time now) noexcept {
+  if (!watchers_.on_tick(now, lifecycle_.load_state().level)) return;
+  if (!recorded_) {  // `running` stays that of the last record, because it decides which ticks make one
+    const bool running = record_.running;
+    record_tick(*this, leading_hands_, record_);
+    record_.running = running;
+  }
+  fill_telemetry(*this, now, watchers_.next_turn(), watchers_.telemetry());
 }
 
 void Session::run_one_tick(Time now) noexcept {
@@ -196,7 +211,7 @@ void Session::fill_force_messages(Time now) noexcept {
     m.session_tick = clock_.session_tick();
     m.authority_version = authority_.version();
     m.missing = missing_now;
-    m.telemetry_every_tick = telemetry_every_tick_;
+    m.telemetry_every_tick = telemetry_every_tick_ || watchers_.record_every_tick(lifecycle_.load_state().level);
     m.stops = stop_.latch().stops();
     authority_.fill_notice(i, timeline_waits, m);
   }
@@ -207,6 +222,7 @@ std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> bu
   if (!send_.done()) out = send_.poll(now, clock_.tick(), participants_.closing(), buffer);
   if (out) return out;
   if (link_test_peers_.any()) out = link_test_peers_.poll_transmit(now, clock_.tick(), buffer);
+  if (!out && watchers_.any()) out = watchers_.poll_transmit(now, clock_.tick(), buffer);
   if (!out) send_.rewind();
   return out;
 }

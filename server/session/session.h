@@ -26,6 +26,7 @@
 #include "server/session/shared_control.h"
 #include "server/session/start_condition.h"
 #include "server/session/stop_control.h"
+#include "server/session/watchers.h"
 
 namespace tandem::server {
 
@@ -67,6 +68,7 @@ class Session {
   /// Attaches a client to a seat, as Participants::admit. Requests of the client before are withdrawn.
   [[nodiscard]] JoinResult admit(Time now, std::size_t seat, SeatConnection& entry, bool same_owner) noexcept;
   [[nodiscard]] LinkTestPeers& link_test_peers() noexcept { return link_test_peers_; }
+  [[nodiscard]] Watchers& watchers() noexcept { return watchers_; }
 
   void on_datagram(Time now, const PeerAddress& from, std::span<const std::byte> bytes) noexcept;
   /// Sets whether clients send telemetry at every tick (default), or at wire::kTelemetryHz. A session whose ticks
@@ -106,6 +108,8 @@ class Session {
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
   [[nodiscard]] const SeatEndpoint& seat(std::size_t i) const noexcept { return seats_[i]; }
   [[nodiscard]] const Tool& tool(std::size_t j) const noexcept { return control_.tools()[j]; }
+  /// The slave of a tool touches something; for display.
+  [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept { return control_.touching(now, tool); }
   [[nodiscard]] const control::EscHub& hub() const noexcept { return control_.hub(); }
   /// Datagrams without a valid header, or for no current connection.
   [[nodiscard]] std::uint64_t unmatched_datagrams() const noexcept { return unmatched_datagrams_; }
@@ -115,6 +119,7 @@ class Session {
   void handle_requests(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
   void run_one_tick(Time now) noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
+  void serve_watchers(Time now) noexcept TANDEM_REALTIME;
 
   const SceneSpec* scene_;
   std::size_t masters_;
@@ -125,6 +130,7 @@ class Session {
   AuditTrail audit_;
   Participants participants_;
   LinkTestPeers link_test_peers_;
+  Watchers watchers_;
   SharedControl control_;
   StartCondition start_;
   StopControl stop_;

@@ -15,5 +15,6 @@ void add_join_command(const io::Command& root);       ///< attaches a device to 
 void add_link_test_command(const io::Command& root);  ///< measures the link to a server
 void add_sessions_command(const io::Command& root);   ///< lists the sessions of a server
 void add_try_command(const io::Command& root);        ///< starts a server, simulated partners and the user's seat
+void add_watch_command(const io::Command& root);      ///< shows a session live without a seat
 
 }  // namespace tandem::client

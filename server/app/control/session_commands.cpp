@@ -164,12 +164,17 @@ void SessionCommands::disconnect_revoked() {
     if (!entry.open()) continue;
     for (std::size_t i = 0; i < entry.seats.size(); ++i)
       if (!entry.seats[i].joining() && revoked(entry.seats[i].owner())) release_seat(entry, i);
-    for (std::size_t slot = 0; slot < LinkTestSlots::kMax; ++slot) {
-      const LinkTestSlots::Slot& peer = entry.link_tests.slots()[slot];
-      if (!revoked(peer.owner)) continue;
-      entry.link_tests.remove(slot);
-      registry_.post(entry, {.what = ShardRequest::What::kRemoveLinkTest, .place = slot, .cid = peer.cid});
-    }
+    const auto remove_peers = [&](auto& slots, ShardRequest::Peers peers) {
+      for (std::size_t slot = 0; slot < slots.kMax; ++slot) {
+        const auto& peer = slots.slots()[slot];
+        if (!revoked(peer.owner)) continue;
+        slots.remove(slot);
+        registry_.post(entry,
+                       {.what = ShardRequest::What::kRemovePeer, .peers = peers, .place = slot, .cid = peer.cid});
+      }
+    };
+    remove_peers(entry.link_tests, ShardRequest::Peers::kLinkTests);
+    remove_peers(entry.watchers, ShardRequest::Peers::kWatchers);
   }
 }
 

@@ -8,9 +8,9 @@
 
 #include "common/auth/limiter.h"
 #include "server/app/control/console_tickets.h"
-#include "server/app/control/link_test_slots.h"
 #include "server/app/control/removed_workstations.h"
 #include "server/app/control/seat_reservation.h"
+#include "server/app/control/slot_reservations.h"
 #include "server/app/control/status_notices.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/shard.h"
@@ -54,6 +54,7 @@ struct SessionEntry {
   bool closing = false;                ///< the session is over and being removed: it gets no more requests
   std::vector<SeatReservation> seats;  ///< one per seat
   LinkTestSlots link_tests;
+  WatcherSlots watchers;
   ConsoleTickets consoles;
   RemovedWorkstations removed;
   StatusNotices notices;

@@ -8,7 +8,9 @@
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/log.h"
+#include "proto/text/scene_bytes.h"
 #include "proto/text/seat_setup.h"
+#include "server/app/control/slot_join.h"
 #include "server/policy/roles.h"
 #include "server/session/connection_id.h"
 
@@ -19,10 +21,13 @@ using rpc::ErrorCode;
 using rpc::ErrorReply;
 using ResumeMatch = SeatReservation::ResumeMatch;
 
-constexpr std::uint32_t kLinkTestRetryS = 3;  // a silent peer's slot is free by then
-constexpr std::uint8_t kConsolePlace = 0;     // no seat has it, so no datagram opens under a console's keys
+constexpr std::uint32_t kSlotRetryS = 3;   // a silent peer's slot is free by then
+constexpr std::uint8_t kConsolePlace = 0;  // no seat has it, so no datagram opens under a console's keys
 
-bool is_console(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) == kConsolePlace; }
+bool is_watcher(const rpc::Welcome& joined) noexcept { return WatcherSlots::has_place(place_of(joined.server_cid)); }
+bool is_console(const rpc::Welcome& joined) noexcept {
+  return place_of(joined.server_cid) == kConsolePlace || is_watcher(joined);
+}
 std::size_t seat_index(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) - std::size_t{1}; }
 
 std::string ticket_command(const SessionEntry& entry, const std::string& what, const std::string& workstation) {
@@ -63,7 +68,12 @@ SeatReservation::Hash resume_binding(const auth::ServerKeystore& trust, const Wo
   return trust.on_disk() ? workstation.spki : SeatReservation::Hash{};
 }
 
-ErrorReply session_ends() { return {ErrorCode::kSessionOver, "the session is ending", 0}; }
+std::vector<std::byte> encoded(const SceneSpec& scene) {
+  std::array<char, wire::kSetupMax> text;
+  const auto bytes = std::as_bytes(std::span{text}.first(encode_scene(scene, text)));
+  return {bytes.begin(), bytes.end()};
+}
+
 ErrorReply seat_taken(const std::string& seat) {
   return {ErrorCode::kSeatTaken, "seat " + seat + " is taken already", 2};
 }
@@ -211,7 +221,7 @@ void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const
 // ---- Consoles and link tests ----
 
 void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
-                                const std::function<void(JoinReply)>& answer) {
+                                std::function<void(JoinReply)> answer) {
   const auto* ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential);
   if (ticket == nullptr)
     return answer(ErrorReply{ErrorCode::kNoSeat,
@@ -225,32 +235,44 @@ void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
                              "the role " + std::string(to_text(*role)) +
                                  " needs a seat; a console has the role instructor, operator or recorder",
                              0});
-  const auto redeemed = redeem(entry, request, *ticket, std::nullopt);
-  if (!redeemed) return answer(redeemed.error());
-  rpc::Welcome w = make_welcome(entry, kConsolePlace, redeemed->role, request.hello.has_aes);
+  if (!request.hello.watch) return answer(admit_console(entry, request, *ticket, kConsolePlace));
+  reserve_slot(
+      registry_, entry, entry.watchers, ShardRequest::Peers::kWatchers, "places of watching consoles",
+      [this, &entry, request, ticket = *ticket](std::uint8_t place) {
+        return admit_console(entry, request, ticket, place);
+      },
+      std::move(answer));
+}
+
+JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& request,
+                                      const rpc::TicketCredential& ticket, std::uint8_t place) {
+  std::vector<std::byte> scene;
+  if (request.hello.watch) {
+    scene = encoded(entry.scene());
+    if (scene.empty())
+      return ErrorReply{ErrorCode::kInternal,
+                        format("the scene of this session takes more than %zu bytes, so it cannot be watched; join "
+                               "without `watch`",
+                               wire::kSetupMax),
+                        0};
+  }
+  const auto redeemed = redeem(entry, request, ticket, std::nullopt);
+  if (!redeemed) return redeemed.error();
+  rpc::Welcome w = make_welcome(entry, place, redeemed->role, request.hello.has_aes, "", std::move(scene));
   entry.consoles.add(w.resume_secret, redeemed->ticket_id);
-  answer(std::move(w));
+  return w;
 }
 
 /// Any enrolled workstation may test its link, because that touches no seat. The number of peers is limited.
 void SessionJoins::join_link_test(SessionEntry& entry, const JoinRequest& request,
                                   std::function<void(JoinReply)> answer) {
-  const ErrorReply full{ErrorCode::kFull,
-                        format("all %zu link-test slots of this session are taken; try again in %u s",
-                               LinkTestSlots::kMax, kLinkTestRetryS),
-                        kLinkTestRetryS};
-  if (!entry.link_tests.begin_join()) return answer(full);
-  ShardRequest query{.what = ShardRequest::What::kQueryLinkTest};
-  query.done = [&entry, full, has_aes = request.hello.has_aes, answer = std::move(answer)](ShardRequest& asked) {
-    const bool accepted = asked.result == JoinResult::kAccepted;
-    if (!accepted || !entry.link_tests.enough(asked.place)) {
-      entry.link_tests.cancel_join();
-      return answer(accepted ? full : session_ends());
-    }
-    answer(make_welcome(entry, entry.link_tests.next_place(), AccessRole::kObserver, has_aes, "",
-                        encoded(entry.session().seat_catalogue().setup(0))));
-  };
-  registry_.post(entry, std::move(query));
+  reserve_slot(
+      registry_, entry, entry.link_tests, ShardRequest::Peers::kLinkTests, "link-test slots",
+      [&entry, has_aes = request.hello.has_aes](std::uint8_t place) {
+        return make_welcome(entry, place, AccessRole::kObserver, has_aes, "",
+                            encoded(entry.session().seat_catalogue().setup(0)));
+      },
+      std::move(answer));
 }
 
 // ---- Joined connections ----
@@ -259,10 +281,12 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
                              const Secret<auth::kExportSize>& secrets) {
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
-  if (is_console(welcome))
-    return io::log_event(io::Level::kInfo, {.event = "console-joined",
-                                            .session = welcome.session_name,
-                                            .text = request.address + " " + std::string(to_text(welcome.role))});
+  if (is_console(welcome)) {
+    io::log_event(io::Level::kInfo, {.event = "console-joined",
+                                     .session = welcome.session_name,
+                                     .text = request.address + " " + std::string(to_text(welcome.role))});
+    if (!is_watcher(welcome)) return;
+  }
   const auto log = [&welcome](const char* event, std::string text) {
     io::log_event(io::Level::kInfo, {.event = event,
                                      .session = welcome.session_name,
@@ -278,14 +302,24 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
                                           .peer_cid = request.hello.client_cid,
                                           .secrets = transport::secrets_from_exporter(secrets.bytes, cipher)};
   ShardRequest joins;
-  if (request.hello.link_test) {
+  if (request.hello.link_test || is_watcher(welcome)) {
     params.tick = catalogue.tick();
-    joins.what = ShardRequest::What::kAdmitLinkTest;
+    joins.what = ShardRequest::What::kAdmitPeer;
     joins.connection.link = std::make_unique<transport::SecureChannel>(params);
-    joins.done = [entry, by = request.workstation, cid = welcome.server_cid](ShardRequest& asked) {
-      if (asked.result != JoinResult::kAccepted) return entry->link_tests.cancel_join();
-      entry->link_tests.admit(asked.place, by, cid);
+    const auto occupy = [by = request.workstation, cid = welcome.server_cid](auto& slots, const ShardRequest& asked) {
+      if (asked.result != JoinResult::kAccepted) return slots.cancel_join();
+      slots.admit(asked.place, by, cid);
     };
+    if (is_watcher(welcome)) {
+      joins.peers = ShardRequest::Peers::kWatchers;
+      joins.every_tick = welcome.role == AccessRole::kRecorder;
+      joins.done = [this, entry, occupy, welcome](ShardRequest& asked) {
+        occupy(entry->watchers, asked);
+        if (!entry->consoles.contains(welcome.resume_secret)) stop_watching(*entry, welcome);  // it has gone already
+      };
+    } else {
+      joins.done = [entry, occupy](ShardRequest& asked) { occupy(entry->link_tests, asked); };
+    }
   } else {
     const std::size_t seat = seat_index(welcome);
     SeatReservation& reservation = entry->seats[seat];
@@ -301,7 +335,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
     if (std::string softer = catalogue.softened_spring_text(seat, request.hello.device); !softer.empty())
       log("stiffness_reduced", std::move(softer));
   }
-  log(request.hello.link_test ? "link-test-joined" : "seat-joined", request.address);
+  if (!is_watcher(welcome)) log(request.hello.link_test ? "link-test-joined" : "seat-joined", request.address);
   registry_.post(*entry, std::move(joins));
 }
 
@@ -310,6 +344,7 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
   if (entry == nullptr) return;
   if (!welcome.seat.empty()) return restore_ticket(entry->seats[seat_index(welcome)].end_join(), *entry);
   if (!is_console(welcome)) return entry->link_tests.cancel_join();
+  if (is_watcher(welcome)) entry->watchers.cancel_join();
   restore_ticket(entry->consoles.take(welcome.resume_secret), *entry);
 }
 
@@ -325,13 +360,25 @@ bool SessionJoins::is_current(const rpc::Welcome& joined) const {
   if (entry == nullptr) return false;
   if (!joined.seat.empty()) return entry->seats[seat_index(joined)].owned_by(joined.server_cid);
   return is_console(joined) ? entry->consoles.contains(joined.resume_secret)
-                            : entry->link_tests.contains(joined.server_cid);
+                            : entry->link_tests.find(joined.server_cid).has_value();
+}
+
+/// The right of a console to see the session ends with its control connection.
+void SessionJoins::stop_watching(SessionEntry& entry, const rpc::Welcome& joined) {
+  const auto slot = entry.watchers.find(joined.server_cid);
+  if (!slot) return;
+  entry.watchers.remove(*slot);
+  registry_.post(entry, {.what = ShardRequest::What::kRemovePeer,
+                         .peers = ShardRequest::Peers::kWatchers,
+                         .place = *slot,
+                         .cid = joined.server_cid});
 }
 
 /// Recorders only query status, so their ticket counts as used.
 void SessionJoins::on_disconnected(const rpc::Welcome& joined, bool in_vain) {
   SessionEntry* const entry = registry_.find(joined.session_id);
   if (entry == nullptr || !is_console(joined)) return;
+  stop_watching(*entry, joined);
   const auto ticket = entry->consoles.take(joined.resume_secret);
   if (in_vain && allowed(joined.role, Right::kStopSession) != Grant::kNo) restore_ticket(ticket, *entry);
 }

@@ -33,7 +33,10 @@ class SessionJoins final : public JoinHandler {
   void on_disconnected(const rpc::Welcome& joined, bool in_vain) override;
 
  private:
-  void join_console(SessionEntry& entry, const JoinRequest& request, const std::function<void(JoinReply)>& answer);
+  void join_console(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
+  /// Redeems the ticket of a console. @param place  in its connection id
+  [[nodiscard]] JoinReply admit_console(SessionEntry& entry, const JoinRequest& request,
+                                        const rpc::TicketCredential& ticket, std::uint8_t place);
   void join_link_test(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
   void join_seat(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
   /// Decides after the session has reported the state of the seat. A ticket is redeemed last, because it is then used.
@@ -47,6 +50,7 @@ class SessionJoins final : public JoinHandler {
                                                                     const JoinRequest& request,
                                                                     const rpc::TicketCredential& ticket,
                                                                     std::optional<AccessRole> role);
+  void stop_watching(SessionEntry& entry, const rpc::Welcome& joined);
   void restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry);
   /// Error reply if the shard or the machine is too busy for a new join; nullopt if not.
   [[nodiscard]] std::optional<rpc::ErrorReply> overload_reply(const SessionEntry& entry) const;

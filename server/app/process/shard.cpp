@@ -18,6 +18,10 @@ constexpr int kPriority = 70;            // above the device threads, because a 
 constexpr Duration kReadingMax = 200us;  // limit of receiving per tick, so that a flood cannot delay the tick
 constexpr std::size_t kRequestsMax = 256;
 
+PeerSlots& slots_of(Session& session, ShardRequest::Peers peers) noexcept {
+  return peers == ShardRequest::Peers::kWatchers ? session.watchers().slots() : session.link_test_peers().slots();
+}
+
 }  // namespace
 
 Shard::Shard(io::UdpSocket socket, double tick_hz)
@@ -146,8 +150,9 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
     case ShardRequest::What::kAdmit:
       request.result = live->session().admit(now, request.seat, request.connection, request.same_owner);
       break;
-    case ShardRequest::What::kAdmitLinkTest:
-      request.result = live->session().link_test_peers().admit(now, request.connection.link, request.place);
+    case ShardRequest::What::kAdmitPeer:
+      request.result = slots_of(live->session(), request.peers)
+                           .admit(now, request.connection.link, request.place, request.every_tick);
       break;
     case ShardRequest::What::kCommand:
       request.outcome = execute_command(live->session(), now, request.command);
@@ -156,12 +161,12 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
       request.outcome.result = remove_client(live->session(), request.seat, request.cid, wire::CloseReason::kRevoked);
       request.outcome.tick = live->session().clock().session_tick();
       break;
-    case ShardRequest::What::kQueryLinkTest:
-      request.place = live->session().link_test_peers().places_free(now);
+    case ShardRequest::What::kQueryPeers:
+      request.place = slots_of(live->session(), request.peers).places_free(now);
       break;
-    case ShardRequest::What::kRemoveLinkTest:
+    case ShardRequest::What::kRemovePeer:
       static_cast<void>(
-          live->session().link_test_peers().remove(request.place, request.cid, wire::CloseReason::kRevoked));
+          slots_of(live->session(), request.peers).remove(request.place, request.cid, wire::CloseReason::kRevoked));
       break;
     case ShardRequest::What::kEndSession:
       live->session().participants().end(wire::CloseReason::kServerStops);

@@ -14,16 +14,17 @@ class LiveSession;
 /// between two ticks.
 struct ShardRequest {
   enum class What : std::uint8_t {
-    kAddSession,      ///< serve `session` from now on, in its slot
-    kQuerySeat,       ///< whether `seat` is available
-    kAdmit,           ///< attach `connection` to `seat`
-    kAdmitLinkTest,   ///< admit `connection.link` as a link-test peer
-    kEndSession,      ///< end the session: release all hands, then send CLOSE
-    kCommand,         ///< execute `command` of a control connection; result in `outcome`
-    kRevokeSeat,      ///< remove the client `cid` from `seat`; result and tick in `outcome`
-    kQueryLinkTest,   ///< number of free link-test slots, in `place`
-    kRemoveLinkTest,  ///< remove the link-test peer `cid` in slot `place`
+    kAddSession,  ///< serve `session` from now on, in its slot
+    kQuerySeat,   ///< whether `seat` is available
+    kAdmit,       ///< attach `connection` to `seat`
+    kAdmitPeer,   ///< admit `connection.link` as a peer without a seat
+    kEndSession,  ///< end the session: release all hands, then send CLOSE
+    kCommand,     ///< execute `command` of a control connection; result in `outcome`
+    kRevokeSeat,  ///< remove the client `cid` from `seat`; result and tick in `outcome`
+    kQueryPeers,  ///< number of free slots of `peers`, in `place`
+    kRemovePeer,  ///< remove the peer `cid` in slot `place` of `peers`
   };
+  enum class Peers : std::uint8_t { kLinkTests, kWatchers };
   What what = What::kAdmit;
   LiveSession* session = nullptr;  ///< valid until it is over
   std::size_t seat = 0;
@@ -34,7 +35,9 @@ struct ShardRequest {
   JoinResult result = JoinResult::kSessionOver;
   SessionCommand command{};
   CommandOutcome outcome{};  ///< out; invalid if `result` is kSessionOver
-  std::size_t place = 0;     ///< link-test slot, or number of free slots; kAdmitLinkTest, out: the peer's slot
+  Peers peers = Peers::kLinkTests;
+  bool every_tick = true;  ///< kAdmitPeer: the watcher records the session
+  std::size_t place = 0;   ///< slot of a peer, or number of free slots; kAdmitPeer, out: the peer's slot
   std::uint32_t cid = 0;
   std::function<void(ShardRequest&)> done = [](ShardRequest&) {};  ///< called on the control plane's thread
 };

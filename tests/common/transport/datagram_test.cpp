@@ -33,7 +33,7 @@ TEST(Header, RejectsUnknownVersionsAndTypes) {
   for (unsigned first = 0; first < 256; ++first) {
     auto bytes = with_header({});
     bytes[0] = static_cast<std::byte>(first);
-    const bool good = (first >> 4) == 2 && (first & 15) >= 3 && (first & 15) <= 11;
+    const bool good = (first >> 4) == 2 && (first & 15) >= 3 && (first & 15) <= 13;
     EXPECT_EQ(read_header(bytes).has_value(), good) << first;
   }
 }

@@ -141,6 +141,9 @@ TEST(RpcCodec, RejectsOutOfRangeFieldsInBothDirections) {
   EXPECT_TRUE(hello([](Hello& m) { m.versions = {1, 2, 3, 4, 5, 6, 7, 8, 9}; }));
   EXPECT_TRUE(hello([](Hello& m) { m.seat = std::string(33, 'a'); }));
   EXPECT_TRUE(hello([](Hello& m) { m.seat = "a/b"; }));
+  EXPECT_TRUE(hello([](Hello& m) { m.seat = "trainer", m.watch = true; })) << "a seat does not watch";
+  EXPECT_TRUE(hello([](Hello& m) { m.seat = "", m.link_test = m.watch = true; })) << "nor does a link test";
+  EXPECT_FALSE(hello([](Hello& m) { m.seat = "", m.watch = true; }));
   EXPECT_TRUE(hello([](Hello& m) { m.session = std::string("short"); }));
   EXPECT_TRUE(hello([](Hello& m) { m.session = std::string("abcde12345"); }));
   EXPECT_TRUE(hello([](Hello& m) { m.credential = TicketCredential{}; }));

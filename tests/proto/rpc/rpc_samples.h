@@ -86,6 +86,7 @@ inline Hello hello(RandomStream& r) {
               0};
   m.has_aes = r.below(2) == 0;
   m.link_test = r.below(2) == 0;
+  m.watch = m.seat.empty() && !m.link_test && r.below(2) == 1;
   return m;
 }
 

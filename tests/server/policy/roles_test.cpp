@@ -54,7 +54,8 @@ TEST(Roles, LetOnlyInstructorsAndTraineesSendAuthority) {
     for (const auto type : {wire::Type::kState, wire::Type::kClose, wire::Type::kPathResponse})
       EXPECT_TRUE(allowed(role, type));
     for (const auto type : {wire::Type::kForce, wire::Type::kPathChallenge, wire::Type::kPing, wire::Type::kLinkProbe,
-                            wire::Type::kLinkReport, static_cast<wire::Type>(1), static_cast<wire::Type>(15)})
+                            wire::Type::kLinkReport, wire::Type::kTelemetry, wire::Type::kWatch,
+                            static_cast<wire::Type>(1), static_cast<wire::Type>(15)})
       EXPECT_FALSE(allowed(role, type)) << "types that go the other way, or nowhere";
   }
 }

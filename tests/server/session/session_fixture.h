@@ -109,9 +109,13 @@ class SessionFixture {
     return out;
   }
   void to_clients(const std::vector<std::pair<std::uint8_t, Bytes>>& sent) {
-    for (const auto& [to, bytes] : sent)
+    others.clear();
+    for (const auto& [to, bytes] : sent) {
+      bool taken = false;
       for (FixtureSeat& s : seats)
-        if (to == s.at) s.core->on_datagram(now, bytes);
+        if (to == s.at) s.core->on_datagram(now, bytes), taken = true;
+      if (!taken) others.emplace_back(to, bytes);
+    }
   }
   /// Runs one millisecond of all clients and the server. @param between called after the clients have sent and before
   /// the server sends
@@ -169,8 +173,9 @@ class SessionFixture {
   Time now{1h};
   std::unique_ptr<Session> session;
   std::vector<FixtureSeat> seats;
-  std::map<std::uint8_t, int> forces, challenges;  ///< by address
-  Fingerprint told;                                ///< every byte that the server has sent
+  std::map<std::uint8_t, int> forces, challenges;      ///< by address
+  std::vector<std::pair<std::uint8_t, Bytes>> others;  ///< of the last tick, to addresses of no seat
+  Fingerprint told;                                    ///< every byte that the server has sent
 
  private:
   /// Gives the connection other keys or another rekey policy.

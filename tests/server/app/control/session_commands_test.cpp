@@ -135,7 +135,7 @@ TEST(SessionCommands, ReleaseTheSeatsOfRevokedWorkstationsOnly) {
   c.lesson.link_tests.admit(0, {"gone", {std::byte{8}}, 0}, 13);
   c.serve();
   c.commands.disconnect_revoked();
-  EXPECT_FALSE(c.lesson.link_tests.contains(13));
+  EXPECT_FALSE(c.lesson.link_tests.find(13));
   c.wait_until([&] { return !c.lesson.seats[1].owner(); });
   EXPECT_TRUE(c.lesson.seats[0].owned_by(11)) << "office is enrolled";
   EXPECT_FALSE(c.lesson.seats[1].owned_by(12));

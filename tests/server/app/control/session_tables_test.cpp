@@ -4,8 +4,8 @@
 
 #include "server/app/control/console_tickets.h"
 #include "server/app/control/drain_schedule.h"
-#include "server/app/control/link_test_slots.h"
 #include "server/app/control/removed_workstations.h"
+#include "server/app/control/slot_reservations.h"
 
 namespace tandem::server {
 namespace {
@@ -41,11 +41,11 @@ TEST(LinkTestSlots, KnowThePeerOfEachSlotUntilItIsRemoved) {
   LinkTestSlots slots;
   ASSERT_TRUE(slots.begin_join());
   slots.admit(2, {"desk", {}, 0}, 77);
-  EXPECT_TRUE(slots.contains(77));
-  EXPECT_FALSE(slots.contains(0)) << "empty slots have no peer";
+  EXPECT_TRUE(slots.find(77));
+  EXPECT_FALSE(slots.find(0)) << "empty slots have no peer";
   EXPECT_EQ(slots.slots()[2].owner->name, "desk");
   slots.remove(2);
-  EXPECT_FALSE(slots.contains(77));
+  EXPECT_FALSE(slots.find(77));
   for (std::size_t i = 0; i < LinkTestSlots::kMax; ++i) EXPECT_TRUE(slots.begin_join()) << "no join is in progress";
 }
 

@@ -9,16 +9,21 @@
 #include "common/base/axes.h"
 #include "proto/spec/registry_spec.h"
 #include "server/session/link_test_peers.h"
+#include "server/session/watchers.h"
 
 namespace tandem::server {
 
-/// Link tests of a session as the control plane knows them: joins in progress and the workstation in each slot. The
-/// session knows which slots are free.
+/// Peers without a seat as the control plane knows them, link tests or watchers: joins in progress and the workstation
+/// in each slot. The session knows which slots are free.
 ///
 /// A join is `begin_join`, then `admit` or `cancel_join`. Joins in progress never exceed the number of slots.
-class LinkTestSlots {
+/// @tparam kSlots       number of slots
+/// @tparam kFirstPlace  first of the places in connection ids that these peers have
+template <std::size_t kSlots, std::uint8_t kFirstPlace>
+class SlotReservations {
  public:
-  static constexpr std::size_t kMax = LinkTestPeers::kMax;
+  static constexpr std::size_t kMax = kSlots;
+  static constexpr std::uint8_t kPlaces = 64;
   struct Slot {
     std::optional<WorkstationRow> owner{};  ///< last admitted peer; nullopt: none, or removed
     std::uint32_t cid = 0;                  ///< connection id of its datagrams
@@ -39,21 +44,30 @@ class LinkTestSlots {
     slots_[slot] = {owner, cid};
   }
 
-  /// Place in the connection id of the next peer. The places behind the seats are assigned in turn.
+  /// Place in the connection id of the next peer. The places are assigned in turn.
   [[nodiscard]] std::uint8_t next_place() noexcept {
-    return static_cast<std::uint8_t>(kSeatsMax + 1 + next_place_++ % kPlaces);
+    return static_cast<std::uint8_t>(kFirstPlace + next_place_++ % kPlaces);
   }
-  [[nodiscard]] bool contains(std::uint32_t cid) const noexcept {
-    return std::ranges::any_of(slots_, [cid](const Slot& s) { return s.cid == cid && s.owner; });
+  [[nodiscard]] static constexpr bool has_place(std::uint8_t place) noexcept {
+    return place >= kFirstPlace && place < kFirstPlace + kPlaces;
+  }
+  /// Slot of a connection; nullopt if it has none.
+  [[nodiscard]] std::optional<std::size_t> find(std::uint32_t cid) const noexcept {
+    const auto found = std::ranges::find_if(slots_, [cid](const Slot& s) { return s.cid == cid && s.owner; });
+    if (found == slots_.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - slots_.begin());
   }
   [[nodiscard]] const std::array<Slot, kMax>& slots() const noexcept { return slots_; }
   void remove(std::size_t slot) noexcept { slots_[slot].owner.reset(); }
 
  private:
-  static constexpr std::uint8_t kPlaces = 64;
   std::size_t joining_ = 0;
   std::uint8_t next_place_ = 0;
   std::array<Slot, kMax> slots_{};
 };
+
+inline constexpr std::uint8_t kLinkTestPlace = kSeatsMax + 1;
+using LinkTestSlots = SlotReservations<LinkTestPeers::kMax, kLinkTestPlace>;
+using WatcherSlots = SlotReservations<Watchers::kMax, kLinkTestPlace + LinkTestSlots::kPlaces>;
 
 }  // namespace tandem::server

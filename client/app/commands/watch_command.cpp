@@ -1,0 +1,131 @@
+#include <poll.h>
+
+#include <cstdio>
+#include <string>
+
+#include "client/app/commands/client_commands.h"
+#include "client/app/commands/connection_options.h"
+#include "client/app/telemetry_feed.h"
+#include "client/app/telemetry_text.h"
+#include "common/io/clock.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
+#include "common/io/print.h"
+#include "common/io/signals.h"
+#include "common/io/usage_errors.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kLineInterval = 1s;
+constexpr Duration kLostAfter = 3s;  // silence of the server that ends the watch
+
+struct WatchArguments {
+  ConnectionArguments connection;
+  std::string role;
+  bool json = false;
+};
+
+int end_watch(const std::string& why) {
+  io::print(stderr, "tandem-client watch: " + why + "\n");
+  return io::kExitTrouble;
+}
+
+std::string text_of(wire::CloseReason why) {
+  switch (why) {
+    case wire::CloseReason::kServerReturns:
+      return "the server is being restarted; watch again in a moment";
+    case wire::CloseReason::kRevoked:
+    case wire::CloseReason::kRemoved:
+      return "the server withdrew the right to watch; ask its operator";
+    default:
+      return "the session is over";
+  }
+}
+
+/// Prints what the feed shows until a signal, the end of the session, or the loss of the server. @return exit code
+int show(TelemetryFeed& feed, int signals, bool json) {
+  Time next_line = io::monotonic_now();
+  while (true) {
+    pollfd files[] = {{feed.fd(), POLLIN, 0}, {signals, POLLIN, 0}, {feed.console().connection->fd(), POLLRDHUP, 0}};
+    poll(files, 3, TelemetryFeed::kServeIntervalMs);
+    const Time now = io::monotonic_now();
+    const bool newer = feed.serve(now);
+    const SessionWatch& watch = feed.watch();
+    const bool due = json ? newer : watch.newest() && now >= next_line;
+    if (due) {
+      if (!json) next_line = std::max(next_line + kLineInterval, now);
+      const std::string line = (json ? telemetry_json : telemetry_text)(feed.scene(), watch) + "\n";
+      if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return io::kExitTrouble;
+    }
+    if (files[1].revents != 0) {
+      feed.leave(now);
+      return io::kExitDone;
+    }
+    if (const auto why = watch.closed()) {
+      const bool over = *why == wire::CloseReason::kDone || *why == wire::CloseReason::kServerStops;
+      const int code = end_watch(text_of(*why));
+      return over ? io::kExitDone : code;
+    }
+    if ((files[2].revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0 && watch.silence(now) > 300ms)
+      return end_watch("the server ended this connection: it was stopped or is being restarted");
+    if (watch.silence(now) > kLostAfter)
+      return end_watch(watch.newest() ? "the server was lost: no datagram for 3 s"
+                                      : "no datagram arrived, although the server accepted the join; a firewall may "
+                                        "block UDP. `tandem-client link-test` judges the link");
+  }
+}
+
+int watch_command(const WatchArguments& arguments) {
+  io::UsageErrors errors;
+  JoinOptions asking = connection_of(arguments.connection, errors);
+  asking.timeout = timeout_of(arguments.connection.timeout, errors);
+  asking.watch = true;
+  asking.console = AccessRole::kOperator;
+  if (!arguments.role.empty()) {
+    const auto role = access_role_named(arguments.role);
+    if (role == AccessRole::kInstructor || role == AccessRole::kOperator || role == AccessRole::kRecorder) {
+      asking.console = role;
+    } else {
+      errors.add("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
+    }
+  }
+  asking.ticket = ticket_of(arguments.connection.ticket, errors);
+  if (!errors.empty()) return errors.print("tandem-client watch: ");
+  const io::Fd signals = io::make_signalfd();
+  asking.signals = signals.get();
+  auto feed = TelemetryFeed::open(asking);
+  if (!feed) return feed.error().interrupted ? io::kExitDone : end_watch(feed.error().reason);
+  return show(*feed, signals.get(), arguments.json);
+}
+
+}  // namespace
+
+void add_watch_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "watch", "Shows a session live without taking a seat: hands, forces, tool, authority, links.", watch_command);
+  add_server_option(command, arguments.connection);
+  add_session_option(command, arguments.connection,
+                     "name, code or id of the session; default: the ticket's, or the only one there");
+  add_ticket_options(command, arguments.connection.ticket,
+                     "ticket printed by `tandem-server ticket --role operator`; not needed with a loopback server with "
+                     "ephemeral keys");
+  command
+      .add_option("--role", arguments.role,
+                  "without a ticket: operator, instructor or recorder; default: operator. A recorder gets every tick")
+      .value_name("ROLE");
+  add_state_option(command, arguments.connection.state);
+  add_timeout_option(command, arguments.connection.timeout);
+  command.add_flag("--json", arguments.json, "every state as one line of JSON, 60 per second");
+  command.footer(
+      "Prints one line per second until Ctrl-C or the end of the session. Eight consoles may watch a session; they "
+      "disturb no hand.\n"
+      "Exit: 0 done; 1 refused, with the reason, or server not reachable or lost; 2 wrong arguments.\n\n"
+      "Examples\n"
+      "  tandem-client watch --server 127.0.0.1:7000\n"
+      "  tandem-client watch --server lab-server:7000 --ticket-file operator.ticket --json");
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,33 @@
+#include "proto/text/scene_bytes.h"
+
+#include <google/protobuf/stubs/logging.h>
+#include <google/protobuf/text_format.h>
+
+#include "proto/text/scene_convert.h"
+#include "proto/text/scene_text.h"
+#include "proto/wire/wire_messages.h"
+
+namespace tandem {
+
+std::size_t encode_scene(const SceneSpec& scene, std::span<char> out) {
+  const pb::Scene message = to_proto(scene);
+  const std::size_t size = message.ByteSizeLong();
+  if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
+  return size;
+}
+
+/// By way of the text, so that the one reader of scene files applies all of its rules.
+std::expected<SceneSpec, InputErrors> decode_scene(std::span<const char> bytes, const std::string& name) {
+  pb::Scene in;
+  const google::protobuf::LogSilencer silence;  // bytes from the network must not flood the log
+  std::string text;
+  if (bytes.size() > wire::kSetupMax || !in.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())) ||
+      !google::protobuf::TextFormat::PrintToString(in, &text)) {
+    text::MessageValidator validator(name);
+    validator.error_at({}, "", "is not a scene");
+    return std::unexpected(validator.take());
+  }
+  return parse_scene(text, name + ".textproto");
+}
+
+}  // namespace tandem

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "proto/wire/wire_codec.h"
+#include "server/session/close_out.h"
+#include "server/session/connection.h"
+#include "server/session/seat_catalogue.h"
+
+namespace tandem::server {
+
+/// Clients without a seat that exchange datagrams with a session, in a fixed number of slots: link-test peers and
+/// watchers. Each sends one type of datagram, which keeps its slot, and gets one type in return, at its validated
+/// address. Nothing that they send reaches a seat or a tool.
+class PeerSlots {
+ public:
+  /// @param count        number of slots
+  /// @param tick         shortest interval between two datagrams of a peer
+  /// @param session_end  close-out of the session; must outlive this
+  PeerSlots(std::size_t count, Duration tick, const CloseOut& session_end)
+      : peers_(count), tick_(tick), session_end_(&session_end) {}
+
+  /// Admits a peer to a free slot.
+  /// @param link        in: the peer's channel; out: the channel that the slot held before
+  /// @param place       out: index of the slot
+  /// @param every_tick  the peer may get a datagram at every tick
+  /// @return kAccepted, kSeatTaken (all slots are in use) or kSessionOver
+  [[nodiscard]] JoinResult admit(Time now, std::unique_ptr<transport::SecureChannel>& link, std::size_t& place,
+                                 bool every_tick = true) noexcept;
+  /// Number of free slots.
+  [[nodiscard]] std::size_t places_free(Time now) const noexcept;
+  /// False if no peer is connected: no call has anything to do then.
+  [[nodiscard]] bool any() const noexcept { return any_; }
+  /// A connected peer may get a datagram at every tick.
+  [[nodiscard]] bool any_every_tick() const noexcept { return any_every_tick_; }
+  /// Removes a peer: it receives CLOSE, then its slot is free. @return false if the slot does not hold connection
+  /// `cid`
+  bool remove(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept;
+
+  /// Takes a datagram. CLOSE frees the slot.
+  /// @param header  of the datagram `bytes`
+  /// @param asks    the type that these peers send
+  /// @param decode  checks its plaintext, and returns a Received<Message> or an error
+  /// @return false if the header names no peer
+  template <class Decode>
+  bool on_datagram(Time now, const PeerAddress& from, const transport::Header& header, std::span<const std::byte> bytes,
+                   PathTokens& tokens, wire::Type asks, Decode&& decode) noexcept {
+    const auto found = std::ranges::find_if(
+        peers_, [&](const Peer& v) { return v.connected && v.connection->link().own_cid() == header.cid; });
+    if (found == peers_.end()) return false;
+    Connection& connection = *found->connection;
+    const auto opened = connection.open(now, from, header, bytes, codec_);
+    if (!opened) return true;
+    if (opened->type == asks) {
+      const auto decoded = decode(opened->plaintext);
+      if (!decoded) {
+        connection.link().drop_body();
+      } else if (opened->newer) {
+        connection.on_accepted_message(now, from, *opened, decoded->preamble, tokens);
+      }
+    } else if (opened->type == wire::Type::kClose && codec_.decode_close(opened->plaintext)) {
+      found->connected = false;
+    } else {
+      connection.link().drop_body();
+    }
+    return true;
+  }
+
+  /// Removes peers that have been silent for more than 2 s, and marks the datagrams of this tick.
+  /// @param interval  ticks between two datagrams: of a peer that may get one at every tick, of the others; at least 1
+  /// @return whether an answer is due to a peer
+  bool on_tick(Time now, std::uint32_t interval_every_tick, std::uint32_t interval) noexcept TANDEM_REALTIME;
+
+  /// Writes the next datagram, CLOSE at the end of the session; nullopt if none is due.
+  /// @param answer  seals the answer to a peer with this connection
+  template <class Answer>
+  [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer,
+                                                      Answer&& answer) noexcept {
+    for (Peer& v : peers_) {
+      if (!v.connected) continue;
+      if (const auto challenge = v.connection->poll_challenge(now, tick, codec_, buffer)) return challenge;
+      if (!v.send_due) continue;
+      v.send_due = false;
+      const std::optional<wire::CloseReason> closes = close_reason(v);
+      const Transmit out =
+          closes ? v.connection->seal(now, tick, wire::Type::kClose, wire::CloseMessage{*closes}, codec_, buffer)
+                 : answer(*v.connection);
+      if (out.size > 0) return out;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Peer {
+    std::optional<Connection> connection;  ///< kept after the peer has left, until another joins
+    bool connected = false, send_due = false, every_tick = true;
+    std::uint32_t since = 0;   ///< ticks since the last answer
+    unsigned closes_left = 0;  ///< CLOSE datagrams still to send to a removed peer
+    wire::CloseReason close_reason = wire::CloseReason::kRemoved;
+  };
+  /// Why the datagram that is due is CLOSE; nullopt: it is an answer.
+  [[nodiscard]] std::optional<wire::CloseReason> close_reason(Peer& peer) const noexcept;
+
+  std::vector<Peer> peers_;
+  bool any_ = false, any_every_tick_ = false;  ///< a peer is connected, or was at the last tick
+  wire::Codec codec_;                          ///< of PATH and CLOSE, whose layout is always the same
+  Duration tick_;
+  const CloseOut* session_end_;
+};
+
+}  // namespace tandem::server
