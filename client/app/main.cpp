@@ -16,8 +16,9 @@ int main(int argc, char** argv) {
       "tool. The force that reaches your hand is limited here, whatever the network or the server does.");
   const tandem::io::Command root = program.root();
   root.footer(
-      "`tandem-client try --help`, `join --help`, `doctor --help`, `link-test --help`, `control --help` and `calibrate "
-      "--help` show more.\n"
+      "`tandem-client try --help`, `join --help`, `doctor --help`, `link-test --help`, `control --help`, `watch "
+      "--help` and "
+      "`calibrate --help` show more.\n"
       "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files. Not a medical device.");
 
   tandem::client::add_try_command(root);

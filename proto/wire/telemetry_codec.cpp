@@ -23,6 +23,9 @@ constexpr std::uint32_t kShedAt = 8, kStateMax = 0xffff, kOriginAt = 6, kTransfe
 bool finite(const std::array<double, 3>& v) noexcept {
   return std::ranges::all_of(v, [](double c) { return std::isfinite(c); });
 }
+bool zero(const std::array<double, 3>& v) noexcept {
+  return std::ranges::all_of(v, [](double c) { return c == 0; });
+}
 std::array<double, 3> none() noexcept { return {kUnknown, kUnknown, kUnknown}; }
 
 template <class Values, class Seat>
@@ -106,6 +109,7 @@ void read_tool(FieldReader& values, WatchedToolState& out) noexcept {
   out.touching = (flags & kInContact) != 0;
   out.braked = (flags & kBraked) != 0;
   if ((flags & kSlaveKnown) != 0) return;
+  values.require(zero(out.x) && zero(out.f) && out.depth == 0);
   out.x = out.f = none();
   out.depth = kUnknown;
 }
@@ -124,9 +128,14 @@ void write_link(FieldWriter& values, const WatchedLink& l, std::size_t seats) no
 void read_link(FieldReader& values, WatchedLink& out, std::size_t seats) noexcept {
   std::uint32_t flags = 0;
   walk_link(values, out, flags, seats);
-  if ((flags & kUpKnown) == 0) out.loss_up_percent = out.gap_up_ms = kUnknown;
-  if ((flags & kRttKnown) == 0) out.rtt_p50_ms = kUnknown;
-  if ((flags & kDownKnown) == 0) out.loss_down_percent = out.gap_down_ms = out.age_p99_ms = out.margin_min_j = kUnknown;
+  const auto unless_known = [&](std::uint32_t flag, auto&... value) {
+    if ((flags & flag) != 0) return;
+    values.require(((value == 0) && ...));
+    ((value = kUnknown), ...);
+  };
+  unless_known(kUpKnown, out.loss_up_percent, out.gap_up_ms);
+  unless_known(kRttKnown, out.rtt_p50_ms);
+  unless_known(kDownKnown, out.loss_down_percent, out.gap_down_ms, out.age_p99_ms, out.margin_min_j);
 }
 
 void read_authority(FieldReader& values, WatchedAuthority& out, const TelemetryLayout& layout) noexcept {
@@ -171,7 +180,9 @@ Decoded<SessionTelemetry> TelemetryCodec::decode_telemetry(std::span<const std::
       values.require(read_seat_flags(flags[i], i < layout_.masters, out.seats[i]));
     for (std::size_t i = 0; i < layout_.masters; ++i) {
       walk_hand(values, out.seats[i]);
-      if ((flags[i] & kPoseKnown) == 0) out.seats[i].x = out.seats[i].f = none();
+      if ((flags[i] & kPoseKnown) != 0) continue;
+      values.require(zero(out.seats[i].x) && zero(out.seats[i].f));
+      out.seats[i].x = out.seats[i].f = none();
     }
     for (std::size_t j = 0; j < layout_.tools; ++j) read_tool(values, out.tools[j]);
     read_link(values, out.link, layout_.seats);

@@ -53,7 +53,7 @@ bool PeerSlots::on_tick(Time now, std::uint32_t interval_every_tick, std::uint32
     const bool turn = ++v.since >= (v.every_tick ? interval_every_tick : interval);
     if ((!turn && !closes) || !v.connection->proven_address()) continue;
     v.since = 0;
-    v.send_due = true;
+    v.send_due = may_send_ = true;
     answers |= !closes;
   }
   return answers;

@@ -53,6 +53,7 @@ class PeerSlots {
     const auto found = std::ranges::find_if(
         peers_, [&](const Peer& v) { return v.connected && v.connection->link().own_cid() == header.cid; });
     if (found == peers_.end()) return false;
+    may_send_ = true;  // a challenge
     Connection& connection = *found->connection;
     const auto opened = connection.open(now, from, header, bytes, codec_);
     if (!opened) return true;
@@ -81,6 +82,7 @@ class PeerSlots {
   template <class Answer>
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer,
                                                       Answer&& answer) noexcept {
+    if (!may_send_) return std::nullopt;
     for (Peer& v : peers_) {
       if (!v.connected) continue;
       if (const auto challenge = v.connection->poll_challenge(now, tick, codec_, buffer)) return challenge;
@@ -92,6 +94,7 @@ class PeerSlots {
                  : answer(*v.connection);
       if (out.size > 0) return out;
     }
+    may_send_ = false;
     return std::nullopt;
   }
 
@@ -108,6 +111,7 @@ class PeerSlots {
 
   std::vector<Peer> peers_;
   bool any_ = false, any_every_tick_ = false;  ///< a peer is connected, or was at the last tick
+  bool may_send_ = false;                      ///< something may be due since `poll_transmit` found nothing
   wire::Codec codec_;                          ///< of PATH and CLOSE, whose layout is always the same
   Duration tick_;
   const CloseOut* session_end_;

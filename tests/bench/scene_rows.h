@@ -20,13 +20,16 @@ struct Row {
   int axes, seats;
   const char* slave;
   bool recorded = false;
+  std::optional<bool> watched = std::nullopt;  ///< a console sees the session; true: a recorder
 };
 inline constexpr const char* kWall = "environment { wall { axis: X at_m: 0 k_n_m: 20000 } }";
-inline constexpr std::array<Row, 8> kRows{
+inline constexpr std::array<Row, 10> kRows{
     {{"one_axis", "1 axis, free, 1 seat", 1, 1, ""},
      {"three_axes", "3 axes, free, 1 seat", 3, 1, ""},
      {"two_seats", "3 axes, free, 2 seats", 3, 2, ""},
      {"contact", "3 axes, contact, 2 seats", 3, 2, kWall},
+     {"watched", "3 axes, contact, 2 seats, seen by a console", 3, 2, kWall, false, false},
+     {"watched_whole", "3 axes, contact, 2 seats, seen by a recorder", 3, 2, kWall, false, true},
      {"arm", "3 axes, contact, 2 seats, slave an arm", 3, 2, "model: TOUCH gravity: false friction_n: 0"},
      {"gravity", "3 axes, contact, 2 seats, slave an arm with gravity and friction", 3, 2,
       "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"},

@@ -5,10 +5,13 @@
 #include <cstddef>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "client/diagnostics/session_watch.h"
 #include "common/transport/secure_channel.h"
+#include "netsim/system/simulated_handshake.h"
 #include "server/app/process/local_slaves.h"
 #include "server/session/session.h"
 #include "tests/bench/bench_clients.h"
@@ -65,19 +68,33 @@ inline std::unique_ptr<server::Session> session_of(const SceneSpec& scene, bool 
   return session;
 }
 
+/// Address of the console that watches this session; behind those of all clients.
+inline constexpr std::size_t kFirstWatcher = 0x8000;
+
+/// Returns a console that joined the session. @param recorder  it gets every tick
+inline std::unique_ptr<client::SessionWatch> watcher_of(server::Session& session, Time now, bool recorder) {
+  const auto joined = *netsim::simulate_watch_join(session, now, RandomKey{77}, 1, recorder);
+  return std::make_unique<client::SessionWatch>(server::telemetry_layout(session.scene()),
+                                                session.seat_catalogue().tick(), joined.channel_params);
+}
+
 /// Runs `kSessions` sessions in memory, for callgrind. @return exit code
-inline int serve(const SceneSpec& scene, bool recorded, int ticks) {
+/// @param watched  a console sees each session; true: a recorder
+inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watched, int ticks) {
   const std::size_t seats = scene.seats.size();
   std::vector<std::unique_ptr<server::Session>> sessions;
   std::vector<std::unique_ptr<BareClient>> clients;
+  std::vector<std::unique_ptr<client::SessionWatch>> watchers;
   Time now{std::chrono::hours(1)};
   for (std::size_t s = 0; s < kSessions; ++s) {
     sessions.push_back(session_of(scene, recorded));
     for (std::size_t i = 0; i < seats; ++i)
       clients.push_back(std::make_unique<BareClient>(
           *netsim::simulate_join(*sessions.back(), now, i, caps_of(scene, i), RandomKey{s}, i)));
+    if (watched) watchers.push_back(watcher_of(*sessions.back(), now, *watched));
   }
-  std::vector<Carried> in(2 * clients.size()), out(2 * clients.size());
+  const std::size_t peers = clients.size() + watchers.size();
+  std::vector<Carried> in(2 * peers), out(2 * peers);
   for (int tick = 0; tick < ticks; ++tick, now += std::chrono::milliseconds(1)) {
     std::size_t count = 0;
     for (std::size_t c = 0; c < clients.size(); ++c)
@@ -88,12 +105,26 @@ inline int serve(const SceneSpec& scene, bool recorded, int ticks) {
         in[count].size = clients[c]->send(now, static_cast<std::uint32_t>(tick), in[count].bytes);
         ++count;
       }
+    for (std::size_t s = 0; s < watchers.size(); ++s)
+      while (const auto size = watchers[s]->poll_transmit(now, in[count].bytes)) {
+        in[count].client = s * seats;
+        in[count].address = address_of(kFirstWatcher + s);
+        in[count++].size = *size;
+      }
     const std::size_t sent = serve_one_tick(sessions, seats, now, std::span{in}.first(count), out);
-    for (const Carried& d : std::span{out}.first(sent))
-      clients[client_at(d.address)]->hear(now, std::span{d.bytes}.first(d.size));
+    for (const Carried& d : std::span{out}.first(sent)) {
+      const std::size_t to = client_at(d.address);
+      const auto bytes = std::span{d.bytes}.first(d.size);
+      if (to < kFirstWatcher)
+        clients[to]->hear(now, bytes);
+      else
+        watchers[to - kFirstWatcher]->on_datagram(now, bytes);
+    }
   }
   for (const auto& session : sessions)
     if (session->state() != wire::SessionState::kRunning) return 1;  // otherwise it measured waiting participants
+  for (const auto& watcher : watchers)
+    if (!watcher->newest()) return 1;
   std::printf("%zu client-ticks\n", clients.size() * static_cast<std::size_t>(ticks));
   return 0;
 }

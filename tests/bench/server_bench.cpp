@@ -235,7 +235,7 @@ void compare_with_echo() {
 int main(int argc, char** argv) {
   const std::string only = argc > 1 ? argv[1] : "";
   if (argc == 4 && only == "--serve")
-    return tandem::bench::serve(tandem::test::shipped(argv[2]), true, std::atoi(argv[3]));
+    return tandem::bench::serve(tandem::test::shipped(argv[2]), true, std::nullopt, std::atoi(argv[3]));
   if (only != "--cpu") tandem::bench::print_instructions(argv[0]);
   if (only != "--instructions") tandem::bench::compare_with_echo();
   return 0;

@@ -69,5 +69,30 @@ TEST(Consoles, WatchASessionWithTheRightsOfTheirRole) {
   EXPECT_TRUE(comes_true([&] { return watching(live_server, "next", AccessRole::kRecorder).welcomed(); }));
 }
 
+// Three times as many as slots, each gone at once: also one that goes before the session has admitted it keeps no slot.
+TEST(Consoles, ReleaseTheirSlotWithTheirConnection) {
+  LiveServer live_server;
+  std::vector<auth::Identity> keys;
+  for (std::size_t n = 0; n < 3 * Watchers::kMax; ++n) keys.push_back(live_server.enrolled("w" + std::to_string(n)));
+  for (const auth::Identity& key : keys)
+    EXPECT_TRUE(comes_true([&] {
+      auto connection = live_server.connect(key);
+      const auto reply = connection.ask(watching_hello(live_server, key, AccessRole::kRecorder), kTimeout);
+      return reply && std::holds_alternative<rpc::Welcome>(*reply);
+    }));
+  std::list<auth::ControlClient> open;
+  std::size_t welcomed = 0;
+  for (std::size_t n = 0; n < Watchers::kMax; ++n)
+    welcomed += comes_true([&] {
+      open.push_back(live_server.connect(keys[n]));
+      const auto reply = open.back().ask(watching_hello(live_server, keys[n], AccessRole::kRecorder), kTimeout);
+      if (!reply || !std::holds_alternative<rpc::Welcome>(*reply)) open.pop_back();
+      return reply && std::holds_alternative<rpc::Welcome>(*reply);
+    })
+                    ? 1
+                    : 0;
+  EXPECT_EQ(welcomed, Watchers::kMax);
+}
+
 }  // namespace
 }  // namespace tandem::server::test

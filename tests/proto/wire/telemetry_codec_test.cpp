@@ -229,6 +229,45 @@ TEST(TelemetryCodec, GivesNaNForWhatIsNotKnown) {
   EXPECT_TRUE(std::isnan(got->message.seats[0].x[0]) && std::isnan(got->message.seats[0].f[0]));
 }
 
+// Finds the flag by what its absence changes, not by its place: the bytes with and without a value differ in the flag.
+TEST(TelemetryCodec, RejectsAValueThatIsSaidToBeUnknown) {
+  const TelemetryLayout layout{2, 2, 1};
+  const TelemetryCodec codec(layout);
+  RandomStream random(5);
+  SessionTelemetry whole = sample(random, layout);
+  whole.link.rtt_p50_ms = 12;
+  whole.link.loss_up_percent = whole.link.gap_up_ms = 3;
+  whole.link.loss_down_percent = whole.link.gap_down_ms = whole.link.age_p99_ms = whole.link.margin_min_j = 4;
+  whole.seats[1].x = whole.seats[1].f = whole.tools[0].x = whole.tools[0].f = {1, 1, 1};
+  whole.tools[0].depth = 1;
+  std::vector<SessionTelemetry> unknown(5, whole), zeros(5, whole);
+  const std::array<double, 3> nan{kUnknown, kUnknown, kUnknown}, zero{};
+  unknown[0].seats[1].x = unknown[0].seats[1].f = nan;
+  zeros[0].seats[1].x = zeros[0].seats[1].f = zero;
+  unknown[1].tools[0].x = unknown[1].tools[0].f = nan, unknown[1].tools[0].depth = kUnknown;
+  zeros[1].tools[0].x = zeros[1].tools[0].f = zero, zeros[1].tools[0].depth = 0;
+  unknown[2].link.rtt_p50_ms = kUnknown, zeros[2].link.rtt_p50_ms = 0;
+  unknown[3].link.loss_up_percent = unknown[3].link.gap_up_ms = kUnknown;
+  zeros[3].link.loss_up_percent = zeros[3].link.gap_up_ms = 0;
+  unknown[4].link.loss_down_percent = unknown[4].link.gap_down_ms = unknown[4].link.age_p99_ms =
+      unknown[4].link.margin_min_j = kUnknown;
+  zeros[4].link.loss_down_percent = zeros[4].link.gap_down_ms = zeros[4].link.age_p99_ms = zeros[4].link.margin_min_j =
+      0;
+  const Preamble preamble = samples::preamble(random);
+  const Bytes good = encoded(codec, whole, preamble);
+  for (std::size_t k = 0; k < unknown.size(); ++k) {
+    const Bytes without = encoded(codec, unknown[k], preamble), zero_known = encoded(codec, zeros[k], preamble);
+    Bytes lies = good;
+    std::size_t flags = 0;
+    for (std::size_t at = 0; at < lies.size(); ++at)
+      if (without[at] != zero_known[at]) lies[at] = without[at], ++flags;
+    ASSERT_EQ(flags, 1u) << k;
+    const auto got = codec.decode_telemetry(lies);
+    ASSERT_FALSE(got) << k;
+    EXPECT_EQ(got.error(), DecodeError::kOutOfRange) << k;
+  }
+}
+
 TEST(TelemetryCodec, RejectsValuesOutOfRange) {
   const TelemetryLayout layout{2, 2, 1};
   const TelemetryCodec codec(layout);

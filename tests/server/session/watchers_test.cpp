@@ -250,6 +250,19 @@ TEST(Watchers, TakeNoHeap) {
   EXPECT_GT(sent, 80u);
 }
 
+TEST(Watchers, SeeASeatThatHasSentNothingAsUnknown) {
+  Watched s;
+  Watched::Watcher& recorder = s.add(true);
+  s.seats.clear();  // joined, but none sends a datagram
+  s.steps(500);
+  const wire::SessionTelemetry& seen = *recorder.watch->newest();
+  EXPECT_TRUE(seen.seats[0].taken);
+  EXPECT_FALSE(seen.seats[0].heard || seen.seats[0].engaged);
+  EXPECT_TRUE(std::isnan(seen.seats[0].x[0]) && std::isnan(seen.seats[0].f[0]));
+  const wire::WatchedLink& link = recorder.watch->link_of(0);
+  EXPECT_TRUE(std::isnan(link.loss_up_percent) && std::isnan(link.rtt_p50_ms) && std::isnan(link.margin_min_j));
+}
+
 TEST(Watchers, SeeASeatThatIsFreeAsUnknown) {
   Watched s;
   Watched::Watcher& recorder = s.add(true);
