@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/app/child_program.h"
 #include "client/app/seat_observer.h"
+#include "client/app/trial_programs.h"
 #include "client/app/tutorial.h"
 #include "proto/spec/scene_spec.h"
 
@@ -27,18 +27,17 @@ class TrySession final : public SeatObserver {
   /// @param by_keys         the user moves the hand by keys
   /// @param ends_by_itself  a trial without keys ends after the tutorial
   /// @param partners        names of the simulated participants
-  TrySession(bool by_keys, bool ends_by_itself, std::vector<std::string> partners)
-      : by_keys_(by_keys), ends_by_itself_(ends_by_itself), partners_(std::move(partners)) {}
+  /// @param programs        server and partners, which run
+  TrySession(bool by_keys, bool ends_by_itself, std::vector<std::string> partners, TrialPrograms programs)
+      : by_keys_(by_keys),
+        ends_by_itself_(ends_by_itself),
+        partners_(std::move(partners)),
+        programs_(std::move(programs)) {}
   TrySession(const TrySession&) = delete;
   TrySession& operator=(const TrySession&) = delete;
-  ~TrySession() override { stop(); }
+  ~TrySession() override = default;
 
-  /// Takes a child process: the server first, then the partners.
-  void add(ChildProgram child) { children_.push_back(std::move(child)); }
-  /// Ends the partners before the server, so that each can leave its seat cleanly.
-  void stop() noexcept {
-    while (!children_.empty()) children_.pop_back();
-  }
+  void stop() noexcept { programs_.stop(); }
   /// Returns why the trial ended early; empty: it did not.
   [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
 
@@ -51,11 +50,8 @@ class TrySession final : public SeatObserver {
     return lines;
   }
   [[nodiscard]] std::string leave_reason() override {
-    for (ChildProgram& child : children_)
-      if (child.failed()) {
-        failure_ = child.name() + " ended by itself" + (child.last_output().empty() ? "" : ": " + child.last_output());
-        return failure_;
-      }
+    failure_ = programs_.failure();
+    if (!failure_.empty()) return failure_;
     return over_ ? "the guidance is over: releasing the hand" : "";
   }
 
@@ -64,7 +60,7 @@ class TrySession final : public SeatObserver {
 
   bool by_keys_, ends_by_itself_, over_ = false;
   std::vector<std::string> partners_;
-  std::vector<ChildProgram> children_;  ///< server at index 0, then the partners
+  TrialPrograms programs_;
   std::string failure_;
   std::optional<Tutorial> tutorial_;
   std::optional<double> tutorial_over_since_;

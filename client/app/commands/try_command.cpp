@@ -1,14 +1,12 @@
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
-#include "client/app/child_program.h"
 #include "client/app/commands/client_commands.h"
 #include "client/app/run_seat.h"
 #include "client/app/try_session.h"
-#include "common/base/format.h"
-#include "common/base/suggestions.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
 #include "common/io/log.h"
@@ -21,10 +19,6 @@
 namespace tandem::client {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr Duration kServerStarts = 20s;
-
 struct TryArguments {
   std::string scene = "lesson", seat, duration;
 };
@@ -34,67 +28,22 @@ int try_trouble(const std::string& what, int code = io::kExitTrouble) {
   return code;
 }
 
-bool is_master(const SeatSpec& s) { return s.kind == SeatKind::kMaster; }
-
-/// Returns the user's seat: the requested one, else an instructor's, else the first with authority. Null, and the
-/// reason in `why`, if the requested seat does not exist.
-const SeatSpec* seat_for_person(const SceneSpec& scene, const std::string& wanted, std::string& why) {
-  std::vector<std::string> names;
-  for (const SeatSpec& s : scene.seats)
-    if (is_master(s)) names.push_back(s.name);
-  for (const SeatSpec& s : scene.seats)
-    if (is_master(s) && (wanted.empty() ? s.role == Role::kInstructor : s.name == wanted)) return &s;
-  if (!wanted.empty()) {
-    why = "--seat " + wanted + ": no MASTER seat of the scene " + scene.name + " has this name; " +
-          suggest(wanted, names);
-    return nullptr;
-  }
-  for (std::size_t i = 0; i < scene.seats.size(); ++i)
-    for (const AuthorityRow& row : scene.authority)
-      if (row.alpha[i] > 0) return &scene.seats[i];
-  return &scene.seats.front();
-}
-
 /// Runs a trial. All child processes have ended when it returns. @return exit code
 int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatSpec& own, double duration_s) {
-  const std::string server_path = program_path("tandem-server"), client_path = program_path("tandem-client");
-  if (server_path.empty())
-    return try_trouble(
-        "it needs the program tandem-server, which is neither beside tandem-client nor in $PATH; install the package "
-        "tandem-server "
-        "(apt install ./tandem-server_*.deb), or join a server on another computer with `tandem-client join`");
   const bool by_keys = isatty(STDIN_FILENO) != 0;
   const io::Fd signals = io::make_signalfd();
-  std::vector<std::string> partners;
-  for (const SeatSpec& s : scene.seats)
-    if (&s != &own && s.required) partners.push_back(s.name);
-  TrySession trial{by_keys, duration_s <= 0, partners};
-
-  std::vector<std::string> words{server_path, "run", scene_text, "--listen", "127.0.0.1:0", "--quiet"};
-  if (const auto longer = TrySession::longer_duration(scene)) {
+  const std::vector<std::string> partners = partners_of(scene, own);
+  const std::optional<double> longer = TrySession::longer_duration(scene);
+  if (longer)
     io::print_formatted(stderr, "the session lasts %g s instead of the scene's %g s, so that the guidance fits\n",
                         *longer, scene.duration);
-    words.insert(words.end(), {"--duration", format("%g", *longer)});
-  }
-  auto server = ChildProgram::start("the server", words);
-  if (!server) return try_trouble(server.error());
-  const auto address = server->wait_for_line("listening on ", kServerStarts, signals.get());
-  if (!address) {
-    if (!io::pending_signal().empty()) return 0;
-    return try_trouble("the server did not start" +
-                       (server->last_output().empty() ? "" : ": " + server->last_output()));
-  }
-  trial.add(std::move(*server));
-  for (const std::string& partner : partners) {
-    auto child =
-        ChildProgram::start("the simulated " + partner, {client_path, "join", "--server", *address, "--seat", partner,
-                                                         "--device", "sim", "--quiet", "--reconnect-timeout", "0"});
-    if (!child) return try_trouble(child.error());
-    trial.add(std::move(*child));
-  }
+  auto programs = TrialPrograms::start(scene_text, partners, longer, signals.get());
+  if (!programs) return programs.error().empty() ? io::kExitDone : try_trouble(programs.error());
+  const std::string address = programs->address();
+  TrySession trial{by_keys, duration_s <= 0, partners, std::move(*programs)};
 
   SeatOptions plan{.device = by_keys ? "sim:keyboard" : "sim", .duration_s = duration_s, .observer = &trial};
-  plan.join.server = *io::parse_address(*address, 0);
+  plan.join.server = *io::parse_address(address, 0);
   plan.join.seat = own.name;
   plan.join.caps = known_caps((*hal::open_sim_device(plan.device, SimDeviceSpec{}, HandSpec{})).device->caps());
   const int code = run_seat(plan);
@@ -108,15 +57,13 @@ int try_command(const TryArguments& arguments) {
   io::UsageErrors errors;
   const double duration_s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s");
   const auto scene = load_scene(arguments.scene);
-  const SeatSpec* own = nullptr;
-  if (scene) {
-    std::string why;
-    own = seat_for_person(*scene, arguments.seat, why);
-    if (own == nullptr) errors.add(why);
-  } else {
+  if (!scene) {
     errors.add(to_text(scene.error()));
+    return errors.report("tandem-client try");
   }
-  if (errors.empty()) return try_scene(*scene, arguments.scene, *own, duration_s);
+  const auto own = seat_for_person(*scene, arguments.seat);
+  if (!own) errors.add(own.error());
+  if (errors.empty()) return try_scene(*scene, arguments.scene, **own, duration_s);
   return errors.report("tandem-client try");
 }
 

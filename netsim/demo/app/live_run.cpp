@@ -129,9 +129,10 @@ std::expected<RawRun, std::string> LiveRunProcesses::play() {
     std::filesystem::remove(file(ending), ignored);
 
   std::string server, network;
-  bool fine = start("server", {program("tandem-server"), "run", std::string(plan_.scene), "--listen", "127.0.0.1:0",
+  bool fine = start("server", {program("tandem-server"), "run", std::string(plan_.scene), "--listen", observer_.listen,
                                "--json", json, "--trace", trace, "--start-timeout", "20"}) &&
               wait_for_address(0, server);
+  if (fine && observer_.listening) observer_.listening(server);
   std::vector<std::string> proxy{program("tandem-netsim"), "proxy", "--listen", "127.0.0.1:0", "--to", server};
   const std::vector<std::string> impairment = impairment_options(plan_.setting);
   proxy.insert(proxy.end(), impairment.begin(), impairment.end());

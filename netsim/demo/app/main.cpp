@@ -34,6 +34,11 @@ std::vector<const RunPlan*> chosen_runs(const std::string& list, std::string& mi
   return runs;
 }
 
+/// Options that ./demo adds itself.
+bool added_by_script(const std::string& word) {
+  return word == "--live" || word == "--console" || word.starts_with("--console-build=");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -51,7 +56,7 @@ int main(int argc, char** argv) {
     plan.repeat = tandem::netsim::demo::command_text([&] {
       std::vector<std::string> words{"./demo"};
       for (int i = 1; i < argc; ++i)
-        if (std::string(argv[i]) != "--live") words.emplace_back(argv[i]);  // ./demo adds this option itself
+        if (!added_by_script(argv[i])) words.emplace_back(argv[i]);
       return words;
     }());
     return tandem::netsim::demo::run_demo(plan);
@@ -76,6 +81,10 @@ int main(int argc, char** argv) {
                   "folder for report.html, traces, JSON reports and logs; default: report.html here, the rest in "
                   "./demo-output,\n"
                   "which is removed at the end")
+      .value_name("DIR");
+  root.add_flag("--console", plan.console, "tandem-console beside the live runs: a picture of them in a browser");
+  root.add_option("--console-build", plan.console_build,
+                  "folder of a build in which ninja first makes tandem-console, at the lowest priority; with --console")
       .value_name("DIR");
   root.add_flag("--keep", plan.keep, "leaves ./demo-output (10 MB per run)");
   root.footer(

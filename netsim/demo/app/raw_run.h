@@ -17,10 +17,12 @@ struct RawRun {
 };
 
 /// Receives the progress of a run at intervals [s of session time]. A signal handler may set `stop`; the run then ends
-/// soon.
+/// soon. A live run's server listens at `listen`, and its address is given to `listening`, if that is not empty.
 struct RunObserver {
   std::function<void(double session_s)> progress;
   const std::atomic<bool>* stop = nullptr;
+  std::string listen = "127.0.0.1:0";
+  std::function<void(const std::string& address)> listening{};
 };
 
 inline constexpr const char* kInterrupted = "interrupted";

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "netsim/demo/animation.h"
+#include "netsim/demo/app/console_beside.h"
 #include "netsim/demo/app/host_info.h"
 #include "netsim/demo/app/joint_torques.h"
 #include "netsim/demo/app/live_run.h"
@@ -118,6 +120,7 @@ void remove_files(const DemoOptions& plan, const Folders& folders) {
   std::error_code ignored;
   for (const RunPlan* run : plan.runs)
     for (const fs::path& file : files_of(*run, folders.files)) fs::remove(file, ignored);
+  for (const char* log : {ConsoleBeside::kBuildLog, ConsoleBeside::kLog}) fs::remove(folders.files / log, ignored);
   fs::remove(folders.files, ignored);  // removes it only if empty
 }
 
@@ -153,7 +156,22 @@ int run_demo(const DemoOptions& plan) {
                  : "in real time over UDP on loopback: a server, two clients and the network simulator");
 
   Progress progress(plan.runs, plan.quick ? 60 : 1);
-  const RunObserver observer{[&](double session_s) { progress.at(session_s); }, &stop};
+  std::optional<ConsoleBeside> console;
+  if (plan.console && !plan.quick) console.emplace(places, plan.console_build);
+  RunObserver observer{[&](double session_s) {
+                         if (const auto line = console ? console->poll() : std::nullopt) {
+                           progress.clear();
+                           io::print_formatted(stdout, "%s\n", line->c_str());
+                           std::fflush(stdout);
+                         }
+                         progress.at(session_s);
+                       },
+                       &stop};
+  if (console)
+    observer.listening = [&](const std::string& address) {
+      observer.listen = address;  // of the next servers too, so that the console finds them
+      console->on_server(address);
+    };
   const char* search_path = std::getenv("PATH");
   const std::string prefix =
       program_prefix(places.programs, fs::current_path(), search_path == nullptr ? "" : search_path);
