@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,14 +13,12 @@
 namespace tandem::console {
 
 [[nodiscard]] std::string session_hex(const rpc::Id& session);
-/// @param release  version of the program
-[[nodiscard]] std::string hello_json(const rpc::Status& status, AccessRole role, std::string_view release);
-[[nodiscard]] std::string scene_json(const rpc::Status& status);
-/// @param n        number of the state, from 1
-/// @param dropped  states that this browser did not get
-/// @param wall_us  monotonic clock of the gateway [us]
-[[nodiscard]] std::string state_json(const rpc::Status& status, std::uint64_t n, std::uint64_t dropped,
-                                     std::int64_t wall_us);
+[[nodiscard]] const char* phase_text(rpc::SessionPhase phase) noexcept;
+/// @param person    name for display
+/// @param release   version of the program
+/// @param sessions  those that the person may see
+[[nodiscard]] std::string hello_json(std::string_view person, AccessRole role, std::string_view release,
+                                     std::span<const rpc::ListedSession> sessions);
 [[nodiscard]] std::string event_json(const rpc::Id& session, const rpc::StatusEvent& event);
 [[nodiscard]] std::string reply_json(std::optional<std::uint64_t> id, bool ok, std::string_view text);
 /// @param level  info, warning or error

@@ -18,15 +18,4 @@ bool OneTimeToken::redeem(std::string_view given, Time now) noexcept {
   return true;
 }
 
-void BrowserCookies::add(std::string secret) {
-  if (secrets_.size() >= kMax) secrets_.erase(secrets_.begin());
-  secrets_.push_back(std::move(secret));
-}
-
-bool BrowserCookies::contains(std::string_view secret) const noexcept {
-  bool found = false;
-  for (const std::string& known : secrets_) found |= !secret.empty() && equal_secrets(known, secret);
-  return found;
-}
-
 }  // namespace tandem::console

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/base/time.h"
 
@@ -22,17 +20,6 @@ class OneTimeToken {
  private:
   std::string secret_;  ///< empty: redeemed
   Time expires_;
-};
-
-/// Cookies of the browsers that redeemed a token. Bounded: the oldest cookie ends when one more is added.
-class BrowserCookies {
- public:
-  static constexpr std::size_t kMax = 64;
-  void add(std::string secret);
-  [[nodiscard]] bool contains(std::string_view secret) const noexcept;
-
- private:
-  std::vector<std::string> secrets_;
 };
 
 }  // namespace tandem::console

@@ -1,16 +1,34 @@
 #include "server/console/request_rules.h"
 
+#include <charconv>
+#include <system_error>
+
 namespace tandem::console {
 
-bool host_allowed(std::string_view host, std::uint16_t port) {
-  const std::string end = ":" + std::to_string(port);
-  if (!host.ends_with(end)) return false;
-  host.remove_suffix(end.size());
-  return host == "127.0.0.1" || host == "localhost" || host == "[::1]";
+HostName split_host(std::string_view host, std::uint16_t usual) noexcept {
+  const bool bracket = host.starts_with('[');
+  const auto end = bracket ? host.find(']') : host.find(':');
+  HostName split{host.substr(0, end), usual};
+  std::string_view rest = end == std::string_view::npos ? std::string_view{} : host.substr(end);
+  if (bracket) {
+    if (rest.empty()) return {};
+    split.name.remove_prefix(1);
+    rest.remove_prefix(1);
+  }
+  if (rest.empty()) return split;
+  if (!rest.starts_with(':')) return {};
+  rest.remove_prefix(1);
+  const auto [last, error] = std::from_chars(rest.data(), rest.data() + rest.size(), split.port);
+  if (error != std::errc{} || last != rest.data() + rest.size()) return {};
+  return split;
 }
 
-bool origin_allowed(std::string_view origin, std::string_view host) {
-  return !host.empty() && origin == "http://" + std::string(host);
+bool is_loopback_name(std::string_view name) noexcept {
+  return name == "127.0.0.1" || name == "localhost" || name == "::1";
+}
+
+bool origin_allowed(std::string_view origin, std::string_view host, bool tls) {
+  return !host.empty() && origin == (tls ? "https://" : "http://") + std::string(host);
 }
 
 std::string_view cookie_value(std::string_view header, std::string_view name) noexcept {

@@ -2,23 +2,29 @@
 
 #include <expected>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "common/io/socket_address.h"
-#include "server/console/app/live_source.h"
+#include "server/console/app/gateway.h"
+#include "server/console/app/tls_files.h"
 
 namespace tandem::console {
 
 struct WebOptions {
-  io::SocketAddress listen;  ///< loopback only
-  int signals = -1;          ///< signalfd that ends the server
-  std::string release;       ///< version of the program
+  io::SocketAddress listen;       ///< without `tls`: loopback only
+  std::optional<TlsFiles> tls{};  ///< empty: plain HTTP
+  int signals = -1;               ///< signalfd that ends the server
+  Gateway::Options gateway{};
 };
 
-/// Serves the page and the WebSocket /live until a signal arrives. One thread, the caller's.
-/// @param started  called with the URL that has the one-time token, once the port is open
+/// Serves the page, signing in and the WebSocket /live until a signal arrives. One thread, the caller's.
+/// @param own      the gateway's own connection; empty: each person signs in with a ticket
+/// @param started  called once the port is open. token: of the first URL, empty without `own`; url: without it
 /// @return error: the port cannot be opened
 [[nodiscard]] std::expected<void, std::string> run_web_server(
-    const WebOptions& options, LiveSource& source, const std::function<void(const std::string& url)>& started);
+    const WebOptions& options, std::optional<JoinedLink> own,
+    const std::function<void(const std::string& url, const std::string& token)>& started);
 
 }  // namespace tandem::console

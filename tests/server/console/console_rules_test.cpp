@@ -1,22 +1,19 @@
-// Decisions of the gateway without sockets: tokens, cookies, origins, frames of browsers and their rights, JSON.
+// Decisions of the gateway without sockets: tokens, origins, frames of browsers and their rights.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "proto/rpc/rpc_messages.h"
 #include "server/console/acknowledgement_window.h"
 #include "server/console/browser_frame.h"
-#include "server/console/live_json.h"
 #include "server/console/one_time_token.h"
 #include "server/console/request_rules.h"
 
 namespace tandem::console {
 namespace {
 
-using nlohmann::json;
 using std::chrono_literals::operator""s;
 
 constexpr rpc::Id kId{std::byte{0xab}};
@@ -37,28 +34,30 @@ TEST(OneTimeToken, IsValidOnceAndUntilItExpires) {
   EXPECT_FALSE(late.redeem("abc", Time{} + 10s));
 }
 
-TEST(BrowserCookies, AreBoundedAndForgetTheOldest) {
-  BrowserCookies cookies;
-  EXPECT_FALSE(cookies.contains(""));
-  for (std::size_t i = 0; i <= BrowserCookies::kMax; ++i) cookies.add("c" + std::to_string(i));
-  EXPECT_FALSE(cookies.contains("c0"));
-  EXPECT_TRUE(cookies.contains("c1"));
-  EXPECT_TRUE(cookies.contains("c" + std::to_string(BrowserCookies::kMax)));
-  EXPECT_FALSE(cookies.contains(""));
+TEST(RequestRules, SplitTheHostIntoNameAndPort) {
+  const auto is = [](std::string_view host, std::string_view name, unsigned port) {
+    const HostName split = split_host(host, 443);
+    return split.name == name && split.port == port;
+  };
+  EXPECT_TRUE(is("127.0.0.1:7080", "127.0.0.1", 7080));
+  EXPECT_TRUE(is("lab.example", "lab.example", 443)) << "the usual port";
+  EXPECT_TRUE(is("[::1]:7080", "::1", 7080));
+  EXPECT_TRUE(is("[::1]", "::1", 443));
+  for (const char* host : {"", ":7080", "a:", "a:b", "a:70800", "a:-1", "a:80x", "[::1", "[::1]80", "a:80:90"})
+    EXPECT_TRUE(split_host(host, 443).name.empty() || std::string_view(host) == ":7080") << host;
+  EXPECT_TRUE(is_loopback_name("127.0.0.1") && is_loopback_name("localhost") && is_loopback_name("::1"));
+  for (const char* name : {"", "evil.example", "127.0.0.1.evil.example", "127.0.0.2", "localhost."})
+    EXPECT_FALSE(is_loopback_name(name)) << name;
 }
 
-TEST(RequestRules, AcceptTheOwnHostAndOriginOnly) {
-  EXPECT_TRUE(host_allowed("127.0.0.1:7080", 7080));
-  EXPECT_TRUE(host_allowed("localhost:7080", 7080));
-  EXPECT_TRUE(host_allowed("[::1]:7080", 7080));
-  for (const char* host : {"", "127.0.0.1", "127.0.0.1:7081", "evil.example:7080", "127.0.0.1.evil.example:7080",
-                           "127.0.0.1:17080", ":7080"})
-    EXPECT_FALSE(host_allowed(host, 7080)) << host;
-  EXPECT_TRUE(origin_allowed("http://127.0.0.1:7080", "127.0.0.1:7080"));
+TEST(RequestRules, AcceptTheOwnOriginOnly) {
+  EXPECT_TRUE(origin_allowed("http://127.0.0.1:7080", "127.0.0.1:7080", false));
+  EXPECT_TRUE(origin_allowed("https://lab.example", "lab.example", true));
   for (const char* origin :
        {"", "null", "http://localhost:7080", "http://127.0.0.1:70800", "https://127.0.0.1:7080", "http://evil.example"})
-    EXPECT_FALSE(origin_allowed(origin, "127.0.0.1:7080")) << origin;
-  EXPECT_FALSE(origin_allowed("http://", ""));
+    EXPECT_FALSE(origin_allowed(origin, "127.0.0.1:7080", false)) << origin;
+  EXPECT_FALSE(origin_allowed("http://127.0.0.1:7080", "127.0.0.1:7080", true)) << "TLS needs https";
+  EXPECT_FALSE(origin_allowed("http://", "", false));
 }
 
 TEST(RequestRules, FindTheCookieAndTheToken) {
@@ -144,28 +143,6 @@ TEST(AcknowledgementWindow, SendsThreeAndDropsUntilOneIsAcknowledged) {
   EXPECT_EQ(window.next(), 4U);
   EXPECT_EQ(window.next(), 5U);
   EXPECT_EQ(window.next(), 0U);
-}
-
-TEST(LiveJson, WritesNullForUnknownAndNotFiniteValues) {
-  rpc::Status status;
-  status.session_id = kId;
-  status.name = "contact";
-  status.time_s = std::numeric_limits<double>::quiet_NaN();
-  status.seats = {{"trainer", AccessRole::kInstructor, true, true, true}};
-  status.tools = {{"tool0", {std::numeric_limits<double>::infinity()}}};
-  status.held = "\xff broken";
-  const json state = json::parse(state_json(status, 4, 2, 9));
-  EXPECT_TRUE(state["t"].is_null());
-  EXPECT_TRUE(state["tools"][0]["wanted"][0].is_null());
-  EXPECT_TRUE(state["seats"][0]["rtt_ms"].is_null());
-  EXPECT_TRUE(state["stop"].is_null());
-  EXPECT_EQ(state["n"], 4);
-  EXPECT_EQ(state["dropped"], 2);
-  const json hello = json::parse(hello_json(status, AccessRole::kEvaluator, "1"));
-  EXPECT_EQ(hello["may"], json({"pause", "resume"}));
-  EXPECT_EQ(hello["role"], "EVALUATOR");
-  EXPECT_EQ(hello["sessions"][0]["id"], "ab000000000000000000000000000000");
-  EXPECT_TRUE(json::parse(reply_json({}, false, "x"))["id"].is_null());
 }
 
 }  // namespace

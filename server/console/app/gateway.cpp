@@ -1,0 +1,145 @@
+#include "server/console/app/gateway.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/auth/ticket.h"
+#include "common/io/clock.h"
+#include "server/console/app/random_secret.h"
+#include "server/console/live_json.h"
+
+namespace tandem::console {
+namespace {
+
+constexpr double kJoinRate = 0.5, kJoinBurst = 10;      // of one source [1/s], [1]: a class behind one address
+constexpr double kAllJoinRate = 2, kAllJoinBurst = 40;  // of all sources
+constexpr std::size_t kOthersMax = 16;                  // further sessions that the gateway shows at the same time
+constexpr std::chrono::seconds kTokenLife{600};
+
+}  // namespace
+
+Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr<Mailbox> mailbox,
+                 std::function<void()> news)
+    : options_(std::move(options)),
+      mailbox_(std::move(mailbox)),
+      news_(std::move(news)),
+      all_joins_(kAllJoinRate, kAllJoinBurst) {
+  if (!own) return;
+  const bool watch = own->feed.has_value() || !own->warning.empty();
+  house_ = std::make_shared<Person>();
+  house_->name = "console";
+  house_->house = true;
+  house_->link = std::make_shared<ServerLink>(
+      ServerLink::Options{
+          .join = options_.join, .watch = watch, .again = options_.local, .list = options_.local, .news = news_},
+      std::move(own));
+}
+
+std::string Gateway::make_token(Time now) {
+  const std::string secret = random_secret();
+  token_ = OneTimeToken(secret, now + kTokenLife);
+  return secret;
+}
+
+std::string Gateway::redeem(std::string_view token, Time now) {
+  if (!house_ || !token_.redeem(token, now)) return {};
+  std::string secret = random_secret();
+  return browsers_.add(secret, house_, true, now) ? secret : std::string{};
+}
+
+bool Gateway::is_watched(const rpc::Id& session) const {
+  if (house_ && house_->link->newest()->status.session_id == session) return true;
+  return browsers_.any(
+      [&](const Person& person) { return person.link->live() && person.link->newest()->status.session_id == session; });
+}
+
+std::expected<void, std::string> Gateway::join(const JoinBody& body, const auth::Source& from, Time now, Joined done) {
+  if (!join_rates_.at(from, now, TokenBucket{kJoinRate, kJoinBurst}).take(now) || !all_joins_.take(now) ||
+      pending_.size() >= kJoinsMax)
+    return std::unexpected("too many persons sign in at once; try again in a few seconds");
+  const auto ticket = auth::ticket_from_text(body.ticket);
+  if (!ticket) return std::unexpected(ticket.error());
+  ServerLink::Options link{.join = options_.join, .news = news_};
+  link.join.ticket = body.ticket;
+  link.join.session.clear();
+  link.join.console = auth::claimed_role(*ticket).value_or(AccessRole::kObserver);
+  const auto session = auth::claimed_session(*ticket);
+  // The server has eight places of watching consoles per session, so the first person of a session watches for all.
+  link.watch = link.join.console != AccessRole::kRecorder && session && !is_watched(*session);
+  const auto person = std::make_shared<Person>();
+  person->name = body.name;
+  const std::uint64_t number = ++joins_;
+  link.joined = [this, number](const std::expected<void, std::string>& result) {
+    mailbox_->post([this, number, result] { finish(number, result); });
+  };
+  person->link = std::make_shared<ServerLink>(std::move(link));
+  pending_.emplace(number, Pending{person, std::move(done)});
+  return {};
+}
+
+void Gateway::finish(std::uint64_t number, const std::expected<void, std::string>& result) {
+  const auto found = pending_.extract(number);
+  if (found.empty()) return;
+  const auto& [person, done] = found.mapped();
+  if (!result) return done(std::unexpected(result.error()));
+  person->name = name_for(person->name, person->link->newest()->role);
+  std::string secret = random_secret();
+  if (!browsers_.add(secret, person, false, io::monotonic_now()))
+    return done(std::unexpected("64 browsers are open already; close one, then ask for a new ticket"));
+  done(secret);
+}
+
+/// A name that no other person has, so that two persons are never taken for one.
+std::string Gateway::name_for(const std::string& wish, AccessRole role) {
+  const auto taken = [this](const std::string& name) {
+    return name == "console" || browsers_.any([&](const Person& person) { return person.name == name; });
+  };
+  if (!wish.empty() && !taken(wish)) return wish;
+  const std::string stem = (wish.empty() ? std::string(to_text(role)) : wish).substr(0, 26) + "-";
+  std::string name;
+  do {
+    name = stem + std::to_string(++names_ % 100000);
+  } while (taken(name));
+  return name;
+}
+
+std::vector<rpc::ListedSession> Gateway::sessions_of(const Person& person) const {
+  const auto picture = person.link->newest();
+  if (person.house && options_.local && picture->sessions && !picture->sessions->empty()) return *picture->sessions;
+  if (picture->number == 0) return {};
+  return {{picture->status.session_id, picture->status.name, picture->status.phase, {}}};
+}
+
+std::shared_ptr<ServerLink> Gateway::open(const Person& person, const std::string& session) {
+  if (session_hex(person.link->newest()->status.session_id) == session) return person.link;
+  const auto sessions = sessions_of(person);
+  const auto found =
+      std::ranges::find(sessions, session, [](const rpc::ListedSession& listed) { return session_hex(listed.id); });
+  if (found == sessions.end()) return nullptr;
+  std::erase_if(others_, [](const auto& other) { return other.second.expired(); });
+  if (auto open = others_[found->name].lock()) return open;
+  if (others_.size() > kOthersMax) return nullptr;
+  ServerLink::Options link{.join = options_.join, .again = true, .news = news_};
+  link.join.session = found->name;  // a restarted server has another id
+  auto opened = std::make_shared<ServerLink>(std::move(link));
+  others_[found->name] = opened;
+  return opened;
+}
+
+std::shared_ptr<ServerLink> Gateway::best_view(const std::shared_ptr<ServerLink>& link) const {
+  if (link->live()) return link;
+  const auto picture = link->newest();
+  std::shared_ptr<ServerLink> best = link;
+  const auto consider = [&](const std::shared_ptr<ServerLink>& other) {
+    if (best == link && other && other->live() && other->newest()->status.session_id == picture->status.session_id)
+      best = other;
+  };
+  if (house_) consider(house_->link);
+  for (const auto& [name, other] : others_) consider(other.lock());
+  browsers_.each([&](const std::shared_ptr<Person>& person) { consider(person->link); });
+  return best;
+}
+
+void Gateway::on_second(Time now) { browsers_.expire(now); }
+
+}  // namespace tandem::console

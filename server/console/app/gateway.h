@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/auth/limiter.h"
+#include "server/console/app/mailbox.h"
+#include "server/console/app/server_link.h"
+#include "server/console/browser_sessions.h"
+#include "server/console/join_body.h"
+#include "server/console/one_time_token.h"
+
+namespace tandem::console {
+
+/// A person at one or more pages.
+struct Person {
+  std::string name;                  ///< for display
+  std::shared_ptr<ServerLink> link;  ///< control connection, whose rights the person has; the orders go there
+  bool house = false;                ///< has the gateway's own connection
+};
+
+/// Persons with their control connections, and the links that show sessions. For the web thread.
+class Gateway {
+ public:
+  static constexpr std::size_t kJoinsMax = 8;  ///< joins at the same time
+
+  struct Options {
+    client::JoinOptions join;  ///< of the gateway's own connection; persons join with its server, state and timeout
+    bool local = false;        ///< the gateway joins without a ticket, so it may see every session of the server
+    std::string release;       ///< version of the program
+  };
+  /// @param own  the gateway's own connection; empty: each person signs in with a ticket
+  /// @param news  called by any thread after a new picture of any link
+  Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr<Mailbox> mailbox, std::function<void()> news);
+
+  [[nodiscard]] const std::string& release() const noexcept { return options_.release; }
+  [[nodiscard]] Mailbox& mailbox() noexcept { return *mailbox_; }
+  [[nodiscard]] BrowserSessions<Person>& browsers() noexcept { return browsers_; }
+
+  /// Redeems the token of the printed URL. @return secret of a new cookie; empty: refused
+  [[nodiscard]] std::string redeem(std::string_view token, Time now);
+  /// Makes the token that `redeem` accepts once. @pre the gateway has a connection of its own
+  [[nodiscard]] std::string make_token(Time now);
+
+  /// Called in the web thread with the secret of a new cookie, or cause and remedy.
+  using Joined = std::function<void(std::expected<std::string, std::string>)>;
+  /// Joins the server with the ticket of a person. @return error: refused at once, and `done` is not called
+  [[nodiscard]] std::expected<void, std::string> join(const JoinBody& body, const auth::Source& from, Time now,
+                                                      Joined done);
+
+  /// Sessions that the person may see.
+  [[nodiscard]] std::vector<rpc::ListedSession> sessions_of(const Person& person) const;
+  /// Returns the link of another session for a person with the gateway's connection; null: unknown session.
+  [[nodiscard]] std::shared_ptr<ServerLink> open(const Person& person, const std::string& session);
+  /// Returns the link that shows the session of `link` best: `link` itself, or another one with datagrams.
+  [[nodiscard]] std::shared_ptr<ServerLink> best_view(const std::shared_ptr<ServerLink>& link) const;
+  /// Ends pending joins without a reply. @pre the mailbox is disconnected
+  void abandon_joins() { pending_.clear(); }
+  /// Ends cookies that are idle. Call it about every second.
+  void on_second(Time now);
+
+ private:
+  [[nodiscard]] bool is_watched(const rpc::Id& session) const;
+  [[nodiscard]] std::string name_for(const std::string& wish, AccessRole role);
+  void finish(std::uint64_t number, const std::expected<void, std::string>& result);
+
+  Options options_;
+  std::shared_ptr<Mailbox> mailbox_;
+  std::function<void()> news_;
+  std::shared_ptr<Person> house_;  ///< null: none
+  OneTimeToken token_{{}, Time{}};
+  BrowserSessions<Person> browsers_;
+  std::map<std::string, std::weak_ptr<ServerLink>> others_;  ///< further sessions of the house, by name
+  auth::SourceTable<TokenBucket> join_rates_;
+  TokenBucket all_joins_;
+  struct Pending {
+    std::shared_ptr<Person> person;
+    Joined done;
+  };
+  std::map<std::uint64_t, Pending> pending_;  ///< joins, by number
+  std::uint64_t joins_ = 0;
+  unsigned names_ = 0;
+};
+
+}  // namespace tandem::console

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "server/console/app/gateway.h"
+#include "server/console/app/live_socket.h"
+#include "server/console/app/tls_files.h"
+#include "server/console/app/web_stream.h"
+
+namespace tandem::console {
+
+/// State that all connections share. It outlives them.
+struct WebState {
+  Gateway& gateway;
+  const TlsFiles* tls = nullptr;  ///< null: without TLS
+  std::uint16_t port = 0;
+  std::size_t http = 0, live = 0;  ///< open connections
+  LiveSockets sockets{};
+};
+inline constexpr std::size_t kHttpMax = 64, kLiveMax = 64;  ///< open connections
+
+/// Serves the HTTP requests of one connection: the page, signing in, and the begin of a WebSocket.
+/// @param from  address of the browser
+void serve_http(WebStream stream, WebState& state, const auth::Source& from);
+
+}  // namespace tandem::console

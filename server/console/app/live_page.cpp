@@ -1,0 +1,162 @@
+#include "server/console/app/live_page.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "common/io/clock.h"
+#include "server/console/live_json.h"
+#include "server/console/state_json.h"
+
+namespace tandem::console {
+namespace {
+
+/// Whether a page that knows `a` needs no new hello. It has the phase of the session that it watches from `state`.
+bool same(const std::vector<rpc::ListedSession>& a, const std::vector<rpc::ListedSession>& b, const rpc::Id& watched) {
+  return std::ranges::equal(a, b, [&watched](const rpc::ListedSession& x, const rpc::ListedSession& y) {
+    return x.id == y.id && x.name == y.name && (x.phase == y.phase || x.id == watched);
+  });
+}
+
+}  // namespace
+
+LivePage::LivePage(Gateway& gateway, std::shared_ptr<Person> person, std::function<void()> flush)
+    : gateway_(gateway), person_(std::move(person)), flush_(std::move(flush)), link_(person_->link), view_(link_) {}
+
+void LivePage::send(std::string text) {
+  if (overflowed_) return;
+  if (queue_.size() >= kQueueMax) {
+    overflowed_ = true;
+    return;
+  }
+  queue_.push_back(std::move(text));
+  flush_();
+}
+
+void LivePage::choose_view() {
+  auto best = gateway_.best_view(link_);
+  if (best == view_) return;
+  view_ = std::move(best);
+  shown_ = 0;
+}
+
+void LivePage::on_period(std::chrono::steady_clock::time_point now) {
+  if (now - second_ >= std::chrono::seconds{1}) {
+    second_ = now;
+    frames_ = 0;
+  }
+  choose_view();
+  const auto own = link_->newest(), view = view_->newest();
+  // This person's words of a stop come from their own connection only.
+  if (view_ != link_ && view->live && view->live->telemetry.stops != own->status.stops) link_->poke();
+  if (auto sessions = gateway_.sessions_of(*person_); greeted_ && !same(sessions, listed_, own->status.session_id)) greet();
+  on_news();
+}
+
+void LivePage::greet() {
+  const auto own = link_->newest();
+  listed_ = gateway_.sessions_of(*person_);
+  role_ = own->role;
+  greeted_ = true;
+  send(hello_json(person_->name, role_, gateway_.release(), listed_));
+}
+
+void LivePage::on_news() {
+  const auto own = link_->newest(), view = view_->newest();
+  if (own->number == 0 || view->number == 0) return;  // still joining
+  if (!greeted_ || own->role != role_) greet();
+  send_notices(*own, *view);
+  if (view->number == shown_) return;
+  const bool first = shown_ == 0;
+  shown_ = view->number;
+  if (first || !view->live) {  // datagrams do not change the scene
+    if (std::string scene = scene_json(*view); scene != scene_) {
+      scene_ = std::move(scene);
+      send(scene_);
+    }
+  }
+  send_events(view->status);
+  send_state(*own, *view);
+}
+
+void LivePage::send_notices(const LivePicture& own, const LivePicture& view) {
+  if (own.connected != connected_) {
+    connected_ = own.connected;
+    const std::string lost = "the connection to the server was lost (" + own.warning + "); ";
+    if (connected_) {
+      send(notice_json("info", "the connection to the server is back"));
+    } else {
+      send(notice_json("error", lost + (own.again ? "trying again" : "sign in again with a new ticket")));
+    }
+  }
+  const std::string warning = view.live || !own.connected ? std::string{} : view.warning;
+  if (warning == warning_) return;
+  warning_ = warning;
+  send(warning.empty() ? notice_json("info", "live values are there")
+                       : notice_json("warning", warning + "; the page shows the status five times per second"));
+}
+
+void LivePage::send_events(const rpc::Status& status) {
+  if (!status.events.empty() && status.events.back().number < event_) event_ = 0;  // another run of the session
+  for (const rpc::StatusEvent& event : status.events) {
+    if (event.number <= event_) continue;
+    event_ = event.number;
+    send(event_json(status.session_id, event));
+  }
+}
+
+void LivePage::send_state(const LivePicture& own, const LivePicture& view) {
+  if (!queue_.empty()) return window_.drop();
+  const std::uint64_t n = window_.next();
+  if (n == 0) return;
+  StateHead head{.n = n, .dropped = window_.dropped(), .age_ms = {}, .stop = &own.status.stop};
+  const Time now = io::monotonic_now();
+  head.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch()).count();
+  if (view.live) head.age_ms = 1e3 * seconds(now - view.live->arrived);
+  send(state_json(head, view_->state_members(view)));
+}
+
+std::string LivePage::on_frame(std::string_view text) {
+  if (++frames_ > kFramesPerSecond) return "more than 120 frames within one second";
+  const auto own = link_->newest();
+  auto frame = parse_browser_frame(text, own->role, own->status.session_id);
+  if (!frame) {
+    if (frame.error().close) return "the frame is no JSON object";
+    send(reply_json(frame.error().id, false, frame.error().text));
+  } else if (const auto* ack = std::get_if<Ack>(&*frame)) {
+    if (!window_.acknowledge(ack->n)) send(reply_json({}, false, "\"n\" names a state that was never sent"));
+  } else if (const auto* wish = std::get_if<Watch>(&*frame)) {
+    watch(*wish);
+  } else if (auto* order = std::get_if<Order>(&*frame)) {
+    give(std::move(*order));
+  }
+  return {};
+}
+
+void LivePage::watch(const Watch& wish) {
+  auto link = gateway_.open(*person_, wish.session);
+  if (!link) return send(reply_json(wish.id, false, "unknown session; choose one of the message hello"));
+  send(reply_json(wish.id, true, ""));
+  link_ = view_ = std::move(link);
+  shown_ = 0;
+  event_ = 0;
+  scene_.clear();
+  warning_.clear();
+  connected_ = true;
+  choose_view();
+  on_news();
+}
+
+void LivePage::give(Order order) {
+  const auto id = order.id;
+  auto reply = [weak = weak_from_this(), &mailbox = gateway_.mailbox(), id](bool ok, std::string said) {
+    mailbox.post([weak, id, ok, said = std::move(said)] {
+      if (const auto self = weak.lock()) self->send(reply_json(id, ok, said));
+    });
+  };
+  if (!link_->order(std::move(order.body), std::move(reply)))
+    send(reply_json(id, false, "16 orders already wait for the server; repeat this one in a second"));
+}
+
+}  // namespace tandem::console

@@ -1,0 +1,256 @@
+#include "server/console/app/server_link.h"
+
+#include <chrono>
+#include <variant>
+
+#include "client/app/console_commands.h"
+#include "common/auth/io/control_client.h"
+#include "server/console/state_json.h"
+
+namespace tandem::console {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr std::chrono::milliseconds kReplyTimeout = 2s;
+constexpr std::chrono::milliseconds kPeriod = 500ms;       // of status requests beside datagrams
+constexpr std::chrono::milliseconds kPeriodAlone = 200ms;  // without them; the server answers ten per second
+constexpr std::chrono::milliseconds kPokeInterval = 250ms;
+constexpr std::chrono::milliseconds kRetry = 1s, kListPeriod = 2s;
+
+/// Whether a session refuses for good, so that only a new join helps.
+bool is_final(rpc::ErrorCode code) noexcept {
+  return code == rpc::ErrorCode::kNoSession || code == rpc::ErrorCode::kSessionOver ||
+         code == rpc::ErrorCode::kNotAllowed || code == rpc::ErrorCode::kNotEnrolled;
+}
+
+}  // namespace
+
+std::expected<JoinedLink, client::JoinError> join_link(client::JoinOptions options, bool watch) {
+  JoinedLink joined;
+  options.watch = watch;
+  if (watch) {
+    auto feed = client::TelemetryFeed::open(options);
+    if (feed) {
+      joined.console = feed->console();
+      joined.feed.emplace(std::move(*feed));
+    } else if (feed.error().interrupted) {
+      return std::unexpected(feed.error());
+    } else {
+      joined.warning = feed.error().reason;
+    }
+  }
+  if (!joined.feed) {
+    options.watch = false;
+    auto console = client::join_console(options);
+    if (!console) return std::unexpected(console.error());
+    joined.console = std::move(*console);
+  }
+  auto answer = joined.console.connection->ask(rpc::StatusRequest{joined.console.welcome.session_id},
+                                               std::chrono::duration_cast<std::chrono::milliseconds>(options.timeout));
+  if (!answer) return std::unexpected(client::JoinError{false, answer.error().text});
+  auto* status = std::get_if<rpc::Status>(&*answer);
+  if (status == nullptr)
+    return std::unexpected(
+        client::JoinError{false, "the server gave no status of the session; use the same release on both"});
+  joined.status = std::move(*status);
+  return joined;
+}
+
+ServerLink::ServerLink(Options options, std::optional<JoinedLink> joined)
+    : options_(std::move(options)), first_(std::move(joined)) {
+  options_.join.signals = end_.get();
+  if (first_) adopt(std::move(*first_));
+  thread_ = std::thread([this] { work(); });
+}
+
+ServerLink::~ServerLink() {
+  {
+    const std::lock_guard hold{lock_};
+    over_ = true;
+  }
+  end_.signal();
+  wake_.notify_all();
+  thread_.join();
+}
+
+std::shared_ptr<const LivePicture> ServerLink::newest() const {
+  const std::lock_guard hold{lock_};
+  return picture_;
+}
+
+bool ServerLink::order(rpc::Body body, Reply reply) {
+  {
+    const std::lock_guard hold{lock_};
+    if (orders_.size() >= kOrdersMax) return false;
+    orders_.emplace_back(std::move(body), std::move(reply));
+  }
+  wake_.notify_all();
+  return true;
+}
+
+void ServerLink::poke() {
+  {
+    const std::lock_guard hold{lock_};
+    poked_ = true;
+  }
+  wake_.notify_all();
+}
+
+const std::string& ServerLink::state_members(const LivePicture& picture) {
+  if (written_ != picture.number) {
+    members_ = console::state_members(picture);
+    written_ = picture.number;
+  }
+  return members_;
+}
+
+template <class Change>
+void ServerLink::update(Change change) {
+  {
+    const std::lock_guard hold{lock_};
+    auto next = std::make_shared<LivePicture>(*picture_);
+    change(*next);
+    ++next->number;
+    live_.store(next->live != nullptr, std::memory_order_release);
+    number_.store(next->number, std::memory_order_release);
+    picture_ = std::move(next);
+  }
+  if (options_.news) options_.news();
+}
+
+void ServerLink::adopt(JoinedLink joined) {
+  console_ = std::move(joined.console);
+  std::shared_ptr<const SceneSpec> scene;
+  if (joined.feed) scene = std::make_shared<const SceneSpec>(joined.feed->scene());
+  update([&](LivePicture& picture) {
+    picture.status = std::move(joined.status);
+    picture.role = console_.welcome.role;
+    picture.connected = true;
+    picture.again = options_.again;
+    picture.scene = scene;
+    picture.live = nullptr;
+    picture.warning = std::move(joined.warning);
+  });
+  if (!joined.feed) return;
+  feed_ = std::make_unique<FeedThread>(
+      std::move(*joined.feed), [this](const std::shared_ptr<const LiveValues>& values, const std::string& why) {
+        bool changed = false;  // the status has the words to it
+        update([&](LivePicture& picture) {
+          changed = !values || !picture.live || values->telemetry.stops != picture.live->telemetry.stops ||
+                    values->telemetry.state != picture.live->telemetry.state;
+          picture.live = values;
+          picture.warning = why;
+        });
+        if (changed) poke();
+      });
+}
+
+void ServerLink::lose(const std::string& why) {
+  feed_.reset();
+  console_.connection.reset();
+  update([&](LivePicture& picture) {
+    picture.connected = false;
+    picture.live = nullptr;
+    picture.warning = why;
+  });
+}
+
+bool ServerLink::join() {
+  auto joined = join_link(options_.join, options_.watch);
+  if (options_.joined) {
+    const auto report = std::exchange(options_.joined, {});
+    if (joined) {
+      adopt(std::move(*joined));
+      report({});
+      return true;
+    }
+    report(std::unexpected(joined.error().reason));
+    return false;
+  }
+  if (!joined) return false;
+  adopt(std::move(*joined));
+  return true;
+}
+
+bool ServerLink::ask_status() {
+  auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, kReplyTimeout);
+  if (!answer) {
+    lose(answer.error().text);
+    return false;
+  }
+  if (auto* status = std::get_if<rpc::Status>(&*answer)) {
+    update([&](LivePicture& picture) { picture.status = std::move(*status); });
+  } else if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer);
+             refused != nullptr && is_final(refused->code)) {
+    lose(refused->text);
+    return false;
+  }
+  return true;
+}
+
+void ServerLink::ask_sessions() {
+  auto answer = console_.connection->ask(rpc::SessionListRequest{}, kReplyTimeout);
+  if (!answer) return lose(answer.error().text);
+  if (auto* list = std::get_if<rpc::SessionList>(&*answer)) {
+    auto sessions = std::make_shared<const std::vector<rpc::ListedSession>>(std::move(list->sessions));
+    update([&](LivePicture& picture) { picture.sessions = std::move(sessions); });
+  }
+}
+
+void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
+  if (!console_.connection)
+    return reply(false, "the connection to the server is lost; repeat the order when it is back");
+  const auto answer = console_.connection->ask(body, kReplyTimeout);
+  if (!answer) {
+    lose(answer.error().text);
+    return reply(false, answer.error().text + "; check the state of the session, then repeat the order");
+  }
+  if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer))
+    return reply(false, refused->text + client::refusal_hint(body, console_.welcome.role));
+  if (const auto* authority = std::get_if<rpc::AuthorityReply>(&*answer); authority != nullptr && !authority->applied)
+    return reply(false, "another change of authority came first; check it, then repeat the order");
+  reply(true, "");
+  poke();
+}
+
+void ServerLink::work() {
+  Clock::time_point asked{}, listed{};
+  bool good = console_.connection != nullptr;
+  std::unique_lock hold{lock_};
+  while (!over_) {
+    while (!orders_.empty() && !over_) {
+      auto [body, reply] = std::move(orders_.front());
+      orders_.pop_front();
+      hold.unlock();
+      execute(body, reply);
+      hold.lock();
+    }
+    if (over_) return;
+    poked_ = false;
+    hold.unlock();
+    if (!console_.connection) {
+      const bool first = options_.joined != nullptr;
+      if (!first && !options_.again) {  // a ticket is valid once
+        hold.lock();
+        wake_.wait(hold, [this] { return over_ || !orders_.empty(); });
+        continue;
+      }
+      good = join();
+    } else {
+      good = ask_status();
+    }
+    asked = Clock::now();
+    if (good && console_.connection && options_.list && asked - listed >= kListPeriod) {
+      listed = asked;
+      ask_sessions();
+    }
+    hold.lock();
+    const auto period = !good ? kRetry : live() ? kPeriod : kPeriodAlone;
+    wake_.wait_until(hold, asked + std::min(period, kPokeInterval), [this] { return over_ || !orders_.empty(); });
+    wake_.wait_until(hold, asked + period, [this] { return over_ || poked_ || !orders_.empty(); });
+  }
+}
+
+}  // namespace tandem::console

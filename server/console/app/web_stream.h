@@ -1,0 +1,71 @@
+#pragma once
+
+#include <boost/asio/async_result.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/ssl.hpp>
+#include <memory>
+#include <utility>
+
+namespace tandem::console {
+
+/// The connection of a browser, with TLS or without. One type for both, so that HTTP and WebSocket are compiled once.
+class WebStream {
+ public:
+  using Tcp = boost::beast::tcp_stream;
+  using Tls = boost::beast::ssl_stream<Tcp>;
+  using executor_type = Tcp::executor_type;
+
+  explicit WebStream(Tcp plain) : plain_(std::make_unique<Tcp>(std::move(plain))) {}
+  WebStream(Tcp plain, boost::asio::ssl::context& tls) : tls_(std::make_unique<Tls>(std::move(plain), tls)) {}
+
+  [[nodiscard]] executor_type get_executor() noexcept { return lowest().get_executor(); }
+  [[nodiscard]] Tcp& lowest() noexcept { return tls_ ? tls_->next_layer() : *plain_; }
+  /// Null: without TLS.
+  [[nodiscard]] Tls* tls() noexcept { return tls_.get(); }
+  void close() {
+    lowest().cancel();
+    lowest().close();
+  }
+
+  template <class Buffers, class Handler>
+  auto async_read_some(const Buffers& buffers, Handler&& handler) {
+    return boost::asio::async_initiate<Handler, void(boost::beast::error_code, std::size_t)>(
+        [this](auto&& done, const Buffers& into) {
+          if (tls_) {
+            tls_->async_read_some(into, std::forward<decltype(done)>(done));
+          } else {
+            plain_->async_read_some(into, std::forward<decltype(done)>(done));
+          }
+        },
+        handler, buffers);
+  }
+  template <class Buffers, class Handler>
+  auto async_write_some(const Buffers& buffers, Handler&& handler) {
+    return boost::asio::async_initiate<Handler, void(boost::beast::error_code, std::size_t)>(
+        [this](auto&& done, const Buffers& from) {
+          if (tls_) {
+            tls_->async_write_some(from, std::forward<decltype(done)>(done));
+          } else {
+            plain_->async_write_some(from, std::forward<decltype(done)>(done));
+          }
+        },
+        handler, buffers);
+  }
+
+  /// Called by a WebSocket after its close frames, which show that no byte is missing.
+  template <class Handler>
+  friend void async_teardown(boost::beast::role_type, WebStream& stream, Handler&& handler) {
+    stream.lowest().close();
+    boost::asio::post(stream.get_executor(),
+                      boost::beast::bind_front_handler(std::forward<Handler>(handler), boost::beast::error_code{}));
+  }
+  /// Called by a WebSocket after a timeout.
+  friend void beast_close_socket(WebStream& stream) { stream.lowest().close(); }
+
+ private:
+  std::unique_ptr<Tcp> plain_;
+  std::unique_ptr<Tls> tls_;
+};
+
+}  // namespace tandem::console
