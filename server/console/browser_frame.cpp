@@ -8,12 +8,15 @@
 #include <utility>
 
 #include "common/base/sanitize.h"
+#include "server/console/join_body.h"
 #include "server/policy/roles.h"
 
 namespace tandem::console {
 namespace {
 
 using nlohmann::json;
+
+constexpr double kPointerMaxM = 10;  // of each coordinate of a pointer [m]
 
 /// Reader of one object. The first mistake counts; later reads return defaults.
 class Reader {
@@ -59,6 +62,23 @@ class Reader {
       fail("\"" + std::string(key) + "\" must be 1 to " + std::to_string(kMastersMax) +
            " numbers in [0, 1] whose sum is 1");
     return values;
+  }
+  std::array<double, 3> position(const char* key) {
+    std::array<double, 3> x{};
+    const auto found = object_.find(key);
+    bool good = found != object_.end() && found->is_array() && found->size() == x.size();
+    for (std::size_t k = 0; good && k < x.size(); ++k) {
+      x[k] = (*found)[k].is_number() ? (*found)[k].get<double>() : kPointerMaxM + 1;
+      good = std::abs(x[k]) <= kPointerMaxM;
+    }
+    if (!good) fail("\"" + std::string(key) + "\" must be three numbers in [-10, 10] m");
+    return x;
+  }
+  bool truth(const char* key) {
+    const auto found = object_.find(key);
+    if (found != object_.end() && found->is_boolean()) return found->get<bool>();
+    fail("\"" + std::string(key) + "\" must be true or false");
+    return false;
   }
   void fail(std::string text) {
     if (error_.empty()) error_ = std::move(text);
@@ -132,8 +152,23 @@ std::expected<BrowserFrame, FrameError> parse_browser_frame(std::string_view tex
       if (!server::allowed(role, kind)) return refuse(server::forbidden_text(role, kind));
     }
     parsed = std::move(order);
+  } else if (type == "take") {
+    in.only({"type", "id", "seat", "ticket"});
+    TakeSeat take{in.integer("id", kIdMax), in.text("seat", rpc::kNameMax), {}};
+    if (frame.contains("ticket")) take.ticket = in.text("ticket", kTicketTextMax);
+    parsed = std::move(take);
+  } else if (type == "leave") {
+    in.only({"type", "id"});
+    parsed = LeaveSeat{in.integer("id", kIdMax)};
+  } else if (type == "pointer") {
+    in.only({"type", "x", "pressed"});
+    const auto x = in.position("x");
+    parsed = Pointer{x, in.truth("pressed")};
+  } else if (type == "invite") {
+    in.only({"type", "id"});
+    parsed = Invite{in.integer("id", kIdMax)};
   } else {
-    in.fail("\"type\" must be ack, watch or order; this gateway supports no other type");
+    in.fail("\"type\" must be ack, watch, order, take, leave, pointer or invite");
   }
   if (!in.error().empty()) return refuse(in.error());
   return parsed;

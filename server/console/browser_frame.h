@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <expected>
@@ -13,7 +14,7 @@
 namespace tandem::console {
 
 inline constexpr std::size_t kFrameMax = 16384;    ///< frame of a browser [bytes]
-inline constexpr unsigned kFramesPerSecond = 120;  ///< frames of one browser
+inline constexpr unsigned kFramesPerSecond = 240;  ///< frames of one browser
 
 /// The page drew state `n`.
 struct Ack {
@@ -29,7 +30,25 @@ struct Order {
   std::uint64_t id = 0;
   rpc::Body body;
 };
-using BrowserFrame = std::variant<Ack, Watch, Order>;
+/// The person takes a free MASTER seat of the watched session. `ticket`: for that seat; empty: by the gateway's right.
+struct TakeSeat {
+  std::uint64_t id = 0;
+  std::string seat, ticket;
+};
+/// The person leaves the seat of this page.
+struct LeaveSeat {
+  std::uint64_t id = 0;
+};
+/// Where the person in the seat of this page points [m], frame of the scene; `pressed`: holds the handle.
+struct Pointer {
+  std::array<double, 3> x{};
+  bool pressed = false;
+};
+/// The person asks for a URL for another browser.
+struct Invite {
+  std::uint64_t id = 0;
+};
+using BrowserFrame = std::variant<Ack, Watch, Order, TakeSeat, LeaveSeat, Pointer, Invite>;
 
 struct FrameError {
   bool close = false;  ///< no JSON object: the gateway closes the connection

@@ -10,8 +10,6 @@
 namespace tandem::console {
 namespace {
 
-constexpr std::size_t kTicketTextMax = 1024;  // base32 of rpc::kTicketMax bytes, and its prefix
-
 int digit(char c) noexcept {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;

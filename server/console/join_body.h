@@ -7,7 +7,8 @@
 
 namespace tandem::console {
 
-inline constexpr std::size_t kJoinBodyMax = 2048;  ///< body of POST /join [bytes]
+inline constexpr std::size_t kJoinBodyMax = 2048;    ///< body of POST /join [bytes]
+inline constexpr std::size_t kTicketTextMax = 1024;  ///< base32 of rpc::kTicketMax bytes, and its prefix
 
 /// A person signs in.
 struct JoinBody {

@@ -19,7 +19,7 @@ std::string upper(std::string_view text) {
   return out;
 }
 
-json may_of(AccessRole role) {
+json may_of(AccessRole role, const PageOffers& offers) {
   const std::pair<const char*, rpc::Kind> rights[] = {
       {"stop", rpc::Kind::kStopSession},         {"pause", rpc::Kind::kPauseSession},
       {"resume", rpc::Kind::kResumeSession},     {"authority", rpc::Kind::kSetAuthority},
@@ -27,6 +27,8 @@ json may_of(AccessRole role) {
   json may = json::array();
   for (const auto& [name, kind] : rights)
     if (server::allowed(role, kind)) may.push_back(name);
+  if (offers.seats) may.push_back("seat");
+  if (offers.invite) may.push_back("invite");
   return may;
 }
 
@@ -52,7 +54,7 @@ const char* phase_text(rpc::SessionPhase phase) noexcept {
 }
 
 std::string hello_json(std::string_view person, AccessRole role, std::string_view release,
-                       std::span<const rpc::ListedSession> sessions) {
+                       std::span<const rpc::ListedSession> sessions, const PageOffers& offers) {
   json rows = json::array();
   for (const rpc::ListedSession& session : sessions)
     rows.push_back({{"id", session_hex(session.id)}, {"name", session.name}, {"state", phase_text(session.phase)}});
@@ -61,7 +63,8 @@ std::string hello_json(std::string_view person, AccessRole role, std::string_vie
                     {"release", release},
                     {"person", person},
                     {"role", upper(to_text(role))},
-                    {"may", may_of(role)},
+                    {"may", may_of(role, offers)},
+                    {"play", offers.play.empty() ? json() : json(offers.play)},
                     {"sessions", std::move(rows)}});
 }
 

@@ -14,11 +14,17 @@ namespace tandem::console {
 
 [[nodiscard]] std::string session_hex(const rpc::Id& session);
 [[nodiscard]] const char* phase_text(rpc::SessionPhase phase) noexcept;
+/// Abilities of a page beyond those of the person's role.
+struct PageOffers {
+  bool seats = false;   ///< the gateway gives seats to browsers
+  bool invite = false;  ///< the person may ask for a URL for another browser
+  std::string play{};   ///< seat to take at once; empty: none
+};
 /// @param person    name for display
 /// @param release   version of the program
 /// @param sessions  those that the person may see
 [[nodiscard]] std::string hello_json(std::string_view person, AccessRole role, std::string_view release,
-                                     std::span<const rpc::ListedSession> sessions);
+                                     std::span<const rpc::ListedSession> sessions, const PageOffers& offers = {});
 [[nodiscard]] std::string event_json(const rpc::Id& session, const rpc::StatusEvent& event);
 [[nodiscard]] std::string reply_json(std::optional<std::uint64_t> id, bool ok, std::string_view text);
 /// @param level  info, warning or error

@@ -9,6 +9,7 @@
 #include "common/base/format.h"
 #include "server/console/json_text.h"
 #include "server/console/live_json.h"
+#include "server/console/state_words.h"
 
 namespace tandem::console {
 namespace {
@@ -21,19 +22,6 @@ json vector(const std::array<double, 3>& v) {
 }
 /// The larger of two values; null if both are unknown.
 json worst(double a, double b) { return number(std::fmax(a, b)); }
-
-const char* gate_text(wire::GateState gate) {
-  constexpr std::array kNames{"OFF", "OFF", "RISING", "ON", "RELEASING", "LATCHED", "FAULT"};
-  const auto i = static_cast<std::size_t>(gate);
-  return i < kNames.size() ? kNames[i] : "FAULT";
-}
-
-/// In kHeld no seat controls a tool, but the session runs. In kOverloaded all hands are released, as in a stop.
-const char* state_text(wire::SessionState state) {
-  constexpr std::array kNames{"WAITING", "RUNNING", "RUNNING", "PAUSED", "STOPPED", "OVER", "STOPPED"};
-  const auto i = static_cast<std::size_t>(state);
-  return i < kNames.size() ? kNames[i] : "OVER";
-}
 
 const char* law_text(LawKind law) {
   constexpr std::array kNames{"SET_POSITION", "RAW", "REPLICA", "TDPA", "WAVE", "PD"};
@@ -107,7 +95,7 @@ json live_seat(const SceneSpec& scene, const LiveValues& live, std::size_t i) {
           {"person", nullptr},
           {"engaged", seat.engaged},
           {"stopped", seat.stopped},
-          {"gate", seat.taken ? json(gate_text(seat.gate)) : json()},
+          {"gate", seat.taken ? json(page_word(seat.gate)) : json()},
           {"x", vector(seat.x)},
           {"f", vector(seat.f)},
           {"alpha", std::move(alpha)},
@@ -144,7 +132,7 @@ void add_live(const SceneSpec& scene, const LiveValues& live, json& state) {
   const wire::SessionTelemetry& t = live.telemetry;
   state["tick"] = t.session_tick;
   state["t"] = number(t.session_tick / scene.tick_hz);
-  state["phase"] = state_text(t.state);
+  state["phase"] = page_word(t.state);
   state["version"] = t.authority_version;
   state["shed"] = t.shed_level;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) state["seats"].push_back(live_seat(scene, live, i));

@@ -23,7 +23,8 @@ Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr
     : options_(std::move(options)),
       mailbox_(std::move(mailbox)),
       news_(std::move(news)),
-      all_joins_(kAllJoinRate, kAllJoinBurst) {
+      all_joins_(kAllJoinRate, kAllJoinBurst),
+      seats_(options_.seats, options_.join, news_) {
   if (!own) return;
   const bool watch = own->feed.has_value() || !own->warning.empty();
   house_ = std::make_shared<Person>();
@@ -37,12 +38,16 @@ Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr
 
 std::string Gateway::make_token(Time now) {
   const std::string secret = random_secret();
-  token_ = OneTimeToken(secret, now + kTokenLife);
+  if (tokens_.size() >= kTokensMax) tokens_.pop_front();
+  tokens_.emplace_back(secret, now + kTokenLife);
   return secret;
 }
 
 std::string Gateway::redeem(std::string_view token, Time now) {
-  if (!house_ || !token_.redeem(token, now)) return {};
+  // Every token is compared, so that the time does not depend on which one is right.
+  bool redeemed = false;
+  for (OneTimeToken& waiting : tokens_) redeemed = waiting.redeem(token, now) || redeemed;
+  if (!house_ || !redeemed) return {};
   std::string secret = random_secret();
   return browsers_.add(secret, house_, true, now) ? secret : std::string{};
 }
@@ -140,6 +145,9 @@ std::shared_ptr<ServerLink> Gateway::best_view(const std::shared_ptr<ServerLink>
   return best;
 }
 
-void Gateway::on_second(Time now) { browsers_.expire(now); }
+void Gateway::on_second(Time now) {
+  browsers_.expire(now);
+  seats_.on_second();
+}
 
 }  // namespace tandem::console

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <expected>
 #include <functional>
 #include <map>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "common/auth/limiter.h"
+#include "server/console/app/browser_seats.h"
 #include "server/console/app/mailbox.h"
 #include "server/console/app/server_link.h"
 #include "server/console/browser_sessions.h"
@@ -30,12 +32,15 @@ struct Person {
 /// Persons with their control connections, and the links that show sessions. For the web thread.
 class Gateway {
  public:
-  static constexpr std::size_t kJoinsMax = 8;  ///< joins at the same time
+  static constexpr std::size_t kJoinsMax = 8;    ///< joins at the same time
+  static constexpr std::size_t kTokensMax = 16;  ///< tokens that wait for a browser
 
   struct Options {
     client::JoinOptions join;  ///< of the gateway's own connection; persons join with its server, state and timeout
     bool local = false;        ///< the gateway joins without a ticket, so it may see every session of the server
     std::string release;       ///< version of the program
+    bool seats = false;        ///< browsers may take seats
+    std::string play{};        ///< seat that a page takes at once; empty: none
   };
   /// @param own  the gateway's own connection; empty: each person signs in with a ticket
   /// @param news  called by any thread after a new picture of any link
@@ -44,10 +49,13 @@ class Gateway {
   [[nodiscard]] const std::string& release() const noexcept { return options_.release; }
   [[nodiscard]] Mailbox& mailbox() noexcept { return *mailbox_; }
   [[nodiscard]] BrowserSessions<Person>& browsers() noexcept { return browsers_; }
+  [[nodiscard]] BrowserSeats& seats() noexcept { return seats_; }
+  [[nodiscard]] const std::string& play() const noexcept { return options_.play; }
 
   /// Redeems the token of the printed URL. @return secret of a new cookie; empty: refused
   [[nodiscard]] std::string redeem(std::string_view token, Time now);
-  /// Makes the token that `redeem` accepts once. @pre the gateway has a connection of its own
+  /// Makes a token that `redeem` accepts once. At most kTokensMax wait: the oldest ends when one more is made.
+  /// @pre the gateway has a connection of its own
   [[nodiscard]] std::string make_token(Time now);
 
   /// Called in the web thread with the secret of a new cookie, or cause and remedy.
@@ -76,7 +84,7 @@ class Gateway {
   std::shared_ptr<Mailbox> mailbox_;
   std::function<void()> news_;
   std::shared_ptr<Person> house_;  ///< null: none
-  OneTimeToken token_{{}, Time{}};
+  std::deque<OneTimeToken> tokens_;
   BrowserSessions<Person> browsers_;
   std::map<std::string, std::weak_ptr<ServerLink>> others_;  ///< further sessions of the house, by name
   auth::SourceTable<TokenBucket> join_rates_;
@@ -87,6 +95,7 @@ class Gateway {
   };
   std::map<std::uint64_t, Pending> pending_;  ///< joins, by number
   std::uint64_t joins_ = 0;
+  BrowserSeats seats_;
   unsigned names_ = 0;
 };
 

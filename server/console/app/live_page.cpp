@@ -7,6 +7,7 @@
 
 #include "common/io/clock.h"
 #include "server/console/live_json.h"
+#include "server/console/seat_picture.h"
 #include "server/console/state_json.h"
 
 namespace tandem::console {
@@ -23,6 +24,10 @@ bool same(const std::vector<rpc::ListedSession>& a, const std::vector<rpc::Liste
 
 LivePage::LivePage(Gateway& gateway, std::shared_ptr<Person> person, std::function<void()> flush)
     : gateway_(gateway), person_(std::move(person)), flush_(std::move(flush)), link_(person_->link), view_(link_) {}
+
+LivePage::~LivePage() {
+  if (seat_) seat_->leave();
+}
 
 void LivePage::send(std::string text) {
   if (overflowed_) return;
@@ -50,7 +55,8 @@ void LivePage::on_period(std::chrono::steady_clock::time_point now) {
   const auto own = link_->newest(), view = view_->newest();
   // This person's words of a stop come from their own connection only.
   if (view_ != link_ && view->live && view->live->telemetry.stops != own->status.stops) link_->poke();
-  if (auto sessions = gateway_.sessions_of(*person_); greeted_ && !same(sessions, listed_, own->status.session_id)) greet();
+  if (auto sessions = gateway_.sessions_of(*person_); greeted_ && !same(sessions, listed_, own->status.session_id))
+    greet();
   on_news();
 }
 
@@ -59,7 +65,8 @@ void LivePage::greet() {
   listed_ = gateway_.sessions_of(*person_);
   role_ = own->role;
   greeted_ = true;
-  send(hello_json(person_->name, role_, gateway_.release(), listed_));
+  send(hello_json(person_->name, role_, gateway_.release(), listed_,
+                  {.seats = gateway_.seats().allowed(), .invite = person_->house, .play = gateway_.play()}));
 }
 
 void LivePage::on_news() {
@@ -67,6 +74,7 @@ void LivePage::on_news() {
   if (own->number == 0 || view->number == 0) return;  // still joining
   if (!greeted_ || own->role != role_) greet();
   send_notices(*own, *view);
+  send_seat();
   if (view->number == shown_) return;
   const bool first = shown_ == 0;
   shown_ = view->number;
@@ -118,7 +126,7 @@ void LivePage::send_state(const LivePicture& own, const LivePicture& view) {
 }
 
 std::string LivePage::on_frame(std::string_view text) {
-  if (++frames_ > kFramesPerSecond) return "more than 120 frames within one second";
+  if (++frames_ > kFramesPerSecond) return "more than 240 frames within one second";
   const auto own = link_->newest();
   auto frame = parse_browser_frame(text, own->role, own->status.session_id);
   if (!frame) {
@@ -130,6 +138,14 @@ std::string LivePage::on_frame(std::string_view text) {
     watch(*wish);
   } else if (auto* order = std::get_if<Order>(&*frame)) {
     give(std::move(*order));
+  } else if (const auto* seat = std::get_if<TakeSeat>(&*frame)) {
+    take(*seat);
+  } else if (const auto* leaving = std::get_if<LeaveSeat>(&*frame)) {
+    leave(*leaving);
+  } else if (const auto* pointer = std::get_if<Pointer>(&*frame)) {
+    point(*pointer);
+  } else if (const auto* invited = std::get_if<Invite>(&*frame)) {
+    invite(*invited);
   }
   return {};
 }
@@ -157,6 +173,46 @@ void LivePage::give(Order order) {
   };
   if (!link_->order(std::move(order.body), std::move(reply)))
     send(reply_json(id, false, "16 orders already wait for the server; repeat this one in a second"));
+}
+
+// The gateway's own right may take any seat, so it serves only persons who have the gateway's connection.
+void LivePage::take(const TakeSeat& wish) {
+  if (seat_ && !seat_->over()) return send(reply_json(wish.id, false, "this page has a seat already; leave it first"));
+  if (!person_->house && wish.ticket.empty())
+    return send(reply_json(wish.id, false, "a ticket for this seat is needed; ask the operator of the server for one"));
+  auto seat = gateway_.seats().take(link_->newest()->status.name, wish.seat, wish.ticket);
+  if (!seat) return send(reply_json(wish.id, false, seat.error()));
+  seat_ = std::move(*seat);
+  send(reply_json(wish.id, true, ""));
+}
+
+void LivePage::leave(const LeaveSeat& wish) {
+  if (!seat_) return send(reply_json(wish.id, false, "this page has no seat"));
+  seat_->leave();
+  send(reply_json(wish.id, true, ""));
+}
+
+void LivePage::point(const Pointer& pointer) {
+  if (seat_) seat_->point(pointer.x, pointer.pressed, io::monotonic_now());
+}
+
+void LivePage::invite(const Invite& wish) {
+  if (!person_->house)
+    return send(reply_json(wish.id, false,
+                           "only a person with the gateway's own connection may invite; others need a "
+                           "ticket"));
+  send(reply_json(wish.id, true, "/?token=" + gateway_.make_token(io::monotonic_now())));
+}
+
+void LivePage::send_seat() {
+  if (!seat_ || !queue_.empty()) return;  // lossy, as `state` is
+  const SeatPicture picture = seat_->newest();
+  std::string words = seat_json(picture);
+  if (words != seat_words_) {
+    seat_words_ = words;
+    send(std::move(words));
+  }
+  if (!picture.ended.empty()) seat_.reset();
 }
 
 }  // namespace tandem::console

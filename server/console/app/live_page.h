@@ -22,6 +22,10 @@ class LivePage : public std::enable_shared_from_this<LivePage> {
 
   /// @param flush  called when messages wait
   LivePage(Gateway& gateway, std::shared_ptr<Person> person, std::function<void()> flush);
+  /// Leaves the seat of the page.
+  ~LivePage();
+  LivePage(const LivePage&) = delete;
+  LivePage& operator=(const LivePage&) = delete;
 
   /// Call it after a new picture of any link.
   void on_news();
@@ -44,12 +48,19 @@ class LivePage : public std::enable_shared_from_this<LivePage> {
   void send_state(const LivePicture& own, const LivePicture& view);
   void watch(const Watch& wish);
   void give(Order order);
+  void take(const TakeSeat& wish);
+  void leave(const LeaveSeat& wish);
+  void point(const Pointer& pointer);
+  void invite(const Invite& wish);
+  void send_seat();
 
   Gateway& gateway_;
   std::shared_ptr<Person> person_;
   std::function<void()> flush_;
-  std::shared_ptr<ServerLink> link_;  ///< of the watched session; the orders go there
-  std::shared_ptr<ServerLink> view_;  ///< shows that session
+  std::shared_ptr<ServerLink> link_;   ///< of the watched session; the orders go there
+  std::shared_ptr<ServerLink> view_;   ///< shows that session
+  std::shared_ptr<BrowserSeat> seat_;  ///< that the person holds in this page; null: none
+  std::string seat_words_;             ///< last message seat
   std::deque<std::string> queue_;
   AcknowledgementWindow window_;
   std::chrono::steady_clock::time_point second_{};

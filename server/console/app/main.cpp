@@ -5,6 +5,7 @@
 
 #include "client/app/commands/connection_options.h"
 #include "client/app/join_client.h"
+#include "client/app/trial_programs.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
 #include "common/io/log.h"
@@ -12,6 +13,7 @@
 #include "common/io/process_hardening.h"
 #include "common/io/signals.h"
 #include "common/io/usage_errors.h"
+#include "proto/io/scene_file.h"
 #include "server/console/app/server_link.h"
 #include "server/console/app/tls_files.h"
 #include "server/console/app/web_server.h"
@@ -23,10 +25,13 @@
 namespace tandem::console {
 namespace {
 
+constexpr const char* kPlayScene = "lesson";
+constexpr double kPlaySeconds = 86400;
+
 struct Arguments {
   client::ConnectionArguments connection{.ticket = {}, .server = "127.0.0.1:7000", .session = {}, .state = {}};
   std::string listen = "127.0.0.1:7080", role = "instructor", certificate, key;
-  bool sign_in = false;
+  bool sign_in = false, seats = false, play = false;
 };
 
 int complain(const std::string& text) {
@@ -69,6 +74,8 @@ int run(const Arguments& arguments) {
   options.timeout = client::timeout_of(arguments.connection.timeout, errors);
   options.ticket = client::ticket_of(arguments.connection.ticket, errors);
   options.console = access_role_named(arguments.role);
+  if (arguments.play && (arguments.sign_in || !options.ticket.empty()))
+    errors.add("--play: it starts a server of its own; leave out --sign-in and the ticket");
   if (arguments.sign_in && !options.ticket.empty())
     errors.add("--sign-in: without a connection of its own, the gateway needs no ticket");
   const auto listen = io::parse_address(arguments.listen, 0);
@@ -78,6 +85,18 @@ int run(const Arguments& arguments) {
   if (!errors.empty()) return errors.print("tandem-console: ");
   const io::Fd signals = io::make_signalfd();
   options.signals = signals.get();
+  std::optional<client::TrialPrograms> trial;
+  std::string seat;
+  if (arguments.play) {
+    const SceneSpec scene = *load_scene(kPlayScene);
+    const SeatSpec& yours = **client::seat_for_person(scene, "");
+    auto programs =
+        client::TrialPrograms::start(kPlayScene, client::partners_of(scene, yours), kPlaySeconds, signals.get());
+    if (!programs) return programs.error().empty() ? io::kExitDone : complain("--play: " + programs.error());
+    options.server = *io::parse_address(programs->address(), 0);
+    trial.emplace(std::move(*programs));
+    seat = yours.name;
+  }
   std::optional<JoinedLink> own;
   if (!arguments.sign_in) {
     auto joined = join_link(options, true);
@@ -88,7 +107,11 @@ int run(const Arguments& arguments) {
   const WebOptions web{.listen = *listen,
                        .tls = std::move(tls),
                        .signals = signals.get(),
-                       .gateway = {.join = options, .local = local, .release = TANDEM_VERSION}};
+                       .gateway = {.join = options,
+                                   .local = local,
+                                   .release = TANDEM_VERSION,
+                                   .seats = arguments.seats || arguments.play,
+                                   .play = seat}};
   const auto served = run_web_server(web, std::move(own), print_url);
   return served ? io::kExitDone : complain(served.error());
 }
@@ -119,12 +142,17 @@ int main(int argc, char** argv) {
       .value_name("FILE");
   root.add_flag("--sign-in", arguments.sign_in,
                 "no connection of its own: each person signs in with a ticket, and no URL with a token is printed");
+  root.add_flag("--allow-browser-seats", arguments.seats,
+                "a person may take a free MASTER seat in the browser, with mouse, touch screen or gamepad");
+  root.add_flag("--play", arguments.play,
+                "starts a server with the scene lesson and a simulated partner; the page takes your seat");
   client::add_state_option(root, arguments.connection.state);
   client::add_timeout_option(root, arguments.connection.timeout);
   root.footer(
       "Exit: 0 ended by a signal; 1 refused, server not reachable, or port in use; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-console --server 127.0.0.1:7000\n"
+      "  tandem-console --play --listen 127.0.0.1:0\n"
       "  tandem-console --server lab-server:7000 --ticket-file operator.ticket --listen 127.0.0.1:0\n"
       "  tandem-console --sign-in --listen 0.0.0.0:7443 --certificate page.pem --key page.key");
   io::log_to_stderr("tandem-console");
