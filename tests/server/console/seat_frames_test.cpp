@@ -55,7 +55,8 @@ TEST(SeatFrames, RefuseWithTheKeyAndItsRange) {
 }
 
 TEST(SeatPicture, GivesNullForWhatIsNotKnown) {
-  SeatPicture picture{.seat = "trainee"};
+  SeatPicture picture;
+  picture.seat = "trainee";
   auto json = nlohmann::json::parse(seat_json(picture));
   for (const char* key : {"x", "f", "target", "gate", "ended"}) EXPECT_TRUE(json[key].is_null()) << key;
   EXPECT_EQ(json["seat"], "trainee");
