@@ -50,7 +50,8 @@ void LivePage::on_period(std::chrono::steady_clock::time_point now) {
   const auto own = link_->newest(), view = view_->newest();
   // This person's words of a stop come from their own connection only.
   if (view_ != link_ && view->live && view->live->telemetry.stops != own->status.stops) link_->poke();
-  if (auto sessions = gateway_.sessions_of(*person_); greeted_ && !same(sessions, listed_, own->status.session_id)) greet();
+  if (auto sessions = gateway_.sessions_of(*person_); greeted_ && !same(sessions, listed_, own->status.session_id))
+    greet();
   on_news();
 }
 
