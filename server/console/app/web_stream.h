@@ -1,9 +1,9 @@
 #pragma once
 
 #include <boost/asio/async_result.hpp>
-#include <boost/asio/post.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket/teardown.hpp>
 #include <memory>
 #include <utility>
 
@@ -53,12 +53,12 @@ class WebStream {
         handler, buffers);
   }
 
-  /// Called by a WebSocket after its close frames, which show that no byte is missing.
+  /// Called by a WebSocket after its close frame: the peer reads that before the connection ends. The close frames show
+  /// that no byte is missing, so TLS needs no end of its own.
   template <class Handler>
-  friend void async_teardown(boost::beast::role_type, WebStream& stream, Handler&& handler) {
-    stream.lowest().close();
-    boost::asio::post(stream.get_executor(),
-                      boost::beast::bind_front_handler(std::forward<Handler>(handler), boost::beast::error_code{}));
+  friend void async_teardown(boost::beast::role_type role, WebStream& stream, Handler&& handler) {
+    using boost::beast::websocket::async_teardown;
+    async_teardown(role, stream.lowest(), std::forward<Handler>(handler));
   }
   /// Called by a WebSocket after a timeout.
   friend void beast_close_socket(WebStream& stream) { stream.lowest().close(); }

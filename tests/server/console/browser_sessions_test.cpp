@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "common/base/rng.h"
 #include "server/console/join_body.h"
 #include "tests/common/base/counts.h"
 
@@ -78,15 +78,15 @@ TEST(BrowserSessions, AreBoundedAndForgetTheLongestIdle) {
 TEST(BrowserSessions, KeepOpenOnesForAnyOrderOfCalls) {
   const std::uint64_t seeds = test::seeds(50);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    std::mt19937_64 rng(seed);
+    RandomStream rng(seed);
     Sessions sessions;
     std::vector<int> open(100);
     Time now{};
     for (int step = 0; step < 1000; ++step) {
-      const auto i = static_cast<std::size_t>(rng() % open.size());
+      const auto i = static_cast<std::size_t>(rng.below(open.size()));
       const std::string secret = "s" + std::to_string(i);
-      now += std::chrono::seconds(rng() % 20);
-      switch (rng() % 4) {
+      now += std::chrono::seconds(rng.below(20));
+      switch (rng.below(4)) {
         case 0:
           if (sessions.find(secret) == nullptr) static_cast<void>(sessions.add(secret, person(0), false, now));
           break;
