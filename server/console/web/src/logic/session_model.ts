@@ -1,0 +1,123 @@
+import type {
+  GatewayMessage,
+  Hello,
+  Notes,
+  Notice,
+  OwnSeat,
+  Right,
+  Scene,
+  SessionEvent,
+  State,
+  Tickets,
+} from '../protocol/messages';
+import { Acknowledgements } from './acknowledgements';
+import { AlarmLog } from './alarms';
+import { SeatHistory } from './history';
+import { Ring } from './ring';
+import { StateWindow } from './state_window';
+
+export type Link = 'connecting' | 'open' | 'lost' | 'refused';
+
+export const kEventsKept = 500;
+export const kNoticesKept = 50;
+
+/** All that the page knows of the watched session. It has neither a socket nor a document; its memory is bounded. */
+export class SessionModel {
+  link: Link = 'connecting';
+  hello: Hello | null = null;
+  scene: Scene | null = null;
+  notes: Notes | null = null;
+  ownSeat: OwnSeat | null = null;
+  tickets: Tickets | null = null;
+  readonly states = new StateWindow();
+  readonly acknowledgements = new Acknowledgements();
+  readonly alarms = new AlarmLog();
+  readonly history = new SeatHistory();
+  readonly events = new Ring<SessionEvent>(kEventsKept);
+  readonly notices = new Ring<Notice>(kNoticesKept);
+  /** Increases when hello, scene, notes or tickets change: panels build their controls again. */
+  revision = 0;
+
+  get state(): State | null {
+    return this.states.newest;
+  }
+
+  may(right: Right): boolean {
+    return this.link === 'open' && this.granted(right);
+  }
+
+  /** The right without regard to the connection: whether a view is offered. */
+  granted(right: Right): boolean {
+    return this.hello?.may.includes(right) ?? false;
+  }
+
+  /** @param now_ms time of the page, monotonic [ms] */
+  apply(message: GatewayMessage, now_ms: number): void {
+    switch (message.type) {
+      case 'hello':
+        this.hello = message;
+        this.revision += 1;
+        break;
+      case 'scene':
+        if (this.scene?.session !== message.session) this.beginSession();
+        this.scene = message;
+        this.revision += 1;
+        break;
+      case 'state':
+        this.states.push(message, now_ms);
+        this.acknowledgements.received(message.n, message.dropped);
+        this.alarms.update(message, this.scene);
+        this.history.update(message, this.scene);
+        break;
+      case 'event':
+        if (!this.isRepeated(message)) this.events.push(message);
+        break;
+      case 'notice':
+        this.notices.push(message);
+        break;
+      case 'seat':
+        this.ownSeat = message;
+        break;
+      case 'notes':
+        this.notes = message;
+        this.revision += 1;
+        break;
+      case 'tickets':
+        this.tickets = message;
+        this.revision += 1;
+        break;
+      case 'reply':
+        break;
+    }
+  }
+
+  connected(): void {
+    this.link = 'open';
+    this.states.clear();
+    this.acknowledgements.reset();
+    this.alarms.connection(false, this.state?.t ?? null, '');
+  }
+
+  disconnected(link: 'lost' | 'refused', detail: string): void {
+    this.link = link;
+    this.ownSeat = null;
+    this.alarms.connection(true, this.state?.t ?? null, detail);
+  }
+
+  private beginSession(): void {
+    this.states.clear();
+    this.history.clear();
+    this.events.clear();
+    this.notes = null;
+    this.ownSeat = null;
+  }
+
+  /** After a reconnect the gateway sends the events again. */
+  private isRepeated(event: SessionEvent): boolean {
+    for (let i = this.events.length - 1; i >= 0; i -= 1) {
+      const known = this.events.at(i);
+      if (known?.session === event.session && known.number === event.number && known.text === event.text) return true;
+    }
+    return false;
+  }
+}

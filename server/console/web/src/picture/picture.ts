@@ -1,0 +1,167 @@
+import { AmbientLight, DirectionalLight, Group, Scene as ThreeScene, WebGLRenderer } from 'three';
+
+import type { Scene, State } from '../protocol/messages';
+import { CameraRig } from './camera_rig';
+import { forceOfArrow } from './force_arrow';
+import { HandGhost, type PictureOptions } from './hand_ghost';
+import { readColours, type PictureColours } from './palette';
+import { buildSurfaces, disposeSurfaces } from './surfaces';
+import { ToolMark } from './tool_mark';
+
+/** Mean frame time from which the picture lowers its resolution, and below which it raises it [ms]. */
+const kSlow = 26;
+const kFast = 14;
+const kRatioMin = 0.5;
+/** Force limit that is assumed if no seat states one [N]. */
+const kForceLimit = 3.3;
+
+/** The picture of a session. Lowers its resolution on slow machines, so that motion stays smooth. */
+export class Picture {
+  readonly canvas = document.createElement('canvas');
+  readonly rig: CameraRig;
+  readonly options: PictureOptions = {
+    trails: true,
+    forces: true,
+    names: true,
+    forceScale: 0.01,
+    reducedMotion: false,
+  };
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new ThreeScene();
+  private surfaces: Group | null = null;
+  private colours: PictureColours;
+  private readonly hands = new Map<number, HandGhost>();
+  private readonly tools = new Map<number, ToolMark>();
+  private known: Scene | null = null;
+  private ratio = Math.min(2, window.devicePixelRatio || 1);
+  private frameTime = kFast;
+  private last = 0;
+  private size = '';
+  /** Frames that were drawn; tests read it. */
+  frames = 0;
+
+  /** @throws Error if the browser has no WebGL */
+  constructor(label: string) {
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute('role', 'img');
+    this.canvas.setAttribute('aria-label', label);
+    this.renderer = new WebGLRenderer({
+      canvas: this.canvas,
+      antialias: this.ratio < 1.5,
+      powerPreference: 'low-power',
+    });
+    this.colours = readColours(document.documentElement);
+    this.rig = new CameraRig(this.canvas);
+    const sun = new DirectionalLight('#ffffff', 2);
+    sun.position.set(0.2, -0.4, 0.6);
+    this.scene.add(new AmbientLight('#ffffff', 1.6), sun);
+  }
+
+  /** Force that an arrow of 10 mm stands for [N]. */
+  get forceOf10mm(): number {
+    return 0.01 / this.options.forceScale;
+  }
+
+  /** Reads the colours again after a change between light and dark. */
+  recolour(): void {
+    this.colours = readColours(document.documentElement);
+    this.known = null;
+  }
+
+  draw(scene: Scene | null, state: State | null, now_ms: number): void {
+    if (!this.fit()) return;
+    this.adapt(now_ms);
+    if (scene && scene !== this.known) this.adopt(scene);
+    if (scene && state) this.update(scene, state);
+    this.renderer.render(this.scene, this.rig.camera);
+    this.frames += 1;
+  }
+
+  private adopt(scene: Scene): void {
+    const other = this.known?.session !== scene.session;
+    this.known = scene;
+    this.scene.background = this.colours.background;
+    if (this.surfaces) {
+      this.scene.remove(this.surfaces);
+      disposeSurfaces(this.surfaces);
+    }
+    this.surfaces = buildSurfaces(scene.tools, this.colours);
+    this.scene.add(this.surfaces);
+    if (other) this.clear();
+    const limits = scene.seats.map((seat) => seat.force_limit_n ?? 0);
+    this.options.forceScale = 0.01 / forceOfArrow(Math.max(...limits, 0) || kForceLimit);
+  }
+
+  private clear(): void {
+    for (const part of [...this.hands.values(), ...this.tools.values()]) {
+      this.scene.remove(part.group);
+      part.dispose();
+    }
+    this.hands.clear();
+    this.tools.clear();
+  }
+
+  private update(scene: Scene, state: State): void {
+    const masters = scene.seats.map((seat, i) => (seat.kind === 'MASTER' ? i : -1)).filter((i) => i >= 0);
+    state.seats.forEach((seat, i) => {
+      // The hand of a slave seat is the tool itself.
+      if (scene.seats[i]?.kind === 'SLAVE') return;
+      this.hand(i).update(seat, scene.seats[i], state.t, this.colours, this.options);
+    });
+    state.tools.forEach((tool, i) => {
+      this.tool(i).update(tool, scene.tools[i], state, masters, this.colours, this.options);
+    });
+    const choice = this.rig.choice;
+    const seat = choice.startsWith('seat:') ? state.seats[Number(choice.slice(5))] : undefined;
+    this.rig.update(seat?.x ?? null, this.options.reducedMotion);
+    for (const part of [...this.hands.values(), ...this.tools.values()]) part.face(this.rig.camera.quaternion);
+  }
+
+  private hand(index: number): HandGhost {
+    const found = this.hands.get(index);
+    if (found) return found;
+    const made = new HandGhost(index);
+    this.hands.set(index, made);
+    this.scene.add(made.group);
+    return made;
+  }
+
+  private tool(index: number): ToolMark {
+    const found = this.tools.get(index);
+    if (found) return found;
+    const made = new ToolMark();
+    this.tools.set(index, made);
+    this.scene.add(made.group);
+    return made;
+  }
+
+  /** Follows the size of the host. Returns whether the picture is visible. */
+  private fit(): boolean {
+    const host = this.canvas.parentElement;
+    if (!host) return false;
+    const [width, height] = [host.clientWidth, host.clientHeight];
+    if (width < 2 || height < 2) return false;
+    const size = `${width} ${height} ${this.ratio}`;
+    if (size === this.size) return true;
+    this.size = size;
+    this.renderer.setPixelRatio(this.ratio);
+    this.renderer.setSize(width, height);
+    this.rig.resize(width / height);
+    return true;
+  }
+
+  private adapt(now_ms: number): void {
+    const step = now_ms - this.last;
+    this.last = now_ms;
+    if (!(step > 0 && step < 250)) return;
+    this.frameTime += (step - this.frameTime) * 0.05;
+    const best = Math.min(2, window.devicePixelRatio || 1);
+    if (this.frameTime > kSlow && this.ratio > kRatioMin) {
+      this.ratio = Math.max(kRatioMin, this.ratio * 0.8);
+      this.frameTime = (kSlow + kFast) / 2;
+    } else if (this.frameTime < kFast && this.ratio < best) {
+      this.ratio = Math.min(best, this.ratio * 1.1);
+      this.frameTime = (kSlow + kFast) / 2;
+    }
+  }
+}

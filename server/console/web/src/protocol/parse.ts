@@ -1,0 +1,274 @@
+import {
+  kSeatsMax,
+  kTextMax,
+  kToolsMax,
+  type GatewayMessage,
+  type Phase,
+  type SceneSeat,
+  type SceneTool,
+  type SeatState,
+  type SheetName,
+  type State,
+  type StopState,
+  type Surface,
+  type ToolState,
+  type Vec3,
+} from './messages';
+
+type Json = Record<string, unknown>;
+
+/** Longest frame that the page parses [characters]; a state of 24 seats needs some 12000. */
+export const kFrameMax = 1 << 20;
+/** Largest length of a list without a limit of its own. */
+const kListMax = 1000;
+const kPhases: readonly Phase[] = ['WAITING', 'RUNNING', 'STOPPED', 'PAUSED', 'OVER'];
+const kSheets: readonly SheetName[] = ['OSATS', 'GEARS', 'GOALS', 'CHECKLIST'];
+
+const isObject = (value: unknown): value is Json =>
+  typeof value === 'object' && value !== null && !Array.isArray(value);
+const object = (value: unknown): Json => (isObject(value) ? value : {});
+const list = (value: unknown, max = kListMax): unknown[] => (Array.isArray(value) ? value.slice(0, max) : []);
+const number = (value: unknown): number | null => (typeof value === 'number' && Number.isFinite(value) ? value : null);
+const count = (value: unknown): number => {
+  const found = number(value);
+  return found !== null && found >= 0 ? Math.floor(found) : 0;
+};
+const flag = (value: unknown): boolean | null => (typeof value === 'boolean' ? value : null);
+// Control characters could change the direction or the lines of a text on the page.
+const text = (value: unknown): string =>
+  // eslint-disable-next-line no-control-regex
+  typeof value === 'string'
+    ? value.slice(0, kTextMax).replace(/[\u0000-\u001f\u007f-\u009f\u200e\u200f\u202a-\u202e\u2066-\u2069]/g, ' ')
+    : '';
+const textOrNull = (value: unknown): string | null => (typeof value === 'string' ? text(value) : null);
+const texts = (value: unknown): string[] =>
+  list(value)
+    .filter((v) => typeof v === 'string')
+    .map(text);
+
+/** Returns three finite numbers, or null: one unknown component makes the vector unknown. */
+function vec3(value: unknown): Vec3 | null {
+  const [x, y, z] = list(value, 3).map(number);
+  return x === undefined || x === null || y === undefined || y === null || z === undefined || z === null
+    ? null
+    : [x, y, z];
+}
+
+/** Returns shares in [0, 1], or null if one is missing or out of range. */
+function shares(value: unknown): number[] | null {
+  if (!Array.isArray(value)) return null;
+  const found: number[] = [];
+  for (const entry of list(value, kSeatsMax)) {
+    const share = number(entry);
+    if (share === null || share < 0 || share > 1) return null;
+    found.push(share);
+  }
+  return found;
+}
+
+function surface(value: unknown): Surface[] {
+  const from = object(value);
+  const at = number(from.at_m);
+  const axis = from.axis;
+  if (at === null || (axis !== 0 && axis !== 1 && axis !== 2)) return [];
+  return [{ axis, at_m: at, stiffness_n_m: number(from.stiffness_n_m), from_below: from.from_below === true }];
+}
+
+function sceneSeat(value: unknown): SceneSeat {
+  const from = object(value);
+  return {
+    name: text(from.name),
+    kind: from.kind === 'SLAVE' ? 'SLAVE' : 'MASTER',
+    role: text(from.role),
+    required: flag(from.required),
+    device: textOrNull(from.device),
+    force_limit_n: number(from.force_limit_n),
+  };
+}
+
+function sceneTool(value: unknown): SceneTool {
+  const from = object(value);
+  return {
+    name: text(from.name),
+    mass_kg: number(from.mass_kg),
+    walls: list(from.walls, 16).flatMap(surface),
+    tissues: list(from.tissues, 16).flatMap(surface),
+  };
+}
+
+function seatState(value: unknown): SeatState {
+  const from = object(value);
+  return {
+    taken: flag(from.taken),
+    heard: flag(from.heard),
+    person: textOrNull(from.person),
+    engaged: flag(from.engaged),
+    gate: textOrNull(from.gate),
+    x: vec3(from.x),
+    f: vec3(from.f),
+    alpha: shares(from.alpha) ?? [],
+    rtt_ms: number(from.rtt_ms),
+    loss_percent: number(from.loss_percent),
+    gap_ms: number(from.gap_ms),
+    age_ms: number(from.age_ms),
+    margin_j: number(from.margin_j),
+    trips: number(from.trips),
+    late: number(from.late),
+    temperature_c: number(from.temperature_c),
+  };
+}
+
+function toolState(value: unknown): ToolState {
+  const from = object(value);
+  const transfer = isObject(from.transfer) ? from.transfer : null;
+  return {
+    x: vec3(from.x),
+    v: vec3(from.v),
+    f: vec3(from.f),
+    depth_m: number(from.depth_m),
+    touching: flag(from.touching),
+    wanted: shares(from.wanted),
+    applied: shares(from.applied),
+    transfer: transfer && {
+      by: text(transfer.by),
+      to: text(transfer.to),
+      alpha: number(transfer.alpha),
+      ticks: number(transfer.ticks),
+    },
+  };
+}
+
+function stopState(value: unknown): StopState | null {
+  if (!isObject(value)) return null;
+  return {
+    number: count(value.number),
+    kind: text(value.kind),
+    by: text(value.by),
+    why: text(value.why),
+    yours: value.yours === true,
+  };
+}
+
+function state(from: Json): State | null {
+  const n = number(from.n);
+  if (n === null || n < 0 || !Number.isSafeInteger(n)) return null;
+  return {
+    type: 'state',
+    n,
+    dropped: count(from.dropped),
+    wall_us: number(from.wall_us),
+    t: number(from.t) ?? 0,
+    phase: kPhases.find((phase) => phase === from.phase) ?? 'WAITING',
+    stop: stopState(from.stop),
+    version: count(from.version),
+    shed: count(from.shed),
+    held: text(from.held),
+    seats: list(from.seats, kSeatsMax).map(seatState),
+    tools: list(from.tools, kToolsMax).map(toolState),
+  };
+}
+
+function scores(value: unknown): Record<string, number> {
+  const found: Record<string, number> = Object.create(null) as Record<string, number>;
+  for (const [key, entry] of Object.entries(object(value)).slice(0, 64)) {
+    const score = number(entry);
+    if (score !== null) found[text(key)] = score;
+  }
+  return found;
+}
+
+const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
+  state,
+  hello: (from) => ({
+    type: 'hello',
+    protocol: count(from.protocol),
+    release: text(from.release),
+    person: text(from.person),
+    role: text(from.role),
+    may: texts(from.may),
+    sessions: list(from.sessions)
+      .map(object)
+      .map((session) => ({ id: text(session.id), name: text(session.name), state: text(session.state) })),
+    scenes: texts(from.scenes),
+  }),
+  scene: (from) => ({
+    type: 'scene',
+    session: text(from.session),
+    name: text(from.name),
+    tick_hz: number(from.tick_hz),
+    dof: number(from.dof),
+    law: textOrNull(from.law),
+    seats: list(from.seats, kSeatsMax).map(sceneSeat),
+    tools: list(from.tools, kToolsMax).map(sceneTool),
+  }),
+  event: (from) => ({
+    type: 'event',
+    session: text(from.session),
+    number: count(from.number),
+    t: number(from.t),
+    text: text(from.text),
+  }),
+  reply: (from) => ({ type: 'reply', id: number(from.id), ok: from.ok === true, text: text(from.text) }),
+  notice: (from) => ({
+    type: 'notice',
+    level: from.level === 'error' || from.level === 'warning' ? from.level : 'info',
+    text: text(from.text),
+  }),
+  seat: (from) => ({
+    type: 'seat',
+    seat: text(from.seat),
+    f: vec3(from.f),
+    x: vec3(from.x),
+    engaged: flag(from.engaged),
+    phase: text(from.phase),
+  }),
+  notes: (from) => ({
+    type: 'notes',
+    marks: list(from.marks)
+      .map(object)
+      .map((mark) => ({ t: number(mark.t), text: text(mark.text), person: text(mark.person) })),
+    sheets: list(from.sheets)
+      .map(object)
+      .flatMap((sheet) => {
+        const name = kSheets.find((known) => known === sheet.sheet);
+        return name === undefined
+          ? []
+          : [
+              {
+                sheet: name,
+                of: text(sheet.of),
+                person: text(sheet.person),
+                scores: scores(sheet.scores),
+                closed: sheet.closed === true,
+              },
+            ];
+      }),
+  }),
+  tickets: (from) => ({
+    type: 'tickets',
+    session: text(from.session),
+    name: text(from.name),
+    tickets: list(from.tickets, kSeatsMax * 2)
+      .map(object)
+      .map((ticket) => ({
+        person: text(ticket.person),
+        role: text(ticket.role),
+        seat: text(ticket.seat),
+        ticket: text(ticket.ticket),
+      })),
+  }),
+};
+
+/** Returns the message of one frame, or null if it is none that the page knows. Never throws. */
+export function parseMessage(frame: string): GatewayMessage | null {
+  if (frame.length > kFrameMax) return null;
+  let parsed: unknown;
+  try {
+    parsed = JSON.parse(frame);
+  } catch {
+    return null;
+  }
+  if (!isObject(parsed) || typeof parsed.type !== 'string') return null;
+  const reader = Object.prototype.hasOwnProperty.call(kReaders, parsed.type) ? kReaders[parsed.type] : undefined;
+  return reader ? reader(parsed) : null;
+}

@@ -1,0 +1,118 @@
+import type { Page, View, ViewName } from '../app/page';
+import type { Settings } from '../app/settings';
+import { clock } from '../logic/format';
+import type { Hello } from '../protocol/messages';
+import { kLanguages, setLanguage, t, word, currentLanguage, type Language } from '../strings/strings';
+import { button, checkbox, el, fillSelect, labelled, select, setAttribute, setText } from './dom';
+
+export const kViews: readonly ViewName[] = ['live', 'instructor', 'evaluator', 'seat', 'desk'];
+
+export interface TopBarActions {
+  choose(view: ViewName): void;
+  change(settings: Partial<Settings>): void;
+}
+
+function languageName(language: Language): string {
+  const now = currentLanguage();
+  setLanguage(language);
+  const name = t('language.name');
+  setLanguage(now);
+  return name;
+}
+
+/** Name, session, phase, connection and the choice of views. */
+export class TopBar implements View {
+  readonly node: HTMLElement;
+  private readonly session: HTMLSelectElement;
+  private readonly phase = el('span', { class: 'badge' });
+  private readonly time = el('span', { class: 'time' });
+  private readonly link = el('span', { class: 'link', role: 'status' });
+  private readonly person = el('span', { class: 'person' });
+  private readonly tabs: readonly HTMLButtonElement[];
+  private known: Hello | null = null;
+
+  constructor(
+    private readonly page: Page,
+    settings: Settings,
+    actions: TopBarActions,
+  ) {
+    this.session = select([], '', (session) => {
+      void page.request(t('bar.session'), { type: 'watch', session });
+    });
+    this.tabs = kViews.map((view, i) =>
+      button(t(`nav.${view}`), () => actions.choose(view), { 'data-view': view, 'aria-keyshortcuts': String(i + 1) }),
+    );
+    const language = select(
+      (Object.keys(kLanguages) as Language[]).map((known) => [known, languageName(known)] as const),
+      settings.language,
+      (value) => actions.change({ language: value as Language }),
+    );
+    const theme = select(
+      (['auto', 'light', 'dark'] as const).map((value) => [value, t(`theme.${value}`)] as const),
+      settings.theme,
+      (value) => actions.change({ theme: value as Settings['theme'] }),
+    );
+    const more = el(
+      'details',
+      { class: 'settings' },
+      el('summary', {}, t('bar.settings')),
+      el(
+        'div',
+        { class: 'settings-box' },
+        labelled(t('bar.language'), language),
+        labelled(t('bar.theme'), theme),
+        checkbox(t('bar.keys'), settings.keys, (keys) => actions.change({ keys })),
+        el('p', { class: 'note' }, t('bar.keys_help')),
+      ),
+    );
+    const sound = checkbox(t('bar.sound'), page.sound.on, (on) => page.sound.switch(on));
+    this.node = el(
+      'header',
+      { class: 'top-bar' },
+      el(
+        'div',
+        { class: 'identity' },
+        el('h1', {}, 'Tandem'),
+        labelled(t('bar.session'), this.session),
+        this.phase,
+        this.time,
+        this.link,
+        this.person,
+        sound,
+        more,
+      ),
+      el('nav', { 'aria-label': t('nav.label') }, ...this.tabs),
+    );
+  }
+
+  choose(view: ViewName): void {
+    for (const tab of this.tabs) setAttribute(tab, 'aria-current', tab.dataset.view === view ? 'page' : null);
+  }
+
+  update(): void {
+    const { model } = this.page;
+    const { hello, state } = model;
+    if (hello && hello !== this.known) {
+      this.known = hello;
+      fillSelect(
+        this.session,
+        hello.sessions.map((session) => [session.id, session.name] as const),
+        model.scene?.session ?? '',
+      );
+      setText(this.person, t('bar.person', { person: hello.person, role: word('role', hello.role) }));
+    }
+    if (model.scene && document.activeElement !== this.session && this.session.value !== model.scene.session) {
+      this.session.value = model.scene.session;
+    }
+    setText(this.phase, state ? word('phase', state.phase) : '');
+    setAttribute(this.phase, 'data-phase', state?.phase ?? null);
+    setText(this.time, state ? clock(state.t) : '');
+    setText(this.link, t(`link.${model.link}`));
+    setAttribute(this.link, 'data-link', model.link);
+    for (const tab of this.tabs) {
+      const right = { live: null, instructor: null, evaluator: 'score', seat: 'seat', desk: 'create' } as const;
+      const needed = right[tab.dataset.view as ViewName];
+      tab.classList.toggle('denied', needed !== null && !model.granted(needed));
+    }
+  }
+}
