@@ -75,7 +75,7 @@ TEST(GatewayLive, ClosesFloodsAndFramesThatAreNone) {
   WebGateway gateway(address_of(host));
   gateway.open_url();
   WebPage flood = gateway.page(), large = gateway.page(), junk = gateway.page(), good = gateway.page();
-  for (int n = 0; n < 300 && flood.send(Json{{"type", "ack"}, {"n", 0}}); ++n) {
+  for (int n = 0; n < 600 && flood.send(Json{{"type", "ack"}, {"n", 0}}); ++n) {
   }
   EXPECT_TRUE(flood.until([](const Json&) { return false; }).is_null());
   EXPECT_EQ(flood.close_code(), 1008U) << flood.close_reason();
