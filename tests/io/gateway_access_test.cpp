@@ -86,6 +86,8 @@ TEST(GatewayAccess, GivesEachPersonTheRightsOfTheirTicket) {
   EXPECT_EQ(bob_hello["role"], "OPERATOR");
   EXPECT_NE(bob_hello["person"], "ann") << "two persons are never taken for one";
   ASSERT_EQ(bob_hello["sessions"].size(), 1U);
+  for (WebPage* page : {&ann_page, &bob_page})
+    EXPECT_FALSE(state_where(*page, [](const Json& state) { return state["age_ms"].is_number(); }).is_null());
   const Json drain = ann_page.order({{"order", "drain"}, {"grace_s", 1}});
   EXPECT_EQ(drain["ok"], false);
   const Json shift = bob_page.order({{"order", "authority"}, {"tool", 0}, {"version", 1}, {"alpha", {1}}});
