@@ -59,9 +59,9 @@ std::expected<TrialPrograms, std::string> TrialPrograms::start(const std::string
     return std::unexpected("the server did not start" +
                            (server->last_output().empty() ? "" : ": " + server->last_output()));
   }
-  TrialPrograms trial;
-  trial.address_ = *address;
-  trial.children_.push_back(std::move(*server));
+  std::vector<ChildProgram> programs;
+  programs.push_back(std::move(*server));
+  TrialPrograms trial(std::move(programs), *address);
   for (const std::string& partner : partners) {
     auto child =
         ChildProgram::start("the simulated " + partner, {client_path, "join", "--server", *address, "--seat", partner,

@@ -3,6 +3,7 @@
 #include <expected>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/app/child_program.h"
@@ -29,6 +30,9 @@ class TrialPrograms {
   [[nodiscard]] static std::expected<TrialPrograms, std::string> start(const std::string& scene,
                                                                        const std::vector<std::string>& partners,
                                                                        std::optional<double> duration, int interrupt);
+  /// @param programs  the server first, then the partners
+  explicit TrialPrograms(std::vector<ChildProgram> programs, std::string address = {})
+      : children_(std::move(programs)), address_(std::move(address)) {}
   TrialPrograms(TrialPrograms&&) noexcept = default;
   TrialPrograms& operator=(TrialPrograms&&) = delete;
   ~TrialPrograms() { stop(); }
@@ -43,8 +47,6 @@ class TrialPrograms {
   }
 
  private:
-  TrialPrograms() = default;
-
   std::vector<ChildProgram> children_;  ///< the server, then the partners
   std::string address_;
 };

@@ -76,7 +76,7 @@ void check_links(const fs::path& documents) {
 
 TEST(DebianPackages, ContainTheirFilesAndRunFromAnUnpackedRoot) {
   if (const std::string& why = packages(); !why.empty()) GTEST_SKIP() << why;
-  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
+  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-console"}) {
     SCOPED_TRACE(name);
     const fs::path deb = package(name), root = kPlace / ("root-" + name);
     const std::string contents = shell("dpkg-deb -c " + quoted(deb)).text;
@@ -108,6 +108,7 @@ TEST(DebianPackages, ContainTheirFilesAndRunFromAnUnpackedRoot) {
   for (const char* script : {"postinst", "prerm", "postrm"})
     EXPECT_EQ(shell("sh -n " + quoted(control / script)).code, 0) << script;
   EXPECT_TRUE(fs::exists(root / "lib/systemd/system/tandem-server.service"));
+  EXPECT_TRUE(fs::exists(kPlace / "root-tandem-console/lib/systemd/system/tandem-console.service"));
   check_links(root / "usr/share/doc/tandem-server");
   ASSERT_NO_FATAL_FAILURE(check_development_package());
 
@@ -134,7 +135,7 @@ TEST(DebianPackages, PassLintian) {
     GTEST_SKIP() << "belongs to ./test --full (TANDEM_COUNTS=full), which installs lintian";
   if (!there("lintian")) GTEST_SKIP() << "lintian is not installed (./test --full installs it)";
   if (const std::string& why = packages(); !why.empty()) GTEST_SKIP() << why;
-  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-dev"}) {
+  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-console", "tandem-dev"}) {
     const Done judged =
         shell("lintian --allow-root --tag-display-limit 0 --fail-on error,warning " + quoted(package(name)));
     EXPECT_EQ(judged.code, 0) << judged.text;
@@ -157,10 +158,11 @@ class Scripts {
     }
   }
   /// Runs `script`. @return the recorded calls, one per line
-  [[nodiscard]] std::string run(const std::string& script, const std::string& arguments) const {
+  [[nodiscard]] std::string run(const std::string& script, const std::string& arguments,
+                                const std::string& program = "tandem-server") const {
     fs::remove(place_ / "calls");
     const Done done = shell("sed 's|/run/systemd/system|" + (place_ / "systemd").string() + "|' " +
-                            quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package" / ("tandem-server." + script)) +
+                            quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package" / (program + "." + script)) +
                             " | PATH=" + quoted(place_ / "bin") + ":$PATH sh -s " + arguments);
     EXPECT_EQ(done.code, 0) << done.text;
     return shell("cat " + quoted(place_ / "calls")).text;
@@ -186,32 +188,51 @@ TEST(MaintainerScripts, RestartTheServiceOnUpgradeAndStartNothingOnInstallation)
   EXPECT_NE(scripts.run("postrm", "purge").find("rm -rf /var/lib/tandem\n"), std::string::npos);
 }
 
-constexpr const char* kNoSystemd = "systemd-analyze is not installed (package systemd)";
-
-TEST(DebianPackages, ContainAHardenedUnit) {
-  if (!there("systemd-analyze")) GTEST_SKIP() << kNoSystemd;
-  const Done judged = shell("systemd-analyze security --offline=true --threshold=30 " +
-                            quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package/tandem-server.service"));
-  const auto at = judged.text.find("Overall exposure level");
-  if (at == std::string::npos)
-    GTEST_SKIP() << "systemd-analyze security does not judge files offline here: " << judged.text;
-  std::printf("[ EXPOSURE ] %s", judged.text.substr(at).c_str());
-  EXPECT_EQ(judged.code, 0) << "above 3.0\n" << judged.text;
+TEST(MaintainerScripts, RestartTheConsoleOnUpgradeAndStartNothingOnInstallation) {
+  const Scripts scripts;
+  const auto run = [&scripts](const std::string& script, const std::string& arguments) {
+    return scripts.run(script, arguments, "tandem-console");
+  };
+  EXPECT_NE(run("postinst", "configure 0.0.9").find("deb-systemd-invoke try-restart tandem-console.service\n"),
+            std::string::npos);
+  EXPECT_EQ(run("postinst", "configure ''").find("deb-systemd-invoke"), std::string::npos);
+  EXPECT_EQ(run("prerm", "upgrade 0.2.0").find("stop"), std::string::npos) << "until then the old one serves";
+  EXPECT_NE(run("prerm", "remove").find("deb-systemd-invoke stop tandem-console.service\n"), std::string::npos);
+  EXPECT_EQ(run("postrm", "remove").find("rm "), std::string::npos) << "the key stays";
+  EXPECT_NE(run("postrm", "purge").find("rm -rf /var/lib/tandem-console /var/lib/private/tandem-console\n"),
+            std::string::npos);
 }
 
-// Checks the installed unit, except that its program is the one of this build.
-TEST(DebianPackages, ContainAUnitThatSystemdAccepts) {
+constexpr const char* kNoSystemd = "systemd-analyze is not installed (package systemd)";
+
+TEST(DebianPackages, ContainHardenedUnits) {
   if (!there("systemd-analyze")) GTEST_SKIP() << kNoSystemd;
-  const fs::path unit = fs::path{TANDEM_BINARY_DIR} / "unit" / "tandem-server.service";
-  fs::create_directories(unit.parent_path());
-  ASSERT_EQ(
-      shell("sed 's|/usr/bin/tandem-server|" + (fs::path{TANDEM_BINARY_DIR} / "bin/tandem-server").string() + "|' " +
-            quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package/tandem-server.service") + " > " + quoted(unit))
-          .code,
-      0);
-  const Done judged = shell("systemd-analyze verify --man=no " + quoted(unit));
-  EXPECT_EQ(judged.code, 0) << judged.text;
-  EXPECT_EQ(judged.text.find("tandem-server.service"), std::string::npos) << "unknown words or values\n" << judged.text;
+  for (const char* unit : {"tandem-server.service", "tandem-console.service"}) {
+    const Done judged = shell("systemd-analyze security --offline=true --threshold=30 " +
+                              quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package" / unit));
+    const auto at = judged.text.find("Overall exposure level");
+    if (at == std::string::npos)
+      GTEST_SKIP() << "systemd-analyze security does not judge files offline here: " << judged.text;
+    std::printf("[ EXPOSURE ] %s", judged.text.substr(at).c_str());
+    EXPECT_EQ(judged.code, 0) << "above 3.0\n" << judged.text;
+  }
+}
+
+// Checks the installed units, except that their programs are those of this build.
+TEST(DebianPackages, ContainUnitsThatSystemdAccepts) {
+  if (!there("systemd-analyze")) GTEST_SKIP() << kNoSystemd;
+  for (const std::string program : {"tandem-server", "tandem-console"}) {
+    const fs::path unit = fs::path{TANDEM_BINARY_DIR} / "unit" / (program + ".service");
+    fs::create_directories(unit.parent_path());
+    ASSERT_EQ(
+        shell("sed 's|/usr/bin/" + program + "|" + (fs::path{TANDEM_BINARY_DIR} / "bin" / program).string() + "|' " +
+              quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package" / (program + ".service")) + " > " + quoted(unit))
+            .code,
+        0);
+    const Done judged = shell("systemd-analyze verify --man=no " + quoted(unit));
+    EXPECT_EQ(judged.code, 0) << judged.text;
+    EXPECT_EQ(judged.text.find(program + ".service"), std::string::npos) << "unknown words or values\n" << judged.text;
+  }
 }
 
 /// Tests the service under a separate systemd. In `root` the packages are installed, and `tandem-server init` was run.
@@ -311,7 +332,7 @@ TEST(DebianPackages, InstallOnAFreshDebian) {
                                "sh -c 'export DEBIAN_FRONTEND=noninteractive; apt-get -qq update; apt-get install -y "
                                "-qq --no-install-recommends /opt/*.deb'");
   ASSERT_EQ(installed.code, 0) << installed.text;
-  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"})
+  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-console"})
     EXPECT_EQ(shell(in + name + " --version").code, 0) << name;
   EXPECT_EQ(shell(in + "stat -c '%U %a' /var/lib/tandem").text, "tandem 700\n");
   const Done init = shell(

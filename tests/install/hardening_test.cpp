@@ -59,7 +59,8 @@ TEST_P(Hardening, MarksEveryTargetOfIndirectJumps) {
   std::printf("[ targets  ] %zu addresses of code in data, %zu without endbr64\n", program.targets().size(), without);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Hardening, testing::Values(TANDEM_SERVER, TANDEM_CLIENT, TANDEM_NETSIM, TANDEM_DEMO),
+INSTANTIATE_TEST_SUITE_P(Shipped, Hardening,
+                         testing::Values(TANDEM_SERVER, TANDEM_CLIENT, TANDEM_NETSIM, TANDEM_CONSOLE, TANDEM_DEMO),
                          [](const auto& program) {
                            const std::string_view path = program.param;
                            std::string name{path.substr(path.rfind("tandem-") + 7)};

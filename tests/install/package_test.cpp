@@ -73,7 +73,7 @@ TEST(Package, WorksForAnotherProjectAfterItWasMoved) {
   ASSERT_FALSE(HasFailure());
   check_texts(prefix);
   check_headers(prefix / "include");
-  for (const char* program : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-demo"}) {
+  for (const char* program : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-console", "tandem-demo"}) {
     const Done version = shell(quoted(prefix / "bin" / program) + " --version");
     EXPECT_EQ(version.code, 0) << program << version.text;
     EXPECT_NE(version.text.find(TANDEM_VERSION), std::string::npos) << program << version.text;

@@ -86,6 +86,8 @@ TEST(GatewayAccess, GivesEachPersonTheRightsOfTheirTicket) {
   EXPECT_EQ(bob_hello["role"], "OPERATOR");
   EXPECT_NE(bob_hello["person"], "ann") << "two persons are never taken for one";
   ASSERT_EQ(bob_hello["sessions"].size(), 1U);
+  for (WebPage* page : {&ann_page, &bob_page})
+    EXPECT_FALSE(state_where(*page, [](const Json& state) { return state["age_ms"].is_number(); }).is_null());
   const Json drain = ann_page.order({{"order", "drain"}, {"grace_s", 1}});
   EXPECT_EQ(drain["ok"], false);
   const Json shift = bob_page.order({{"order", "authority"}, {"tool", 0}, {"version", 1}, {"alpha", {1}}});
@@ -106,6 +108,26 @@ TEST(GatewayAccess, GivesEachPersonTheRightsOfTheirTicket) {
   const std::string all = gateway.process.out() + gateway.process.err();
   for (const std::string& ticket : {instructor, desk})
     EXPECT_EQ(all.find(ticket), std::string::npos) << "a ticket in a log";
+}
+
+TEST(BrowserSeats, NeedATicketOfPersonsWhoSignedInByTicket) {
+  MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
+  WebGateway gateway(fixture.address, {"--sign-in", "--allow-browser-seats", "--state", fixture.own});
+  const HttpReply ann = http_post(gateway.at, "/join", kJson, json_body(console_ticket(fixture, "instructor"), "ann"),
+                                  gateway.at.origin());
+  ASSERT_EQ(ann.status, 200U) << ann.body;
+  WebPage page(gateway.at, cookie_of(ann));
+  const auto said = [&page](Json message) {
+    message["id"] = 9;
+    page.send(message);
+    return page.next("reply");
+  };
+  EXPECT_NE(said({{"type", "invite"}})["text"].get<std::string>().find("ticket"), std::string::npos);
+  const Json refused = said({{"type", "take"}, {"seat", "trainer"}});
+  EXPECT_EQ(refused["ok"], false);
+  EXPECT_NE(refused["text"].get<std::string>().find("a ticket for this seat is needed"), std::string::npos);
+  EXPECT_EQ(said({{"type", "take"}, {"seat", "trainer"}, {"ticket", fixture.ticket("a", "trainer")}})["ok"], true);
+  EXPECT_FALSE(state_where(page, [](const Json& state) { return state["seats"][0]["engaged"] == true; }).is_null());
 }
 
 TEST(GatewayAccess, RefusesSigningInWithWords) {

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <list>
 #include <map>
 #include <thread>
 
@@ -177,6 +178,41 @@ TEST(GatewayLive, ComesBackAfterTheServerWasKilled) {
   const Json scene = page.until([&](const Json& m) { return m["type"] == "scene" && m["session"] != before; });
   EXPECT_FALSE(scene.is_null());
   EXPECT_FALSE(state_where(page, [](const Json& s) { return s["age_ms"].is_number(); }).is_null());
+}
+
+TEST(GatewayLive, ShowsLiveValuesAgainAfterItWasStopped) {
+  const Process host = hosting("one_axis");
+  WebGateway gateway(address_of(host));
+  gateway.open_url();
+  WebPage page = gateway.page();
+  EXPECT_FALSE(state_where(page, [](const Json& s) { return s["age_ms"].is_number(); }).is_null());
+  gateway.process.signal(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(4));  // the server removes a watcher that is silent for so long
+  gateway.process.signal(SIGCONT);
+  const Json warned = page.until([](const Json& m) { return m["type"] == "notice" && m["level"] == "warning"; });
+  EXPECT_FALSE(warned.is_null());
+  EXPECT_FALSE(state_where(page, [](const Json& s) { return s["age_ms"].is_number(); }).is_null());
+}
+
+TEST(GatewayLive, FallsBackToTheStatusWithoutAPlaceToWatch) {
+  const Process host = hosting("one_axis");
+  std::list<Process> watching;
+  for (int n = 0; n < 8; ++n) {
+    watching.push_back(Process({TANDEM_CLIENT, "watch", "--server", address_of(host)}));
+    ASSERT_TRUE(watching.back().wait_for("s waiting")) << watching.back().err();
+  }
+  WebGateway gateway(address_of(host));
+  gateway.open_url();
+  WebPage page = gateway.page();
+  const Json warned = page.next("notice");
+  EXPECT_EQ(warned["level"], "warning");
+  EXPECT_NE(warned["text"].get<std::string>().find("all 8 places"), std::string::npos) << warned;
+  const Json state = page.next("state");
+  EXPECT_TRUE(state["age_ms"].is_null());
+  EXPECT_EQ(state["phase"], "WAITING");
+  watching.front().signal(SIGINT);
+  EXPECT_EQ(watching.front().wait(), 0);
+  EXPECT_FALSE(state_where(page, [](const Json& s) { return s["age_ms"].is_number(); }).is_null()) << "a place is free";
 }
 
 /// Ticks that began more than 1 ms late, and all ticks.

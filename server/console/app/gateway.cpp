@@ -14,6 +14,7 @@ namespace {
 constexpr double kJoinRate = 0.5, kJoinBurst = 10;      // of one source [1/s], [1]: a class behind one address
 constexpr double kAllJoinRate = 2, kAllJoinBurst = 40;  // of all sources
 constexpr std::size_t kOthersMax = 16;                  // further sessions that the gateway shows at the same time
+constexpr unsigned kFeedsMax = 2;  // persons of a session with datagrams: one stays when the other leaves
 constexpr std::chrono::seconds kTokenLife{600};
 
 }  // namespace
@@ -69,7 +70,7 @@ std::expected<void, std::string> Gateway::join(const JoinBody& body, const auth:
   link.join.session.clear();
   link.join.console = auth::claimed_role(*ticket).value_or(AccessRole::kObserver);
   const auto session = auth::claimed_session(*ticket);
-  // The server has eight places of watching consoles per session, so the first person of a session watches for all.
+  // The server has eight places of watching consoles per session, so the first persons of a session watch for all.
   link.watch = link.join.console != AccessRole::kRecorder && session && !is_watched(*session);
   const auto person = std::make_shared<Person>();
   person->name = body.name;

@@ -18,6 +18,7 @@ constexpr std::chrono::milliseconds kPeriod = 500ms;       // of status requests
 constexpr std::chrono::milliseconds kPeriodAlone = 200ms;  // without them; the server answers ten per second
 constexpr std::chrono::milliseconds kPokeInterval = 250ms;
 constexpr std::chrono::milliseconds kRetry = 1s, kListPeriod = 2s;
+constexpr std::chrono::milliseconds kFeedRetry = 5s;  // a watcher that was silent, or found no place, asks again
 
 /// Whether a session refuses for good, so that only a new join helps.
 bool is_final(rpc::ErrorCode code) noexcept {
@@ -121,6 +122,7 @@ void ServerLink::update(Change change) {
 }
 
 void ServerLink::adopt(JoinedLink joined) {
+  feed_.reset();
   console_ = std::move(joined.console);
   std::shared_ptr<const SceneSpec> scene;
   if (joined.feed) scene = std::make_shared<const SceneSpec>(joined.feed->scene());
@@ -199,6 +201,12 @@ void ServerLink::ask_sessions() {
   }
 }
 
+/// Joins once more if datagrams are missing, beside the connection that works.
+void ServerLink::regain_feed() {
+  auto joined = join_link(options_.join, true);
+  if (joined && joined->feed) adopt(std::move(*joined));
+}
+
 void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
   if (!console_.connection)
     return reply(false, "the connection to the server is lost; repeat the order when it is back");
@@ -216,7 +224,7 @@ void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
 }
 
 void ServerLink::work() {
-  Clock::time_point asked{}, listed{};
+  Clock::time_point asked{}, listed{}, watched = Clock::now();
   bool good = console_.connection != nullptr;
   std::unique_lock hold{lock_};
   while (!over_) {
@@ -245,6 +253,12 @@ void ServerLink::work() {
     if (good && console_.connection && options_.list && asked - listed >= kListPeriod) {
       listed = asked;
       ask_sessions();
+    }
+    if (live()) {
+      watched = asked;
+    } else if (good && console_.connection && options_.again && options_.watch && asked - watched >= kFeedRetry) {
+      watched = asked;
+      regain_feed();
     }
     hold.lock();
     const auto period = !good ? kRetry : live() ? kPeriod : kPeriodAlone;

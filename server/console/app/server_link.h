@@ -71,6 +71,7 @@ class ServerLink final : public LiveSource {
   [[nodiscard]] bool join();
   [[nodiscard]] bool ask_status();
   void ask_sessions();
+  void regain_feed();
   void execute(const rpc::Body& body, const Reply& reply);
   template <class Change>
   void update(Change change);

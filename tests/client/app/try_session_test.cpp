@@ -45,8 +45,9 @@ TEST(TrySession, EndsThePartnersBeforeTheServerHoweverItEnds) {
   for (const bool stops : {true, false}) {
     const EndLog ends;
     {
-      TrySession trial{false, true, {"trainer", "trainee"}};
-      for (const char* name : {"server", "trainer", "trainee"}) trial.add(ends.child(name));
+      std::vector<ChildProgram> programs;
+      for (const char* name : {"server", "trainer", "trainee"}) programs.push_back(ends.child(name));
+      TrySession trial{false, true, {"trainer", "trainee"}, TrialPrograms(std::move(programs))};
       EXPECT_EQ(trial.leave_reason(), "");
       if (stops) trial.stop();
     }
@@ -66,10 +67,11 @@ TEST(TrySession, ExtendsAShortSessionBeyondTheTutorial) {
 }
 
 TEST(TrySession, LeavesWhenAChildFailsAndNamesIt) {
-  TrySession trial{false, true, {}};
   auto child = ChildProgram::start("the simulated trainer", {"/bin/sh", "-c", "echo no seat >&2; exit 3"});
   ASSERT_TRUE(child) << child.error();
-  trial.add(std::move(*child));
+  std::vector<ChildProgram> programs;
+  programs.push_back(std::move(*child));
+  TrySession trial{false, true, {}, TrialPrograms(std::move(programs))};
   EXPECT_EQ(trial.failure(), "");
   EXPECT_TRUE(wait_unless_interrupted(20s, -1, [&] { return !trial.leave_reason().empty(); }));
   EXPECT_EQ(trial.leave_reason(), "the simulated trainer ended by itself: no seat");
