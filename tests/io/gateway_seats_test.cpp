@@ -114,7 +114,7 @@ TEST(BrowserSeats, AreRefusedWithTheReason) {
   page.send(Json{{"type", "leave"}, {"id", 3}});
   EXPECT_EQ(page.next("reply")["text"], "this page has no seat");
   ASSERT_FALSE(state_where(page, [](const Json& state) { return state["seats"][0]["taken"] == true; }).is_null());
-  for (const char* seat : {"trainer", "nobody"}) {
+  for (const char* seat : {"trainer", "absent"}) {
     EXPECT_EQ(take(page, seat)["ok"], true) << "the server decides, and its reply comes with the seat";
     const Json over = seat_where(page, [](const Json& s) { return s["ended"].is_string(); });
     ASSERT_FALSE(over.is_null());

@@ -162,8 +162,10 @@ std::vector<SourceFile> read_repository(const std::filesystem::path& root) {
   };
   for (const std::string_view folder : kFolders) {
     if (!fs::is_directory(root / folder)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.is_regular_file() && is_text(entry.path().filename().string())) add(entry.path());
+    for (auto at = fs::recursive_directory_iterator(root / folder); at != fs::recursive_directory_iterator(); ++at) {
+      const std::string name = at->path().filename().string();
+      if (name == "node_modules") at.disable_recursion_pending();  // packages of others, not in the repository
+      if (at->is_regular_file() && is_text(name)) add(at->path());
     }
   }
   for (const auto& entry : fs::directory_iterator(root)) {
