@@ -9,8 +9,9 @@ namespace tandem::server {
 std::string note_problem(std::string_view json) {
   using Json = nlohmann::json;
   bool deep = false;
-  const Json::parser_callback_t check = [&](int depth, Json::parse_event_t, Json&) {
-    deep = deep || depth > kNoteDepthMax;
+  const Json::parser_callback_t check = [&](int depth, Json::parse_event_t event, Json&) {
+    const bool opens = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    deep = deep || (opens && depth >= kNoteDepthMax);
     return !deep;
   };
   const Json parsed = Json::parse(json, check, false);

@@ -52,7 +52,9 @@ TEST(SessionMessages, LimitLifeAndHolders) {
 }
 
 TEST(SessionMessages, CarryTicketsOfTheirLength) {
-  SessionCreated created{.session = {.id = {}, .name = "exam", .seats = {}}, .code = "ABCDE12345", .tickets = {{"a", "b", {std::byte{1}}}}};
+  SessionCreated created{.session = {.id = {}, .name = "exam", .seats = {}},
+                         .code = "ABCDE12345",
+                         .tickets = {{"a", "b", {std::byte{1}}}}};
   EXPECT_TRUE(encodes(created));
   created.tickets[0].ticket.clear();
   EXPECT_FALSE(encodes(created));
