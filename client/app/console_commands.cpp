@@ -112,19 +112,36 @@ ParsedCommand parse_drain(CommandWords words) {
   return std::unexpected("drain: \"" + joined(words.subspan(1)) + "\" must be seconds in [0, 3600]");
 }
 
+/// Parses a command with a parser of its arguments.
+template <auto parse>
+ParsedCommand parse_arguments(CommandWords words) {
+  auto parsed = parse({words.begin() + 1, words.end()});
+  if (!parsed) return std::unexpected(parsed.error());
+  return std::move(*parsed);
+}
+
+ParsedCommand parse_end(CommandWords words) {
+  if (words.size() == 1) return std::unexpected("end: SESSION is missing. Example: end exam");
+  return with_reason(EndCommand{.session = words[1], .why = {}}, words, 2);
+}
+
 struct CommandName {
   std::string_view word;
   ParsedCommand (*parse)(CommandWords words);
 };
-constexpr std::array<CommandName, 9> kCommandNames{{{"status", parse_bare<rpc::StatusRequest>},
-                                                    {"stop", parse_stop},
-                                                    {"pause", parse_pause},
-                                                    {"resume", parse_resume},
-                                                    {"authority", parse_authority},
-                                                    {"remove", parse_remove},
-                                                    {"drain", parse_drain},
-                                                    {"help", parse_bare<HelpCommand>},
-                                                    {"quit", parse_bare<QuitCommand>}}};
+constexpr std::array<CommandName, 13> kCommandNames{{{"status", parse_bare<rpc::StatusRequest>},
+                                                     {"stop", parse_stop},
+                                                     {"pause", parse_pause},
+                                                     {"resume", parse_resume},
+                                                     {"authority", parse_authority},
+                                                     {"remove", parse_remove},
+                                                     {"drain", parse_drain},
+                                                     {"create", parse_arguments<parse_creation>},
+                                                     {"end", parse_end},
+                                                     {"sessions", parse_bare<SessionsCommand>},
+                                                     {"note", parse_arguments<parse_note>},
+                                                     {"help", parse_bare<HelpCommand>},
+                                                     {"quit", parse_bare<QuitCommand>}}};
 
 /// Returns the sanitised text as a JSON string.
 std::string in_quotes(std::string_view text) {
@@ -151,8 +168,10 @@ std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::st
   const auto found = std::ranges::find(
       kCommandNames, words.empty() ? std::string_view() : std::string_view(words.front()), &CommandName::word);
   if (found == kCommandNames.end())
-    return std::unexpected("\"" + (words.empty() ? std::string() : words.front()) +
-                           "\" is no command; commands: status, stop, pause, resume, authority, remove, drain");
+    return std::unexpected(
+        "\"" + (words.empty() ? std::string() : words.front()) +
+        "\" is no command; commands: status, stop, pause, resume, authority, remove, drain, create, end, "
+        "sessions, note");
   return found->parse(words);
 }
 
@@ -172,6 +191,15 @@ const char* console_commands_help() noexcept {
          "  remove SEAT [WHY ...]                     releases that hand and frees the seat (instructor, operator)\n"
          "  drain [SECONDS]                           rejects new joins; after SECONDS releases all hands and ends the "
          "server (operator)\n"
+         "  create NAME SCENE [tickets] [time=S] [SEAT=WORKSTATION ...]  opens a session of a scene of the server or "
+         "of a "
+         "file; prints its code, and a\n"
+         "                                            ticket for each SEAT=WORKSTATION; it ends after S seconds "
+         "(operator)\n"
+         "  end SESSION [WHY ...]                     releases all hands of that session and closes it (operator)\n"
+         "  sessions                                  the sessions of the server\n"
+         "  note mark|sheet JSON                      writes a mark or a sheet of an assessment (instructor, "
+         "operator)\n"
          "  help, quit                                in the console\n";
 }
 

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "client/app/console_sessions.h"
 #include "proto/rpc/rpc_messages.h"
 
 namespace tandem::client {
@@ -26,7 +27,8 @@ struct QuitCommand {};
 /// A command of the operator console, given after `control` or on a line of standard input: the request that the server
 /// receives. The sender adds the id of the session, and the number of the present stop to a ResumeSession of stop 0.
 using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::PauseSession, rpc::ResumeSession,
-                                    AuthorityCommand, rpc::RemoveParticipant, rpc::Drain, HelpCommand, QuitCommand>;
+                                    AuthorityCommand, rpc::RemoveParticipant, rpc::Drain, CreateCommand, EndCommand,
+                                    SessionsCommand, rpc::Note, HelpCommand, QuitCommand>;
 
 /// Parses a console command. @return the command, or the error with the expected form
 [[nodiscard]] std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::string> words);

@@ -29,10 +29,10 @@ inline bool is_code(std::string_view text) noexcept {
          std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z'); });
 }
 
-/// Whether text is UTF-8 [RFC 3629] without control characters, so that it cannot control a terminal; at most kTextMax
-/// bytes.
-inline bool is_text(std::string_view text) noexcept {
-  if (text.size() > kTextMax) return false;
+/// Whether text is UTF-8 [RFC 3629] without control characters, so that it cannot control a terminal; at most
+/// `most` bytes.
+inline bool is_text(std::string_view text, std::size_t most = kTextMax) noexcept {
+  if (text.size() > most) return false;
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i]);
     if (lead < 0x20 || lead == 0x7f) return false;

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "proto/rpc/rpc_bounds.h"
+#include "proto/rpc/rpc_convert_sessions.h"
 
 namespace tandem::rpc {
 namespace {
@@ -136,37 +137,11 @@ void write(const SessionListRequest&, wire_pb::SessionListRequest&) {}
 bool read(const wire_pb::SessionList& in, SessionList& out) {
   if (in.session_size() > static_cast<int>(kSessionsMax)) return false;
   out.more = in.more();
-  for (const wire_pb::Session& s : in.session()) {
-    ListedSession& session = out.sessions.emplace_back();
-    if (s.seat_size() > static_cast<int>(kListedSeatsMax) ||
-        s.state() > static_cast<std::uint32_t>(SessionPhase::kOverloaded))
-      return false;
-    session.phase = static_cast<SessionPhase>(s.state());
-    if (!take(s.id(), session.id) || !take_name(s.name(), session.name)) return false;
-    for (const wire_pb::Seat& seat : s.seat()) {
-      ListedSeat& listed = session.seats.emplace_back();
-      listed.taken = seat.taken();
-      listed.required = seat.required();
-      if (!take_name(seat.name(), listed.name) || !take_role(seat.role(), listed.role)) return false;
-    }
-  }
-  return true;
+  return std::ranges::all_of(in.session(), [&](const auto& s) { return read_listed(s, out.sessions.emplace_back()); });
 }
 void write(const SessionList& in, wire_pb::SessionList& out) {
   out.set_more(in.more);
-  for (const ListedSession& s : in.sessions) {
-    auto& session = *out.add_session();
-    session.set_id(text_of(s.id));
-    session.set_name(s.name);
-    session.set_state(static_cast<std::uint32_t>(s.phase));
-    for (const ListedSeat& listed : s.seats) {
-      auto& seat = *session.add_seat();
-      seat.set_name(listed.name);
-      seat.set_role(static_cast<std::uint32_t>(listed.role));
-      seat.set_taken(listed.taken);
-      seat.set_required(listed.required);
-    }
-  }
+  for (const ListedSession& s : in.sessions) write_listed(s, *out.add_session());
 }
 
 /// Stops and pauses: a session and a reason.
@@ -371,6 +346,10 @@ constexpr std::array<Conversion, kKinds> kConversions{
     conversion<RemoveParticipant, &Pb::remove_participant, &Pb::mutable_remove_participant>(),
     conversion<StatusRequest, &Pb::status_request, &Pb::mutable_status_request>(),
     conversion<Status, &Pb::status, &Pb::mutable_status>(),
+    conversion<CreateSession, &Pb::create_session, &Pb::mutable_create_session>(),
+    conversion<SessionCreated, &Pb::session_created, &Pb::mutable_session_created>(),
+    conversion<EndSession, &Pb::end_session, &Pb::mutable_end_session>(),
+    conversion<Note, &Pb::note, &Pb::mutable_note>(),
 };
 
 }  // namespace
@@ -386,6 +365,8 @@ void wipe_secrets(Pb& frame) noexcept {
   if (frame.has_hello() && frame.hello().has_ticket()) wipe(*frame.mutable_hello()->mutable_ticket());
   if (frame.has_hello() && frame.hello().has_resume_secret()) wipe(*frame.mutable_hello()->mutable_resume_secret());
   if (frame.has_welcome()) wipe(*frame.mutable_welcome()->mutable_resume_secret());
+  for (int i = 0; i < frame.session_created().ticket_size(); ++i)
+    wipe(*frame.mutable_session_created()->mutable_ticket(i)->mutable_ticket());
   if (frame.has_enroll()) wipe(*frame.mutable_enroll()->mutable_code());
 }
 

@@ -28,6 +28,9 @@ inline constexpr std::size_t kVersionsMax = 8;
 inline constexpr std::size_t kTicketMax = 512;  ///< more than a ticket has, so that a wrong length is a ticket error
 inline constexpr std::size_t kSessionCodeSize = 10;
 inline constexpr std::size_t kSessionsMax = 48, kListedSeatsMax = kSeatsMax;
+inline constexpr std::size_t kSceneTextMax = 49152;  ///< scene in a CreateSession [bytes]
+inline constexpr std::uint32_t kLifeMaxS = 86400;    ///< of a created session [s]
+inline constexpr std::size_t kNoteMax = 8192;        ///< JSON of a Note [bytes]
 
 using Id = std::array<std::byte, 16>;
 
@@ -275,10 +278,54 @@ struct Status {
   friend bool operator==(const Status&, const Status&) = default;
 };
 
+/// A workstation that gets a ticket for a seat.
+struct SeatHolder {
+  std::string seat, workstation;  ///< names
+  friend bool operator==(const SeatHolder&, const SeatHolder&) = default;
+};
+struct CreateSession {
+  std::string name;                   ///< a name
+  std::string scene{};                ///< a name, or empty: exactly one of `scene` and `scene_text` is empty
+  std::string scene_text{};           ///< at most kSceneTextMax
+  bool tickets_only = false;          ///< no session code
+  std::uint32_t life_s = 0;           ///< [s] 0 ... kLifeMaxS; 0: no limit
+  std::vector<SeatHolder> holders{};  ///< at most kSeatsMax, each seat once
+  friend bool operator==(const CreateSession&, const CreateSession&) = default;
+};
+struct SeatTicket {
+  std::string seat, workstation;  ///< names
+  std::vector<std::byte> ticket;  ///< 1 ... kTicketMax
+  friend bool operator==(const SeatTicket&, const SeatTicket&) = default;
+};
+struct SessionCreated {
+  ListedSession session;
+  std::string code;                 ///< 10 characters of 0-9 A-Z, or empty
+  std::vector<SeatTicket> tickets;  ///< at most kSeatsMax
+  friend bool operator==(const SessionCreated&, const SessionCreated&) = default;
+};
+struct EndSession {
+  Id session_id{};
+  std::string why{};  ///< at most kTextMax
+  friend bool operator==(const EndSession&, const EndSession&) = default;
+};
+/// Kind of a Note. The numbers are sent on the wire: append-only.
+enum class NoteKind : std::uint8_t { kMark = 1, kSheet = 2 };
+[[nodiscard]] constexpr const char* to_text(NoteKind kind) noexcept {
+  return kind == NoteKind::kMark ? "mark" : "sheet";
+}
+/// Mark on the timeline, or sheet of an assessment.
+struct Note {
+  Id session_id{};
+  NoteKind kind = NoteKind::kMark;
+  std::string
+      json;  ///< 1 ... kNoteMax bytes of UTF-8 without control characters; the server checks that it is an object
+  friend bool operator==(const Note&, const Note&) = default;
+};
+
 /// The message of a frame, in the order of Kind.
 using Body = std::variant<Hello, Welcome, ErrorReply, Enroll, EnrollAck, SessionListRequest, SessionList, StopSession,
                           ResumeSession, PauseSession, SetAuthority, AuthorityReply, Drain, Ping, Pong, Ok,
-                          RemoveParticipant, StatusRequest, Status>;
+                          RemoveParticipant, StatusRequest, Status, CreateSession, SessionCreated, EndSession, Note>;
 
 /// Kind of the message in a frame. It is readable before the payload, so that roles are checked first. The number is
 /// the field's number in ControlFrame.
@@ -301,10 +348,14 @@ enum class Kind : std::uint8_t {
   kOk,
   kRemoveParticipant,
   kStatusRequest,
-  kStatus
+  kStatus,
+  kCreateSession,
+  kSessionCreated,
+  kEndSession,
+  kNote
 };
 inline constexpr std::size_t kKinds = std::variant_size_v<Body>;
-static_assert(static_cast<std::size_t>(Kind::kStatus) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
+static_assert(static_cast<std::size_t>(Kind::kNote) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
 
 struct Frame {
   std::uint32_t request = 0;

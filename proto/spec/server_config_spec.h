@@ -34,6 +34,7 @@ struct ConnectionLimitsSpec {
   double deadline_s = 5;
   double load_percent = 60;
   double core_percent = 80;
+  std::uint32_t created_sessions = 16;
 };
 
 struct LogSpec {
@@ -49,7 +50,7 @@ struct AuditSpec {
 
 struct ServerConfigSpec {
   std::string file;
-  LocatedText listen, state, metrics, reports;
+  LocatedText listen, state, metrics, reports, scenes;
   std::vector<std::string> metrics_hosts;
   std::vector<ConfiguredSessionSpec> sessions;  ///< at least one
   ConnectionLimitsSpec limits;

@@ -12,14 +12,15 @@ using text::MessageKey;
 using text::MessageValidator;
 
 using Limits = ConnectionLimitsSpec;
-constexpr std::array<MessageKey<Limits>, 8> kLimitKeys{{{"accepts_per_s", &Limits::accepts_per_s},
+constexpr std::array<MessageKey<Limits>, 9> kLimitKeys{{{"accepts_per_s", &Limits::accepts_per_s},
                                                         {"accepts_burst", &Limits::accepts_burst},
                                                         {"accepts_per_s_all", &Limits::accepts_per_s_all},
                                                         {"pending", &Limits::pending},
                                                         {"connections", &Limits::connections},
                                                         {"deadline_s", &Limits::deadline_s},
                                                         {"load_percent", &Limits::load_percent},
-                                                        {"core_percent", &Limits::core_percent}}};
+                                                        {"core_percent", &Limits::core_percent},
+                                                        {"created_sessions", &Limits::created_sessions}}};
 constexpr std::array<MessageKey<AuditSpec>, 2> kAuditKeys{
     {{"file_mib", &AuditSpec::file_mib}, {"older_files", &AuditSpec::older_files}}};
 
@@ -72,6 +73,7 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
   out.metrics =
       not_empty(in.has_metrics(), in.metrics(), validator, "metrics", "write HOST:PORT, or leave the key out");
   out.reports = not_empty(in.has_reports(), in.reports(), validator, "reports", "name a folder, or leave the key out");
+  out.scenes = not_empty(in.has_scenes(), in.scenes(), validator, "scenes", "name a folder, or leave the key out");
   if (in.session_size() == 0 && !validator.is_set("session[0]"))
     validator.error("session", "is missing: a server needs at least one session");
   for (int i = 0; i < in.session_size(); ++i) {
@@ -116,6 +118,7 @@ std::string effective_server_config_text(const ServerConfigSpec& config) {
   if (!config.metrics.text.empty()) out.set_metrics(config.metrics.text);
   for (const std::string& name : config.metrics_hosts) out.add_metrics_host(name);
   if (!config.reports.text.empty()) out.set_reports(config.reports.text);
+  if (!config.scenes.text.empty()) out.set_scenes(config.scenes.text);
   text::write_keys(config.audit, kAuditKeys, *out.mutable_audit());
   return text::listing(out);
 }

@@ -23,6 +23,7 @@ constexpr std::array<std::array<Grant, kAccessRoles>, kRights> kTable{{
     /* end a pause   */ {kYes, kPart, kPart, kNo, kYes, kNo},
     /* manage seats  */ {kYes, kNo, kNo, kNo, kYes, kNo},
     /* manage server */ {kNo, kNo, kNo, kNo, kYes, kNo},
+    /* score         */ {kYes, kNo, kYes, kNo, kYes, kNo},
 }};
 
 /// Permission that a frame requires: at least `least` of `right`.
@@ -32,7 +33,7 @@ struct Need {
   Grant least;
   const char* words;  ///< "... may not WORDS"
 };
-constexpr std::array<Need, 7> kNeeds{{
+constexpr std::array<Need, 10> kNeeds{{
     {rpc::Kind::kStopSession, Right::kStopSession, Grant::kYes, "stop the session"},
     {rpc::Kind::kPauseSession, Right::kStopSession, Grant::kPart, "pause the session"},
     {rpc::Kind::kResumeSession, Right::kEndPause, Grant::kPart, "resume the session"},
@@ -40,6 +41,9 @@ constexpr std::array<Need, 7> kNeeds{{
     {rpc::Kind::kRemoveParticipant, Right::kManageSeats, Grant::kYes, "remove a participant"},
     {rpc::Kind::kDrain, Right::kManageServer, Grant::kYes, "drain the server"},
     {rpc::Kind::kStatusRequest, Right::kTelemetry, Grant::kPart, "see the session's status"},
+    {rpc::Kind::kCreateSession, Right::kManageServer, Grant::kYes, "create a session"},
+    {rpc::Kind::kEndSession, Right::kManageServer, Grant::kYes, "end a session"},
+    {rpc::Kind::kNote, Right::kScore, Grant::kYes, "write marks and sheets"},
 }};
 
 const Need* need_of(rpc::Kind kind) noexcept {

@@ -21,9 +21,10 @@ enum class Right : std::uint8_t {
   kStopSession,   ///< also resume it, whatever the origin of the stop; kPart: pause it
   kEndPause,      ///< kPart: the seat's own pauses only, in a scene without an instructor seat (StopLatch)
   kManageSeats,   ///< create seats and tickets, remove a participant
-  kManageServer,  ///< enrol and revoke workstations, drain
+  kManageServer,  ///< enrol and revoke workstations, create and end sessions, drain
+  kScore,         ///< write marks and sheets of an assessment
 };
-inline constexpr std::size_t kRights = 8;
+inline constexpr std::size_t kRights = 9;
 
 enum class Grant : std::uint8_t { kNo, kPart, kYes };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "server/policy/roles.h"
 #include "server/session/session.h"
 
 namespace tandem::server {
@@ -55,6 +56,10 @@ struct Execution {
     if (!seat) return Result::kNoSuchSeat;
     effect.target_seat = static_cast<std::uint8_t>(*seat);
     return remove_client(session, *seat, 0, wire::CloseReason::kRemoved);
+  }
+  /// A note changes nothing in the session, which adds its tick and time.
+  Result operator()(const rpc::Note&) const noexcept {
+    return allowed(command.role, Right::kScore) == Grant::kYes ? Result::kDone : Result::kForbidden;
   }
   template <class Other>
   Result operator()(const Other&) const noexcept {

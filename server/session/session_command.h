@@ -21,7 +21,7 @@ class Session;
 /// thread, which executes it between two ticks. The control plane has checked that the role may use such a command at
 /// all (roles.h). The session checks what only it knows: versions, stop numbers and the parties of an authority change.
 struct SessionCommand {
-  ///  StatusRequest, StopSession, PauseSession, ResumeSession, SetAuthority or RemoveParticipant.
+  ///  StatusRequest, StopSession, PauseSession, ResumeSession, SetAuthority, RemoveParticipant or Note.
   rpc::Body body = rpc::StatusRequest{};
   AccessRole role = AccessRole::kObserver;
   std::uint8_t seat = AuditEvent::kNoSeat;  ///< seat of the client, AuditEvent::kNoSeat for a console

@@ -19,7 +19,10 @@ std::vector<rpc::Body> every_command() {
           rpc::ResumeSession{kId, 1},
           rpc::SetAuthority{kId, 0, 1, {0.5, 0.5}},
           rpc::RemoveParticipant{kId, "trainee", "why"},
-          rpc::Drain{0}};
+          rpc::Drain{0},
+          rpc::CreateSession{.name = "exam", .scene = "contact"},
+          rpc::EndSession{kId, "why"},
+          rpc::Note{kId, rpc::NoteKind::kMark, "{}"}};
 }
 
 /// Polls until the condition holds; fails the test at the time limit instead of hanging it.

@@ -1,7 +1,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdio>
 #include <sstream>
 #include <string>
@@ -10,6 +9,8 @@
 #include "client/app/commands/client_commands.h"
 #include "client/app/commands/connection_options.h"
 #include "client/app/console_commands.h"
+#include "client/app/console_lines.h"
+#include "client/app/console_sessions.h"
 #include "common/auth/io/control_client.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
@@ -19,60 +20,18 @@
 #include "common/io/print.h"
 #include "common/io/signals.h"
 #include "common/io/usage_errors.h"
+#include "proto/rpc/session_list_text.h"
 
 namespace tandem::client {
 namespace {
 
-constexpr int kPollIntervalMs = 1000;  // between two polls of the session status
+constexpr int kPollIntervalMs = ConsoleLines::kIdleMs;  // between two polls of the session status
 
 struct ControlArguments {
   ConnectionArguments connection;
   std::string role;
   std::vector<std::string> words;
   bool json = false;
-};
-
-/// Reads the lines of standard input until it ends or a signal arrives.
-class Lines {
- public:
-  Lines(int signals, int server) : signals_(signals), server_(server) {}
-  /// Returns the next line; nullopt at the end of input, after a signal, if the server is gone, or if `idle`.
-  std::optional<std::string> next() {
-    idle_ = false;
-    while (true) {
-      if (const auto end = text_.find('\n'); end != std::string::npos) {
-        std::string line = text_.substr(0, end);
-        text_.erase(0, end + 1);
-        return line;
-      }
-      pollfd files[] = {{STDIN_FILENO, POLLIN, 0}, {signals_, POLLIN, 0}, {server_, POLLIN | POLLRDHUP, 0}};
-      const int events = poll(files, 3, kPollIntervalMs);
-      if (events == 0) {
-        idle_ = true;
-        return std::nullopt;
-      }
-      if (events < 0 || files[1].revents != 0) return std::nullopt;
-      if (files[2].revents != 0) {
-        server_gone_ = true;
-        return std::nullopt;
-      }
-      std::array<char, 4096> part;
-      const ssize_t size = ::read(STDIN_FILENO, part.data(), part.size());
-      if (size <= 0 || text_.size() > part.size())
-        return text_.empty() ? std::nullopt : std::optional(std::exchange(text_, {}));
-      text_.append(part.data(), static_cast<std::size_t>(size));
-    }
-  }
-
-  /// True if `next` returned because of kPollIntervalMs without input.
-  [[nodiscard]] bool idle() const { return idle_; }
-  /// True if the server closed the connection while no request was pending.
-  [[nodiscard]] bool server_gone() const { return server_gone_; }
-
- private:
-  int signals_, server_;
-  bool server_gone_ = false, idle_ = false;
-  std::string text_;
 };
 
 /// Executes console commands for one session over one connection.
@@ -157,7 +116,7 @@ class ConsoleClient {
     if (!answer) {
       complain(answer.error().text);
     } else if (const auto* good = std::get_if<Answer>(&*answer)) {
-      (std::is_same_v<Answer, rpc::Status> ? looked_ : acted_) = true;
+      (std::is_same_v<Answer, rpc::Status> || std::is_same_v<Answer, rpc::SessionList> ? looked_ : acted_) = true;
       return *good;
     } else if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) {
       refused_ = true;
@@ -230,6 +189,28 @@ class ConsoleClient {
                             request.grace_s));
   }
 
+  int run(const CreateCommand& command) {
+    const auto order = creation_order(command);
+    if (!order) return complain(order.error(), io::kExitUsage);
+    const auto created = ask<rpc::SessionCreated>(*order);
+    if (!created) return io::kExitTrouble;
+    return say(json_ ? created_json(*created) : created_text(*created, io::to_text(asked_.server)));
+  }
+  int run(const EndCommand& command) {
+    const auto list = ask<rpc::SessionList>(rpc::SessionListRequest{});
+    if (!list) return io::kExitTrouble;
+    const auto id = listed_session(*list, command.session);
+    if (!id) return complain(id.error());
+    return order(rpc::EndSession{*id, command.why}) ? say(command.session + ": ended") : io::kExitTrouble;
+  }
+  int run(const SessionsCommand&) {
+    const auto list = ask<rpc::SessionList>(rpc::SessionListRequest{});
+    return list ? say(json_ ? session_list_json(*list) : session_list_text(*list)) : io::kExitTrouble;
+  }
+  int run(const rpc::Note& note) {
+    return order(note) ? say(std::string(to_text(note.kind)) + ": written") : io::kExitTrouble;
+  }
+
   int run(const HelpCommand&) { return say(console_commands_help()); }
   int run(const QuitCommand&) { return io::kExitDone; }
 
@@ -271,7 +252,7 @@ int converse(ConsoleClient& attendant, int signals) {
   const std::string prompt =
       attendant.welcome().session_name + " (" + std::string(to_text(attendant.welcome().role)) + ")> ";
   if (person) std::printf("the connection stays open until you quit; `help` lists the commands\n");
-  Lines lines(signals, attendant.connection());
+  ConsoleLines lines(signals, attendant.connection());
   int worst = io::kExitDone;
   bool waiting = false;  // the prompt is already shown
   while (true) {
@@ -350,7 +331,8 @@ int control_command(const ControlArguments& arguments) {
 
 void add_control_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
-      "control", "Operates a session from a console: stops, resumes, moves authority, removes clients.",
+      "control",
+      "Operates a session from a console: stops, resumes, moves authority, removes clients, creates sessions.",
       control_command);
   add_server_option(command, arguments.connection);
   add_session_option(command, arguments.connection,

@@ -73,8 +73,12 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
                   .load_limits = {limits.load_percent / 100, limits.core_percent / 100},
                   .metrics_hosts = config.metrics_hosts,
                   .audit = {static_cast<std::uint64_t>(config.audit.file_mib * (1 << 20)), config.audit.older_files}},
+      .created_max = limits.created_sessions,
+      .scenes = path_beside_config(config, config.scenes.text),
+      .reports = path_beside_config(config, config.reports.text),
       .sessions_resume = true};
   ControlOptions& control = plan.control;
+  control.notes = plan.reports;
   if (const auto listen = io::parse_address(config.listen.text, 0)) {
     control.listen = *listen;
     if (const std::string problem = problem_with_address(*listen); !problem.empty())
@@ -97,6 +101,9 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
   if (!config.reports.text.empty())
     if (const std::string problem = folder_error(path_beside_config(config, config.reports.text)); !problem.empty())
       errors.push_back(config.reports.error(config.file, problem));
+  std::error_code error;
+  if (!plan.scenes.empty() && !fs::is_directory(plan.scenes, error))
+    errors.push_back(config.scenes.error(config.file, "is not a folder"));
   for (const ConfiguredSessionSpec& session : config.sessions)
     plan.sessions.push_back(session_options_from(config, session, errors));
   control.limits.accept = {limits.accepts_per_s, limits.accepts_burst, limits.accepts_per_s_all,

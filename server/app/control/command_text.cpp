@@ -27,6 +27,7 @@ struct WordsOf {
   Words operator()(const rpc::ResumeSession&) const noexcept { return {"resume", "RESUMED"}; }
   Words operator()(const rpc::SetAuthority&) const noexcept { return {"authority", ""}; }
   Words operator()(const rpc::RemoveParticipant&) const noexcept { return {"remove", "REMOVED"}; }
+  Words operator()(const rpc::Note&) const noexcept { return {"note", ""}; }
   template <class Other>
   Words operator()(const Other&) const noexcept {
     return {"look", ""};
@@ -106,6 +107,8 @@ std::string audit_detail(const std::string& who, const SessionCommand& command, 
   const auto* const authority = std::get_if<rpc::SetAuthority>(&command.body);
   if (const auto* const remove = std::get_if<rpc::RemoveParticipant>(&command.body)) {
     text += " " + remove->seat;
+  } else if (const auto* const note = std::get_if<rpc::Note>(&command.body)) {
+    text += format(" %s, %zu bytes", rpc::to_text(note->kind), note->json.size());
   } else if (authority != nullptr) {
     text +=
         format(" %s version %u", authority->tool < scene.tools.size() ? scene.tools[authority->tool].name.c_str() : "?",

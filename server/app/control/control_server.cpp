@@ -10,6 +10,7 @@
 #include "common/auth/io/identity_selector.h"
 #include "common/base/format.h"
 #include "common/io/log.h"
+#include "server/app/control/note_log.h"
 #include "server/app/control/server_keys.h"
 #include "server/app/monitor/metrics.h"
 
@@ -54,7 +55,11 @@ ControlServer::ControlServer(auth::ServerKeystore trust, const ControlOptions& o
                if (audit_.record(news) && on_event_) on_event_(news);
              }),
       serving_timer_(thread_.context()),
-      revocation_timer_(thread_.context()) {}
+      revocation_timer_(thread_.context()) {
+  commands_.set_orders(orders_);
+  commands_.set_on_note(
+      [log = NoteLog(options.notes)](const SessionNote& note) { return log.append(note, auth::wall_seconds()); });
+}
 
 ControlServer::~ControlServer() { stop(); }
 

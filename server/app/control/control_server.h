@@ -50,6 +50,8 @@ class ControlServer {
   }
   /// The sessions. Only for the control thread, except before `start`; `drain().due()` for any thread.
   [[nodiscard]] SessionRegistry& registry() noexcept { return registry_; }
+  /// Orders of operators to create and end sessions, for the thread that executes them.
+  [[nodiscard]] SessionOrders& orders() noexcept { return orders_; }
   /// Its `post` is for any thread.
   [[nodiscard]] AuditWriter& audit() noexcept { return audit_; }
 
@@ -74,6 +76,7 @@ class ControlServer {
   ControlThread thread_;
   AuditWriter audit_;
   SessionRegistry registry_;
+  SessionOrders orders_;
   SessionCommands commands_;
   SessionJoins joins_;
   ControlPlane plane_;

@@ -8,6 +8,7 @@
 #include "common/io/clock.h"
 #include "common/io/log.h"
 #include "server/app/control/command_text.h"
+#include "server/app/control/note_check.h"
 #include "server/app/monitor/session_status.h"
 #include "server/session/connection_id.h"
 #include "server/session/stop_text.h"
@@ -47,6 +48,8 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
     drain(request->grace_s, who);
     return answer(rpc::Ok{});
   }
+  if (std::holds_alternative<rpc::CreateSession>(command) || std::holds_alternative<rpc::EndSession>(command))
+    return order(std::move(command), who, std::move(answer));
   const rpc::Id* const id = session_of(command);
   if (id == nullptr || *id != joined.session_id)
     return answer(
@@ -55,6 +58,9 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
   SessionEntry* const entry = registry_.find(*id);
   const ErrorReply over{ErrorCode::kSessionOver, "this session is over", 0};
   if (entry == nullptr) return answer(over);
+  if (const auto* const note = std::get_if<rpc::Note>(&command))
+    if (std::string problem = note_problem(note->json); !problem.empty())
+      return answer(ErrorReply{ErrorCode::kBadFrame, std::move(problem), 0});
   ShardRequest request{.what = ShardRequest::What::kCommand};
   request.command = {std::move(command), joined.role, seat_of(joined), joined.server_cid};
   request.done = [this, entry, joined, who, over, name = workstation.name,
@@ -83,6 +89,13 @@ rpc::Body SessionCommands::conclude(SessionEntry& entry, const rpc::Welcome& joi
     if (const auto owner = entry.seats[outcome.target_seat].remove_owner("removed by " + by))
       entry.removed.add(owner->spki);
   }
+  if (const auto* note = std::get_if<rpc::Note>(&command); done && note != nullptr && on_note_)
+    if (const std::string problem = on_note_({joined.session_id, joined.session_name, workstation, joined.seat,
+                                              joined.role, outcome.tick, outcome.time, note->kind, note->json});
+        !problem.empty()) {
+      io::log_event(io::Level::kError, {.event = "error", .session = joined.session_name, .text = problem});
+      return ErrorReply{ErrorCode::kInternal, "the server cannot store the note; its log has the cause", 0};
+    }
   if (std::holds_alternative<rpc::StatusRequest>(command) && done) return status_of(entry, joined, outcome);
   if (!std::holds_alternative<rpc::StatusRequest>(command)) record(entry, who, executed.command, outcome);
   rpc::Body reply = command_reply(command, joined.role, outcome, entry.session().seat_catalogue());

@@ -41,9 +41,11 @@ void SessionRegistry::add(SessionRegistration opening) {
   entries_.emplace_back(std::move(opening), io::monotonic_now());
 }
 
-void SessionRegistry::add_running(SessionRegistration opening) {
+void SessionRegistry::add_running(SessionRegistration opening, std::function<void(bool)> done) {
   add(std::move(opening));
-  post(entries_.back(), {.what = ShardRequest::What::kAddSession});
+  ShardRequest request{.what = ShardRequest::What::kAddSession};
+  request.done = [done = std::move(done)](const ShardRequest& added) { done(added.result == JoinResult::kAccepted); };
+  post(entries_.back(), std::move(request));
 }
 
 void SessionRegistry::remove(const rpc::Id& id, std::function<void()> gone) {
@@ -103,22 +105,28 @@ std::variant<SessionEntry*, ErrorReply> SessionRegistry::choose(const rpc::Sessi
   return found;
 }
 
+rpc::ListedSession SessionRegistry::listed(const SessionEntry& entry) {
+  const Time now = io::monotonic_now();
+  const SessionStatus status = entry.session().status();
+  rpc::ListedSession s{entry.registration.id, entry.registration.name, phase_of(status.state), {}};
+  for (std::size_t i = 0; i < entry.seats.size(); ++i) {
+    const SeatSpec& seat = entry.scene().seats[i];
+    s.seats.push_back({seat.name, access_role(seat.role),
+                       status.seats[i].taken || entry.seats[i].joining() || entry.seats[i].reserved(now),
+                       seat.required});
+  }
+  return s;
+}
+
 rpc::SessionList SessionRegistry::list() const {
   rpc::SessionList list;
-  const Time now = io::monotonic_now();
   for (const SessionEntry& e : entries_) {
     if (!e.open()) continue;
     if (list.sessions.size() == rpc::kSessionsMax) {
       list.more = true;
       break;
     }
-    const SessionStatus status = e.session().status();
-    rpc::ListedSession& s = list.sessions.emplace_back(e.registration.id, e.registration.name, phase_of(status.state));
-    for (std::size_t i = 0; i < e.seats.size(); ++i) {
-      const SeatSpec& seat = e.scene().seats[i];
-      s.seats.push_back({seat.name, access_role(seat.role),
-                         status.seats[i].taken || e.seats[i].joining() || e.seats[i].reserved(now), seat.required});
-    }
+    list.sessions.push_back(listed(e));
   }
   return list;
 }

@@ -22,7 +22,8 @@ class SessionRegistry {
   /// Adds a session. Call it before the context runs, or on its thread.
   void add(SessionRegistration opening);
   /// The same as `add`, and posts the session to its running shard.
-  void add_running(SessionRegistration opening);
+  /// @param done  called when the shard has the request; false: it does not serve the session
+  void add_running(SessionRegistration opening, std::function<void(bool)> done = [](bool) {});
   /// Removes a session that is over; it gets no more requests. `gone` is called when nothing refers to it any more.
   void remove(const rpc::Id& id, std::function<void()> gone);
   /// Releases all hands of a session and ends it.
@@ -39,6 +40,8 @@ class SessionRegistry {
   /// All sessions; those with `closing` are being removed.
   [[nodiscard]] std::list<SessionEntry>& entries() noexcept { return entries_; }
   [[nodiscard]] const std::list<SessionEntry>& entries() const noexcept { return entries_; }
+  /// One session of `list`. @pre entry.open()
+  [[nodiscard]] static rpc::ListedSession listed(const SessionEntry& entry);
   /// List of the open sessions for clients.
   [[nodiscard]] rpc::SessionList list() const;
   /// List of the sessions for commands on the server's computer.

@@ -21,6 +21,10 @@ class ServerHints {
         ephemeral_keys_(ephemeral_keys),
         several_(several) {}
 
+  /// From now on the server serves several sessions.
+  void set_several() noexcept { several_ = true; }
+  [[nodiscard]] bool several() const noexcept { return several_; }
+
   /// Options with which a client command finds a session.
   [[nodiscard]] std::string client_options(const std::string& session) const {
     return " --server " + client_address_ + (several_ ? " --session " + session : "") +

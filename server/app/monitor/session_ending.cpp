@@ -21,6 +21,9 @@ bool none_returned(const SessionStatus& status, const SceneSpec& scene) {
 
 std::optional<SessionEnding> session_ending(const SessionEnding::Times& when, const PresenceTracker::Events& news,
                                             const SessionStatus& status, const SceneSpec& scene) {
+  if (when.ends_at && when.now >= *when.ends_at)
+    return SessionEnding{EndReason::kTimeLimit,
+                         {"time_limit", "", "the time given to this session when it was created is over; it ends"}};
   if (news.all_left && scene.endless())
     return SessionEnding{EndReason::kAllLeft, {"people_left", "", "all participants left 10 s ago; the session ends"}};
   if (news.all_lost)

@@ -8,8 +8,9 @@
 
 namespace tandem::server {
 
-/// Why a session ended. kAllLeft: in a scene without an end, all participants left in an orderly way.
-enum class EndReason : std::uint8_t { kScene, kSignal, kStartTimeout, kPeersLost, kAllLeft };
+/// Why a session ended. kAllLeft: in a scene without an end, all participants left in an orderly way. kOperator: by an
+/// order. kTimeLimit: the time that was given when it was created is over.
+enum class EndReason : std::uint8_t { kScene, kSignal, kStartTimeout, kPeersLost, kAllLeft, kOperator, kTimeLimit };
 
 /// Decision to end a session because its participants are absent: reason and event.
 struct SessionEnding {
@@ -18,6 +19,7 @@ struct SessionEnding {
     double start_timeout_s = 0;  ///< [s] for the required seats, since the server began; 0: no limit
     /// Participants of a restored session can resume until then; nullopt: a new session.
     std::optional<Time> resume_until{};
+    std::optional<Time> ends_at{};  ///< time limit of a created session; nullopt: none
   };
   EndReason why = EndReason::kStartTimeout;
   PresenceTracker::Event event;

@@ -106,6 +106,7 @@ class ServerProcess {
   /// Waits for at most 250 ms, then services signals, messages, sessions and the status line.
   void run_once() {
     std::vector<pollfd> files{{signals_.get(), POLLIN, 0}};
+    files.push_back({control_->orders().fd(), POLLIN, 0});
     for (const auto& session : sessions_->all()) files.push_back({session->live_session().over_fd(), POLLIN, 0});
     if (poll(files.data(), files.size(), kPollIntervalMs) > 0 && files[0].revents != 0) take_signal();
     const Time now = io::monotonic_now();
@@ -115,6 +116,7 @@ class ServerProcess {
     if (drain_began_ && now - *drain_began_ > kDrainMax) exit_now("the sessions did not end within 3 s");
     feed_watchdog();
     report_machine();
+    while (auto order = control_->orders().take()) sessions_->execute(std::move(*order));
     sessions_->service(now);
     if (!output_.due(now) || drain_began_) return;
     output_.show(now, sessions_->screen_entries(),

@@ -5,6 +5,7 @@
 
 #include "common/io/log.h"
 #include "server/app/control/control_options.h"
+#include "server/app/process/session_creation.h"
 #include "server/app/process/session_instance.h"
 
 namespace tandem::server {
@@ -14,8 +15,11 @@ struct ServerOptions {
   const char* command = "run";  ///< name of the command, for messages
   std::vector<SessionOptions> sessions{};
   ControlOptions control{};
-  std::optional<io::Level> json_log{};  ///< set: log lines are JSON, of this level and above
-  double start_timeout_s = 0;           ///< [s] for the required seats to get ready; 0: no limit
+  std::optional<io::Level> json_log{};                ///< set: log lines are JSON, of this level and above
+  double start_timeout_s = 0;                         ///< [s] for the required seats to get ready; 0: no limit
+  std::size_t created_max = kCreatedSessionsDefault;  ///< sessions created at run time that are open at a time
+  std::string scenes{};   ///< folder of scenes for created sessions, NAME.textproto; empty: shipped scenes only
+  std::string reports{};  ///< folder for reports of created sessions; empty: none
   bool quiet = false;
   bool no_restore = false;       ///< ignores all checkpoints
   bool sessions_resume = false;  ///< a signal ends the server but keeps its sessions: the next start restores them

@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t kQueueTicks = 2048;
 
 const char* to_text(EndReason end) {
-  constexpr const char* kNames[] = {"scene", "signal", "nobody_came", "peers_lost", "people_left"};
+  constexpr const char* kNames[] = {"scene",       "signal",   "nobody_came", "peers_lost",
+                                    "people_left", "operator", "time_limit"};
   return kNames[static_cast<std::size_t>(end)];
 }
 
@@ -128,7 +129,8 @@ SessionInstance::Verdict SessionInstance::finish() {
   for (io::OutputFile* file : {&json_, &trace_, &kept})
     if (const auto problem = file->close(); !problem.empty() && verdict.problem.empty()) verdict.problem = problem;
   const bool completed = (why == EndReason::kScene || why == EndReason::kAllLeft) && report.passed;
-  const bool good = verdict.problem.empty() && (completed || why == EndReason::kSignal);
+  const bool good = verdict.problem.empty() && (completed || why == EndReason::kSignal || why == EndReason::kOperator ||
+                                                why == EndReason::kTimeLimit);
   verdict.code = good ? io::kExitDone : io::kExitTrouble;
   return verdict;
 }

@@ -51,6 +51,15 @@ class SessionInstance {
   /// Time until which former participants can resume. @pre snapshot() is not null
   [[nodiscard]] Time resume_until() const noexcept { return resume_until_; }
 
+  /// Whether an operator created the session at run time.
+  [[nodiscard]] bool created() const noexcept { return created_ != nullptr; }
+  /// Keeps the options of `open` alive. @param ends_at time limit; nullopt: none
+  void keep_options(std::shared_ptr<const SessionOptions> options, std::optional<Time> ends_at) {
+    created_ = std::move(options);
+    ends_at_ = ends_at;
+  }
+  [[nodiscard]] std::optional<Time> ends_at() const noexcept { return ends_at_; }
+
   PresenceTracker presence;
   std::string missing_seats;     ///< seats it waited for, as of the last check while it waited
   std::optional<EndReason> end;  ///< set when the server ended the session
@@ -68,7 +77,9 @@ class SessionInstance {
  private:
   SessionInstance(const SessionOptions& plan, LocalSlaves slaves, std::uint8_t slot, const SessionSnapshot* kept);
 
+  std::shared_ptr<const SessionOptions> created_;  ///< first, because the other members refer to it
   const SessionOptions* options_;
+  std::optional<Time> ends_at_;
   auth::Id16 id_;
   std::string code_;
   std::uint64_t epoch_ = 1;

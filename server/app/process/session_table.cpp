@@ -101,7 +101,7 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
                            session.snapshot(),
                            {},
                            session.snapshot() != nullptr ? session.resume_until() : Time{}};
-  if (checkpoints_ != nullptr)
+  if (checkpoints_ != nullptr && !session.created())
     made.on_removed = [store = checkpoints_, name = session.options().name](const auto& keys) {
       store->set_removed(name, keys);
     };
@@ -114,7 +114,7 @@ void SessionTable::announce_all() const {
 
 void SessionTable::announce(const SessionInstance& session) const {
   // Others may read what is stored, so codes are shown on terminals only.
-  output_.print(startup_banner(session, control_.address(), control_.ephemeral_keys(), options_.sessions.size() > 1,
+  output_.print(startup_banner(session, control_.address(), control_.ephemeral_keys(), hints_.several(),
                                control_.ephemeral_keys() ? "" : control_.folder(),
                                output_.may_be_stored() ? hints_.list_command() : ""));
   io::log_event(io::Level::kInfo,
@@ -148,7 +148,8 @@ void SessionTable::service_session(SessionInstance& session, Time now) {
   if (status.state == wire::SessionState::kWaiting) session.missing_seats = waiting_for(status, scene);
   if (session.end) return;
   const SessionEnding::Times when{now, began_, options_.start_timeout_s,
-                                  session.snapshot() != nullptr ? std::optional{session.resume_until()} : std::nullopt};
+                                  session.snapshot() != nullptr ? std::optional{session.resume_until()} : std::nullopt,
+                                  session.ends_at()};
   if (const auto ending = session_ending(when, news, status, scene)) {
     report(session, status, ending->event);
     session.end = ending->why;
@@ -177,6 +178,12 @@ void SessionTable::write_audit_events(SessionInstance& session) {
 
 void SessionTable::drain() {
   draining_ = true;
+  // A created session does not return with the server, so its clients are closed before those of the shards.
+  control_.change([this](SessionRegistry& registry, const auto& done) {
+    for (const auto& s : sessions_)
+      if (s->created()) registry.end(s->id());
+    done();
+  });
   for (const auto& s : sessions_)
     if (!s->end) s->end = EndReason::kSignal;
 }
@@ -184,11 +191,12 @@ void SessionTable::drain() {
 bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   SessionInstance& session = *place;
   const std::string& name = session.options().name;
+  const auth::Id16 id = session.id();
   // During a drain the shards end too and complete no requests. The session then stays registered until the control
   // server stops.
   if (!draining_)
     control_.change([&](SessionRegistry& registry, const auto& done) { registry.remove(session.id(), done); });
-  if (checkpoints_ != nullptr && !(draining_ && will_resume())) checkpoints_->remove(name);
+  if (checkpoints_ != nullptr && !session.created() && !(draining_ && will_resume())) checkpoints_->remove(name);
   write_audit_events(session);
   const auto slot = session.live_session().slot();
   const SessionInstance::Verdict verdict = session.finish();
@@ -196,8 +204,9 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   io::log_event(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
                 {.event = "session_over", .session = name, .text = session.outcome_text(verdict.report)});
   if (!verdict.problem.empty()) output_.error(verdict.problem);
+  reply_ended(id);
   if (!session.options().restart || draining_ || control_.registry().drain().due()) {
-    exit_code_ = std::max(exit_code_, verdict.code);
+    if (!session.created()) exit_code_ = std::max(exit_code_, verdict.code);
     if (draining_) finished_.push_back(std::move(place));
     return false;
   }

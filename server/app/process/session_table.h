@@ -36,6 +36,9 @@ class SessionTable {
   [[nodiscard]] std::vector<SessionScreenEntry> screen_entries() const;
   /// Reports the events of all sessions, ends those without participants, and finishes those that are over.
   void service(Time now);
+  /// Executes an operator's order: creates a session, or begins to end one. Its reply follows on the control thread,
+  /// for an end when the session is over.
+  void execute(SessionOrder order);
   /// The server ends: all sessions count as ended by a signal, and none is replaced.
   void drain();
   /// Greatest exit code of the sessions that were not replaced.
@@ -44,6 +47,18 @@ class SessionTable {
   [[nodiscard]] bool will_resume() const noexcept { return options_.sessions_resume && checkpoints_ != nullptr; }
 
  private:
+  struct Ending {
+    auth::Id16 session{};
+    SessionOrder order;
+  };
+  [[nodiscard]] rpc::Body create_session(const rpc::CreateSession& wanted);
+  void end_session(SessionOrder order);
+  /// Slot for one more session of this scene, or why there is none.
+  [[nodiscard]] std::expected<std::size_t, rpc::ErrorReply> find_slot(const SceneSpec& scene) const;
+  void reply(const SessionOrder& order, rpc::Body body);
+  /// Replies to the orders that ended this session.
+  void reply_ended(const auth::Id16& id);
+
   [[nodiscard]] std::expected<std::unique_ptr<SessionInstance>, int> open_session(
       const SessionOptions& options, std::size_t slot, std::uint64_t epoch, const SessionSnapshot* snapshot = nullptr);
   void report_restored(const SessionInstance& session, const CheckpointStore::Found& found);
@@ -65,6 +80,7 @@ class SessionTable {
   ServerHints hints_;
   std::vector<std::unique_ptr<SessionInstance>> sessions_;
   std::vector<std::unique_ptr<SessionInstance>> finished_;  ///< completed, but still registered
+  std::vector<Ending> endings_;                             ///< orders to end sessions that are not over yet
   Time began_{};
   bool draining_ = false;
   int exit_code_ = 0;

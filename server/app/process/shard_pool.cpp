@@ -27,6 +27,9 @@ ShardPool::ShardPool(std::span<const double> tick_hz) {
     steering_.socket_of[slot] = static_cast<std::uint8_t>(found - rates_.begin());
   }
   steering_.sockets = rates_.size();
+  // The kernel's program is fixed once the sockets are bound, so free slots are shared out now.
+  for (std::size_t slot = tick_hz.size(); !rates_.empty() && slot < Shard::kSessionsMax; ++slot)
+    steering_.socket_of[slot] = static_cast<std::uint8_t>(slot % rates_.size());
 }
 
 void ShardPool::take_sockets(std::vector<io::UdpSocket> sockets) {

@@ -14,7 +14,7 @@ namespace tandem::server {
 /// datagrams by the session's slot, which is a byte of every connection id.
 class ShardPool {
  public:
-  /// @param tick_hz  of the session in each slot
+  /// @param tick_hz  of the session in each slot; sessions that are created later have one of these rates
   explicit ShardPool(std::span<const double> tick_hz);
   ~ShardPool() { join(); }
 
@@ -23,6 +23,9 @@ class ShardPool {
   /// @param sockets  one per shard, as `steering` requires
   void take_sockets(std::vector<io::UdpSocket> sockets);
   [[nodiscard]] Shard& of_slot(std::size_t slot) noexcept { return *shards_[steering_.socket_of[slot]]; }
+  /// Tick rate of the sessions in a slot [Hz]. Slots beyond those of the constructor are shared out among the rates.
+  [[nodiscard]] double rate_of_slot(std::size_t slot) const noexcept { return rates_[steering_.socket_of[slot]]; }
+  [[nodiscard]] const std::vector<double>& rates() const noexcept { return rates_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Shard>>& all() const noexcept { return shards_; }
 
   void run();

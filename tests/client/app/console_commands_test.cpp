@@ -50,6 +50,16 @@ TEST(ConsoleCommands, ParseEveryCommand) {
             (rpc::RemoveParticipant{{}, "trainee", "rude"}));
   EXPECT_EQ(parsed<rpc::Drain>({"drain"}).grace_s, 0U);
   EXPECT_EQ(parsed<rpc::Drain>({"drain", "3600"}).grace_s, 3600U);
+  const auto create = parsed<CreateCommand>({"create", "exam", "contact", "time=90s", "trainee=desk-2", "tickets"});
+  EXPECT_EQ(create.name, "exam");
+  EXPECT_EQ(create.scene, "contact");
+  EXPECT_EQ(create.life_s, 90U);
+  EXPECT_TRUE(create.tickets_only);
+  EXPECT_EQ(create.holders, (std::vector<rpc::SeatHolder>{{"trainee", "desk-2"}}));
+  EXPECT_EQ(parsed<EndCommand>({"end", "exam", "is", "over"}).why, "is over");
+  EXPECT_TRUE(std::holds_alternative<SessionsCommand>(*parse_command(Words{"sessions"})));
+  EXPECT_EQ(parsed<rpc::Note>({"note", "sheet", "{\"a\":", "1}"}),
+            (rpc::Note{{}, rpc::NoteKind::kSheet, "{\"a\": 1}"}));
   EXPECT_TRUE(std::holds_alternative<HelpCommand>(*parse_command(Words{"help"})));
   EXPECT_TRUE(std::holds_alternative<QuitCommand>(*parse_command(Words{"quit"})));
 }
@@ -75,6 +85,21 @@ TEST(ConsoleCommands, ReportTheExpectedInputForEachMistake) {
                              {"authority",
                               "a=1,"
                               "b"},
+                             {"create"},
+                             {"create", "exam"},
+                             {"create", "an exam", "contact"},
+                             {"create", "exam", "con tact"},
+                             {"create", "exam", "contact", "desk-2"},
+                             {"create", "exam", "contact", "a=b", "a=c"},
+                             {"create", "exam", "contact", "time=0"},
+                             {"create", "exam", "contact", "time=86401"},
+                             {"create", "exam", "contact", "trainee="},
+                             {"end"},
+                             {"sessions", "all"},
+                             {"note"},
+                             {"note", "mark"},
+                             {"note", "grade", "{}"},
+                             {"note", "mark", std::string(rpc::kNoteMax + 1, 'x')},
                              {"authority", "a=1", "tools=x"},
                              {"authority", "a=1", "tool="},
                              {"authority", "a=1", "version=x"},

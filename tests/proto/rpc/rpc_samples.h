@@ -156,6 +156,31 @@ inline Status status(RandomStream& r) {
   return m;
 }
 
+inline CreateSession create_session(RandomStream& r) {
+  CreateSession m{.name = name(r), .tickets_only = r.below(2) == 0};
+  if (r.below(2) == 0) {
+    m.scene = name(r);
+  } else {
+    m.scene_text = "version: 1\n" + std::string(r.below(200), 'x');
+  }
+  m.life_s = static_cast<std::uint32_t>(r.below(kLifeMaxS + 1));
+  for (std::uint64_t k = r.below(kSeatsMax + 1); k > 0; --k) m.holders.push_back({"s" + std::to_string(k), name(r)});
+  return m;
+}
+inline SessionCreated session_created(RandomStream& r) {
+  SessionCreated m;
+  fill(r, m.session.id);
+  m.session.name = name(r);
+  m.session.phase = static_cast<SessionPhase>(r.below(6));
+  m.session.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0});
+  if (r.below(2) == 0) m.code = code(r);
+  for (std::uint64_t k = r.below(kSeatsMax + 1); k > 0; --k) {
+    SeatTicket& t = m.tickets.emplace_back(name(r), name(r), std::vector<std::byte>(1 + r.below(kTicketMax)));
+    fill(r, t.ticket);
+  }
+  return m;
+}
+
 inline Frame frame(RandomStream& r, Kind kind) {
   Frame f;
   f.request = r.below(3) == 0 ? 0 : static_cast<std::uint32_t>(r.bits());
@@ -234,6 +259,25 @@ inline Frame frame(RandomStream& r, Kind kind) {
     case Kind::kStatus:
       f.body = status(r);
       break;
+    case Kind::kCreateSession:
+      f.body = create_session(r);
+      break;
+    case Kind::kSessionCreated:
+      f.body = session_created(r);
+      break;
+    case Kind::kEndSession: {
+      auto& m = f.body.emplace<EndSession>();
+      fill(r, m.session_id);
+      m.why = text(r);
+      break;
+    }
+    case Kind::kNote: {
+      auto& m = f.body.emplace<Note>();
+      fill(r, m.session_id);
+      m.kind = static_cast<NoteKind>(1 + r.below(2));
+      m.json = "{\"text\": \"" + text(r) + "\"}";
+      break;
+    }
   }
   return f;
 }

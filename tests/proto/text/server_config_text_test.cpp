@@ -42,10 +42,11 @@ TEST(ServerConfig, ReportsAllMistakesWithTheirPlaces) {
 
 TEST(ServerConfig, RejectsLimitsLooserThanTheDefaults) {
   for (const char* limit : {"accepts_per_s: 10.1", "accepts_burst: 101", "accepts_per_s_all: 301", "connections: 2049",
-                            "deadline_s: 5.1", "load_percent: 60.1", "core_percent: 80.1"})
+                            "deadline_s: 5.1", "load_percent: 60.1", "core_percent: 80.1", "created_sessions: 49"})
     EXPECT_NE(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
-  for (const char* limit : {"accepts_per_s: 10", "accepts_burst: 100", "accepts_per_s_all: 300", "connections: 2048",
-                            "deadline_s: 5", "load_percent: 60", "core_percent: 80"})
+  for (const char* limit :
+       {"accepts_per_s: 10", "accepts_burst: 100", "accepts_per_s_all: 300", "connections: 2048", "deadline_s: 5",
+        "load_percent: 60", "core_percent: 80", "created_sessions: 48", "created_sessions: 0"})
     EXPECT_EQ(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
 }
 

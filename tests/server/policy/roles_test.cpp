@@ -24,6 +24,7 @@ constexpr std::array<Row, kRights> kDesign{{
     {Right::kEndPause, {"yes", "own, without instructor", "own, without instructor", "no", "yes", "no"}},
     {Right::kManageSeats, {"yes", "no", "no", "no", "yes", "no"}},
     {Right::kManageServer, {"no", "no", "no", "no", "yes", "no"}},
+    {Right::kScore, {"yes", "no", "yes", "no", "yes", "no"}},
 }};
 
 TEST(Roles, MatchTheDesignTableInEveryRight) {
@@ -87,6 +88,10 @@ constexpr std::array<KindRow, rpc::kKinds> kFrames{{
     {Kind::kRemoveParticipant, "-x---x-"},
     {Kind::kStatusRequest, "-xxxxxx"},
     {Kind::kStatus, "-------"},
+    {Kind::kCreateSession, "-----x-"},
+    {Kind::kSessionCreated, "-------"},
+    {Kind::kEndSession, "-----x-"},
+    {Kind::kNote, "-x-x-x-"},
 }};
 
 TEST(Roles, MatchTheDesignTableForEveryFrame) {
@@ -108,7 +113,7 @@ TEST(Roles, MatchTheDesignTableForEveryFrame) {
 }
 
 TEST(Roles, AllowNoFrameOutsideTheTable) {
-  for (const int number : {0, 1, 2, 22, 255}) {
+  for (const int number : {0, 1, 2, 26, 255}) {
     const auto kind = static_cast<Kind>(number);
     EXPECT_FALSE(is_client_message(kind));
     EXPECT_FALSE(allowed(std::nullopt, kind));

@@ -2,6 +2,7 @@
 #include "server/app/control/session_commands.h"
 
 #include "common/io/clock.h"
+#include "server/app/control/note_check.h"
 #include "server/session/connection_id.h"
 #include "tests/server/app/control/registry_fixture.h"
 
@@ -124,6 +125,98 @@ TEST(SessionCommands, NameTheSessionInMessagesOfAServerWithSeveral) {
   c.serve();
   EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::StopSession{id_of(1), ""})));
   EXPECT_EQ(c.messages, (std::vector<std::string>{"lesson: STOPPED by office (operator)"}));
+}
+
+// ---- Marks and sheets ----
+
+TEST(SessionCommands, PassANoteWithItsAuthorAndTime) {
+  Commanding c;
+  std::vector<SessionNote> notes;
+  std::string problem;
+  c.commands.set_on_note([&](const SessionNote& note) {
+    notes.push_back(note);
+    return problem;
+  });
+  c.serve();
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::Note{id_of(1), rpc::NoteKind::kSheet, "{\"grip\":4}"})));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].workstation, "office");
+  EXPECT_EQ(notes[0].role, AccessRole::kOperator);
+  EXPECT_EQ(notes[0].session, "lesson");
+  EXPECT_EQ(notes[0].kind, rpc::NoteKind::kSheet);
+  EXPECT_EQ(notes[0].json, "{\"grip\":4}");
+  for (const std::string json : {"[]", "1", "{} {}", "{", "{\"a\":}"})
+    EXPECT_EQ(error_of(c.ask(rpc::Note{id_of(1), rpc::NoteKind::kMark, json})).code, ErrorCode::kBadFrame) << json;
+  for (const AccessRole role : {AccessRole::kTrainee, AccessRole::kObserver, AccessRole::kRecorder}) {
+    c.joined.role = role;
+    EXPECT_EQ(error_of(c.ask(rpc::Note{id_of(1), rpc::NoteKind::kMark, "{}"})).code, ErrorCode::kNotAllowed);
+  }
+  EXPECT_EQ(notes.size(), 1U);
+  c.joined.role = AccessRole::kEvaluator;
+  problem = "no space";
+  EXPECT_EQ(error_of(c.ask(rpc::Note{id_of(1), rpc::NoteKind::kMark, "{}"})).code, ErrorCode::kInternal)
+      << "a note that is not stored is not confirmed";
+}
+
+TEST(NoteCheck, RejectsDeepNesting) {
+  const auto nested = [](int depth) {
+    return "{\"a\":" + std::string(static_cast<std::size_t>(depth), '[') +
+           std::string(static_cast<std::size_t>(depth), ']') + "}";
+  };
+  EXPECT_EQ(note_problem(nested(kNoteDepthMax - 1)), "");
+  EXPECT_NE(note_problem(nested(kNoteDepthMax)), "");
+  EXPECT_NE(note_problem(std::string(rpc::kNoteMax, '[')), "");
+  EXPECT_NE(note_problem(nested(4000)), "");
+}
+
+// ---- Orders about whole sessions ----
+
+TEST(SessionCommands, QueueOrdersAboutSessionsUpToALimit) {
+  Commanding c;
+  const rpc::CreateSession exam{.name = "exam", .scene = "contact"};
+  EXPECT_EQ(error_of(c.ask(exam)).code, ErrorCode::kNotAllowed) << "nothing takes orders";
+  SessionOrders orders;
+  c.commands.set_orders(orders);
+  rpc::CreateSession held = exam;
+  held.holders = {{"trainee", "nowhere"}};
+  EXPECT_EQ(error_of(c.ask(held)).code, ErrorCode::kNotEnrolled);
+  std::size_t replies = 0;
+  for (std::size_t i = 0; i < SessionOrders::kMax; ++i)
+    c.commands.execute(c.joined, c.office, exam, [&](const rpc::Body&) { ++replies; });
+  EXPECT_EQ(replies, 0U);
+  EXPECT_EQ(error_of(c.ask(rpc::EndSession{id_of(1), ""})).code, ErrorCode::kNotNow);
+  for (std::size_t i = 0; i < SessionOrders::kMax; ++i) {
+    const auto order = orders.take();
+    ASSERT_TRUE(order);
+    EXPECT_EQ(order->who, "office (operator)");
+    order->answer(rpc::ErrorReply{ErrorCode::kFull, "full", 0});
+  }
+  EXPECT_FALSE(orders.take());
+  EXPECT_EQ(replies, SessionOrders::kMax);
+  c.registry.drain().begin();
+  EXPECT_EQ(error_of(c.ask(exam)).code, ErrorCode::kDraining);
+}
+
+TEST(SessionCommands, AddATicketForEveryHolderToTheReply) {
+  Commanding c;
+  SessionOrders orders;
+  c.commands.set_orders(orders);
+  std::optional<rpc::Body> reply;
+  c.commands.execute(c.joined, c.office,
+                     rpc::CreateSession{.name = "lesson", .scene = "free_motion", .holders = {{"trainee", "office"}}},
+                     [&](rpc::Body body) { reply = std::move(body); });
+  const auto order = orders.take();
+  ASSERT_TRUE(order);
+  order->answer(rpc::SessionCreated{.session = SessionRegistry::listed(c.lesson), .code = "", .tickets = {}});
+  ASSERT_TRUE(reply);
+  const auto& created = std::get<rpc::SessionCreated>(*reply);
+  ASSERT_EQ(created.tickets.size(), 1U);
+  EXPECT_EQ(created.tickets[0].seat, "trainee");
+  EXPECT_EQ(created.tickets[0].workstation, "office");
+  const auto redeemed = c.keys.tickets().redeem(
+      created.tickets[0].ticket,
+      {id_of(1), 3, "trainee", AccessRole::kTrainee, auth::KeyFingerprint{c.office.spki}, auth::wall_seconds()});
+  EXPECT_TRUE(redeemed) << redeemed.error().text;
 }
 
 TEST(SessionCommands, ReleaseTheSeatsOfRevokedWorkstationsOnly) {

@@ -1,0 +1,107 @@
+#include "proto/rpc/rpc_convert_sessions.h"
+
+#include <algorithm>
+
+#include "proto/rpc/rpc_bounds.h"
+
+namespace tandem::rpc {
+
+bool read_listed(const pb::rpc::Session& in, ListedSession& out) {
+  if (in.seat_size() > static_cast<int>(kListedSeatsMax) ||
+      in.state() > static_cast<std::uint32_t>(SessionPhase::kOverloaded))
+    return false;
+  out.phase = static_cast<SessionPhase>(in.state());
+  if (!take(in.id(), out.id) || !take_name(in.name(), out.name)) return false;
+  for (const pb::rpc::Seat& seat : in.seat()) {
+    ListedSeat& listed = out.seats.emplace_back();
+    listed.taken = seat.taken();
+    listed.required = seat.required();
+    if (!take_name(seat.name(), listed.name) || !take_role(seat.role(), listed.role)) return false;
+  }
+  return true;
+}
+void write_listed(const ListedSession& in, pb::rpc::Session& out) {
+  out.set_id(text_of(in.id));
+  out.set_name(in.name);
+  out.set_state(static_cast<std::uint32_t>(in.phase));
+  for (const ListedSeat& listed : in.seats) {
+    auto& seat = *out.add_seat();
+    seat.set_name(listed.name);
+    seat.set_role(static_cast<std::uint32_t>(listed.role));
+    seat.set_taken(listed.taken);
+    seat.set_required(listed.required);
+  }
+}
+
+bool read(const pb::rpc::CreateSession& in, CreateSession& out) {
+  out.scene_text = in.scene_text();
+  out.tickets_only = in.tickets_only();
+  out.life_s = in.life_s();
+  if (!take_name(in.name(), out.name) || !take_name(in.scene(), out.scene, true)) return false;
+  if (out.scene.empty() == out.scene_text.empty() || out.scene_text.size() > kSceneTextMax) return false;
+  if (out.life_s > kLifeMaxS || in.holder_size() > static_cast<int>(kSeatsMax)) return false;
+  for (const pb::rpc::SeatHolder& h : in.holder()) {
+    if (std::ranges::find(out.holders, h.seat(), &SeatHolder::seat) != out.holders.end()) return false;
+    SeatHolder& holder = out.holders.emplace_back();
+    if (!take_name(h.seat(), holder.seat) || !take_name(h.workstation(), holder.workstation)) return false;
+  }
+  return true;
+}
+void write(const CreateSession& in, pb::rpc::CreateSession& out) {
+  out.set_name(in.name);
+  out.set_scene(in.scene);
+  out.set_scene_text(in.scene_text);
+  out.set_tickets_only(in.tickets_only);
+  out.set_life_s(in.life_s);
+  for (const SeatHolder& h : in.holders) {
+    auto& holder = *out.add_holder();
+    holder.set_seat(h.seat);
+    holder.set_workstation(h.workstation);
+  }
+}
+
+bool read(const pb::rpc::SessionCreated& in, SessionCreated& out) {
+  out.code = in.code();
+  if (!in.has_session() || !read_listed(in.session(), out.session)) return false;
+  if (!(out.code.empty() || is_code(out.code)) || in.ticket_size() > static_cast<int>(kSeatsMax)) return false;
+  for (const pb::rpc::SeatTicket& t : in.ticket()) {
+    SeatTicket& ticket = out.tickets.emplace_back();
+    ticket.ticket = to_bytes(t.ticket());
+    if (t.ticket().empty() || t.ticket().size() > kTicketMax) return false;
+    if (!take_name(t.seat(), ticket.seat) || !take_name(t.workstation(), ticket.workstation)) return false;
+  }
+  return true;
+}
+void write(const SessionCreated& in, pb::rpc::SessionCreated& out) {
+  write_listed(in.session, *out.mutable_session());
+  out.set_code(in.code);
+  for (const SeatTicket& t : in.tickets) {
+    auto& ticket = *out.add_ticket();
+    ticket.set_seat(t.seat);
+    ticket.set_workstation(t.workstation);
+    ticket.set_ticket(text_of(t.ticket));
+  }
+}
+
+bool read(const pb::rpc::EndSession& in, EndSession& out) {
+  out.why = in.why();
+  return take(in.session_id(), out.session_id) && is_text(in.why());
+}
+void write(const EndSession& in, pb::rpc::EndSession& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_why(in.why);
+}
+
+bool read(const pb::rpc::Note& in, Note& out) {
+  out.kind = static_cast<NoteKind>(in.kind() & 3U);
+  out.json = in.json();
+  return take(in.session_id(), out.session_id) && within(in.kind(), 1, 2) && !out.json.empty() &&
+         is_text(out.json, kNoteMax);
+}
+void write(const Note& in, pb::rpc::Note& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_kind(static_cast<std::uint32_t>(in.kind));
+  out.set_json(in.json);
+}
+
+}  // namespace tandem::rpc

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "proto/rpc/rpc_messages.h"
+#include "proto/schema/rpc.pb.h"
+
+/// Private to proto/rpc: conversion of the messages that list, create, end and assess sessions. `read` returns false if
+/// a value is out of its bound.
+namespace tandem::rpc {
+
+[[nodiscard]] bool read_listed(const pb::rpc::Session& in, ListedSession& out);
+void write_listed(const ListedSession& in, pb::rpc::Session& out);
+
+[[nodiscard]] bool read(const pb::rpc::CreateSession& in, CreateSession& out);
+void write(const CreateSession& in, pb::rpc::CreateSession& out);
+[[nodiscard]] bool read(const pb::rpc::SessionCreated& in, SessionCreated& out);
+void write(const SessionCreated& in, pb::rpc::SessionCreated& out);
+[[nodiscard]] bool read(const pb::rpc::EndSession& in, EndSession& out);
+void write(const EndSession& in, pb::rpc::EndSession& out);
+[[nodiscard]] bool read(const pb::rpc::Note& in, Note& out);
+void write(const Note& in, pb::rpc::Note& out);
+
+}  // namespace tandem::rpc

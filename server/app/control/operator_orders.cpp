@@ -1,0 +1,111 @@
+// Orders of operators about whole sessions.
+#include <algorithm>
+
+#include "common/auth/enrolment.h"
+#include "common/auth/ticket.h"
+#include "common/base/format.h"
+#include "common/io/log.h"
+#include "server/app/control/session_commands.h"
+
+namespace tandem::server {
+namespace {
+
+using rpc::ErrorCode;
+using rpc::ErrorReply;
+
+constexpr std::int64_t kTicketLifeS = 4 * 3600;  // as `tandem-server ticket` without --hours
+constexpr std::int64_t kTicketLifeMaxS = 12 * 3600;
+
+std::string with_reason(std::string text, const std::string& why) { return why.empty() ? text : text + ": " + why; }
+
+}  // namespace
+
+std::optional<ErrorReply> SessionCommands::holder_problem(const rpc::CreateSession& wanted) const {
+  if (wanted.holders.empty()) return std::nullopt;
+  const auto workstations = audit_.registry().workstations();
+  if (!workstations)
+    return ErrorReply{ErrorCode::kInternal,
+                      "the server cannot read its registry of workstations; its log has the cause", 0};
+  for (const rpc::SeatHolder& holder : wanted.holders)
+    if (auth::find_workstation(*workstations, holder.workstation) == nullptr)
+      return ErrorReply{ErrorCode::kNotEnrolled,
+                        "seat " + holder.seat + ": no workstation " + holder.workstation +
+                            " is enrolled here; enrol it with `tandem-server enroll " + holder.workstation + "`",
+                        0};
+  return std::nullopt;
+}
+
+void SessionCommands::order(rpc::Body command, const std::string& who, std::function<void(rpc::Body)> answer) {
+  if (orders_ == nullptr)
+    return answer(ErrorReply{ErrorCode::kNotAllowed, "this server creates and ends no sessions on request", 0});
+  SessionOrder order{.who = who};
+  if (auto* const create = std::get_if<rpc::CreateSession>(&command)) {
+    if (registry_.drain().active())
+      return answer(ErrorReply{ErrorCode::kDraining, "this server is draining and creates no sessions", 10});
+    if (auto refused = holder_problem(*create)) return answer(std::move(*refused));
+    order.body = std::move(*create);
+    const rpc::CreateSession& wanted = std::get<rpc::CreateSession>(order.body);
+    rpc::CreateSession kept{.name = wanted.name,
+                            .scene = wanted.scene,
+                            .tickets_only = wanted.tickets_only,
+                            .life_s = wanted.life_s,
+                            .holders = wanted.holders};
+    order.answer = [this, kept = std::move(kept), who, answer](rpc::Body reply) {
+      if (auto* const created = std::get_if<rpc::SessionCreated>(&reply)) complete(*created, kept, who);
+      answer(std::move(reply));
+    };
+  } else {
+    order.body = std::move(std::get<rpc::EndSession>(command));
+    const rpc::EndSession& end = std::get<rpc::EndSession>(order.body);
+    std::string name;
+    if (SessionEntry* const entry = registry_.find(end.session_id)) {
+      name = entry->registration.name;
+      entry->notices.add(truncate_utf8(with_reason("the session is ENDED by " + who, end.why), rpc::kTextMax));
+    }
+    order.answer = [this, name, detail = with_reason(who, end.why), answer](rpc::Body reply) {
+      if (std::holds_alternative<rpc::Ok>(reply)) {
+        io::log_event(io::Level::kInfo, {.event = "session_ended", .session = name, .text = detail});
+        audit_.audit(auth::wall_seconds(), "end", name, detail);
+      }
+      answer(std::move(reply));
+    };
+  }
+  if (!orders_->post(std::move(order)))
+    answer(ErrorReply{
+        ErrorCode::kNotNow,
+        format("%zu orders about sessions wait already; repeat it when they are done", SessionOrders::kMax), 1});
+}
+
+void SessionCommands::complete(rpc::SessionCreated& created, const rpc::CreateSession& wanted, const std::string& who) {
+  const SessionEntry* const entry = std::as_const(registry_).find(created.session.id);
+  const std::int64_t now = auth::wall_seconds();
+  std::string detail = who + ": scene " + (wanted.scene.empty() ? "given as text" : wanted.scene) +
+                       format(", %zu seats", created.session.seats.size());
+  if (wanted.life_s > 0) detail += format(", ends after %u s", wanted.life_s);
+  io::log_event(io::Level::kInfo, {.event = "session_created", .session = wanted.name, .text = detail});
+  audit_.audit(now, "create", wanted.name, detail);
+  const auto workstations = audit_.registry().workstations();
+  if (entry == nullptr || !workstations) return;  // over already, or the registry fails: the reply has no tickets
+  const std::int64_t life = wanted.life_s > 0 ? std::min<std::int64_t>(wanted.life_s, kTicketLifeMaxS) : kTicketLifeS;
+  for (const rpc::SeatHolder& holder : wanted.holders) {
+    const WorkstationRow* const workstation = auth::find_workstation(*workstations, holder.workstation);
+    const auto seat = std::ranges::find(created.session.seats, holder.seat, &rpc::ListedSeat::name);
+    if (workstation == nullptr || seat == created.session.seats.end()) continue;
+    const auth::Ticket ticket{.ticket_id = auth::random_bytes<auth::Id16>(),
+                              .session_id = created.session.id,
+                              .seat = holder.seat,
+                              .role = seat->role,
+                              .workstation = {workstation->spki},
+                              .force_scale = auth::Ticket::kFullForce,
+                              .not_before = now,
+                              .not_after = now + life,
+                              .epoch_min = entry->registration.epoch};
+    const auto bytes = auth::sign_ticket(ticket, audit_.ticket_key());
+    if (!bytes) continue;  // impossible for checked names
+    created.tickets.push_back({holder.seat, holder.workstation, {bytes->begin(), bytes->end()}});
+    audit_.audit(now, "ticket", holder.workstation,
+                 auth::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
+  }
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,139 @@
+// Sessions that operators create and end at run time.
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "server/app/process/session_table.h"
+
+namespace tandem::server {
+
+using rpc::ErrorCode;
+using rpc::ErrorReply;
+
+void SessionTable::execute(SessionOrder order) {
+  if (const auto* const wanted = std::get_if<rpc::CreateSession>(&order.body)) {
+    reply(order, create_session(*wanted));
+  } else {
+    end_session(std::move(order));
+  }
+}
+
+void SessionTable::reply(const SessionOrder& order, rpc::Body body) {
+  control_.change([&](SessionRegistry&, const auto& done) {
+    order.answer(std::move(body));
+    done();
+  });
+}
+
+std::expected<std::size_t, ErrorReply> SessionTable::find_slot(const SceneSpec& scene) const {
+  const auto created = static_cast<std::size_t>(
+      std::ranges::count_if(sessions_, [](const auto& session) { return session->created(); }));
+  if (created >= options_.created_max)
+    return std::unexpected(ErrorReply{
+        ErrorCode::kFull,
+        options_.created_max == 0 ? "this server creates no sessions (limits { created_sessions: 0 })"
+                                  : format("%zu created sessions are open, and this server allows %zu; end one first",
+                                           created, options_.created_max),
+        0});
+  if (sessions_.size() >= rpc::kSessionsMax)
+    return std::unexpected(ErrorReply{ErrorCode::kFull,
+                                      format("%zu sessions are open, and a server has at most %zu; end one first",
+                                             sessions_.size(), rpc::kSessionsMax),
+                                      0});
+  const std::vector<double>& rates = shards_.rates();
+  if (std::ranges::find(rates, scene.tick_hz) == rates.end()) {
+    std::string known;
+    for (const double rate : rates) known += (known.empty() ? "" : ", ") + format("%g", rate);
+    return std::unexpected(
+        ErrorReply{ErrorCode::kNotAllowed,
+                   format("the scene has tick_hz %g, and the threads of this server tick at ", scene.tick_hz) + known +
+                       " Hz; change the scene, or configure a session of this rate and restart the server",
+                   0});
+  }
+  for (std::size_t slot = 0; slot < Shard::kSessionsMax; ++slot) {
+    const bool taken =
+        std::ranges::any_of(sessions_, [&](const auto& session) { return session->live_session().slot() == slot; });
+    if (!taken && shards_.rate_of_slot(slot) == scene.tick_hz) return slot;
+  }
+  return std::unexpected(
+      ErrorReply{ErrorCode::kFull, format("all sessions of %g Hz are in use; end one first", scene.tick_hz), 0});
+}
+
+rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
+  if (draining_) return ErrorReply{ErrorCode::kDraining, "this server is draining and creates no sessions", 10};
+  const bool configured =
+      std::ranges::find(options_.sessions, wanted.name, &SessionOptions::name) != options_.sessions.end();
+  if (configured || std::ranges::any_of(sessions_, [&](const auto& s) { return s->options().name == wanted.name; }))
+    return ErrorReply{ErrorCode::kNotAllowed,
+                      "a session " + wanted.name + " exists already; choose another name, or end that session first",
+                      0};
+  auto checked = created_session_options(wanted, options_.scenes);
+  if (!checked) return std::move(checked.error());
+  checked->reports = options_.reports;
+  const auto options = std::make_shared<const SessionOptions>(std::move(*checked));
+  const auto slot = find_slot(options->scene);
+  if (!slot) return slot.error();
+  double all = 0;
+  for (const auto& shard : shards_.all()) all += shard->load().cpu_share();
+  const ShardLoad& own = shards_.of_slot(*slot).load();
+  if (std::string why = rejection_reason({own.tick_share(), own.cpu_share(), own.state().level == ShedLevel::kNewJoins},
+                                         all, std::thread::hardware_concurrency(), options_.control.load_limits);
+      !why.empty())
+    return ErrorReply{ErrorCode::kFull, std::move(why), 5};
+
+  auto opened = SessionInstance::open(*options, static_cast<std::uint8_t>(*slot), 1,
+                                      !control_.ephemeral_keys() && !options->tickets_only);
+  if (!opened)
+    return ErrorReply{ErrorCode::kBadFrame, reply_text({{wanted.name, 0, 0, "", "", opened.error().texts.front()}}), 0};
+  SessionInstance& session = **opened;
+  session.keep_options(options, wanted.life_s == 0
+                                    ? std::nullopt
+                                    : std::optional(io::monotonic_now() + std::chrono::seconds(wanted.life_s)));
+  hints_.set_several();
+  bool served = false;
+  rpc::SessionCreated created{.session = {}, .code = session.code(), .tickets = {}};
+  control_.change([&](SessionRegistry& registry, const auto& done) {
+    registry.add_running(registration_of(session), [&, done](bool accepted) {
+      served = accepted;
+      if (served) created.session = SessionRegistry::listed(registry.entries().back());
+      done();
+    });
+  });
+  if (!served) {
+    control_.change([&](SessionRegistry& registry, const auto& done) { registry.remove(session.id(), done); });
+    return ErrorReply{ErrorCode::kNotNow, "the thread of this tick rate takes no sessions at present; try again", 1};
+  }
+  sessions_.push_back(std::move(*opened));
+  announce(session);
+  return created;
+}
+
+void SessionTable::end_session(SessionOrder order) {
+  const rpc::EndSession& wanted = std::get<rpc::EndSession>(order.body);
+  const auto found =
+      std::ranges::find_if(sessions_, [&](const auto& session) { return session->id() == wanted.session_id; });
+  if (found == sessions_.end())
+    return reply(order, ErrorReply{ErrorCode::kNoSession, "this server has no such session", 0});
+  SessionInstance& session = **found;
+  const auth::Id16 id = session.id();
+  if (!session.end) {
+    session.end = EndReason::kOperator;
+    const std::string text = "ENDED by " + order.who + (wanted.why.empty() ? "" : ": " + wanted.why);
+    report(session, session.live_session().status(), {"ended", "", text});
+    control_.change([&](SessionRegistry& registry, const auto& done) {
+      registry.end(id);
+      done();
+    });
+  }
+  endings_.push_back({id, std::move(order)});
+}
+
+void SessionTable::reply_ended(const auth::Id16& id) {
+  const auto rest = std::ranges::stable_partition(endings_, [&](const Ending& e) { return e.session != id; });
+  for (const Ending& ending : rest) reply(ending.order, rpc::Ok{});
+  endings_.erase(rest.begin(), rest.end());
+}
+
+}  // namespace tandem::server

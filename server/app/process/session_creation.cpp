@@ -1,0 +1,77 @@
+#include "server/app/process/session_creation.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "common/auth/enrolment.h"
+#include "common/base/format.h"
+#include "common/base/sanitize.h"
+#include "common/base/suggestions.h"
+#include "proto/io/scene_file.h"
+#include "proto/text/scene_text.h"
+#include "proto/text/scenes_embedded.h"
+
+namespace tandem::server {
+namespace {
+
+using rpc::ErrorCode;
+using rpc::ErrorReply;
+
+/// A scene by its name, which has neither slash nor dot, so that it names no file outside the folder.
+std::expected<SceneSpec, InputErrors> named_scene(const std::string& name, const std::string& folder) {
+  const std::string file = name + ".textproto";
+  std::error_code error;
+  if (!folder.empty() && std::filesystem::is_regular_file(folder + "/" + file, error)) {
+    const auto text = read_text_file(folder + "/" + file);
+    if (!text) return std::unexpected(text.error());
+    return parse_scene(*text, file);
+  }
+  if (const auto* const shipped = find_shipped_scene(name)) return parse_scene(shipped->text, file);
+  std::vector<std::string> names;
+  for (const auto& shipped : shipped_scenes()) names.emplace_back(shipped.name);
+  return std::unexpected(InputErrors{{name, 0, 0, "", "", "is no scene of this server; " + suggest(name, names)}});
+}
+
+}  // namespace
+
+std::string reply_text(const InputErrors& errors) {
+  constexpr std::size_t kRest = 24;  // for the number of the others
+  std::string text;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const std::string next = (i == 0 ? "" : "; ") + sanitize(to_text(errors[i]));
+    if (text.size() + next.size() + kRest > rpc::kTextMax) {
+      if (i == 0) text = truncate_utf8(next, rpc::kTextMax - kRest);
+      const std::size_t rest = errors.size() - std::max<std::size_t>(i, 1);
+      return rest == 0 ? text : text + format("; and %zu more", rest);
+    }
+    text += next;
+  }
+  return text;
+}
+
+std::expected<SessionOptions, ErrorReply> created_session_options(const rpc::CreateSession& wanted,
+                                                                  const std::string& scenes) {
+  if (auth::canonical_session_code(wanted.name))
+    return std::unexpected(ErrorReply{ErrorCode::kBadFrame,
+                                      "name \"" + wanted.name +
+                                          "\" has the form of a session code (10 letters and digits), so no client "
+                                          "could join by it; choose a shorter "
+                                          "one",
+                                      0});
+  auto scene = wanted.scene.empty() ? parse_scene(wanted.scene_text, wanted.name + ".textproto")
+                                    : named_scene(wanted.scene, scenes);
+  if (!scene) return std::unexpected(ErrorReply{ErrorCode::kBadFrame, reply_text(scene.error()), 0});
+  for (const rpc::SeatHolder& holder : wanted.holders)
+    if (std::ranges::find(scene->seats, holder.seat, &SeatSpec::name) == scene->seats.end()) {
+      std::string names;
+      for (const SeatSpec& seat : scene->seats) names += (names.empty() ? "" : ", ") + seat.name;
+      return std::unexpected(
+          ErrorReply{ErrorCode::kNoSeat, "the scene has no seat " + holder.seat + "; seats: " + names, 0});
+    }
+  SessionOptions options{.name = wanted.name, .tickets_only = wanted.tickets_only};
+  options.scene = std::move(*scene);
+  return options;
+}
+
+}  // namespace tandem::server
