@@ -50,8 +50,11 @@ class BrowserSessions {
   }
   /// A socket with this cookie was closed.
   void closed(std::string_view secret, Time now) noexcept {
-    for (Row& row : rows_)
-      if (row.secret == secret && row.sockets > 0 && --row.sockets == 0) row.idle_since = now;
+    for (Row& row : rows_) {
+      if (row.secret != secret || row.sockets == 0) continue;
+      --row.sockets;
+      row.idle_since = now;
+    }
   }
   /// Ends the cookies that were idle for kIdle. @return their number
   std::size_t expire(Time now) {

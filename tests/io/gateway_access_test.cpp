@@ -97,6 +97,10 @@ TEST(GatewayAccess, GivesEachPersonTheRightsOfTheirTicket) {
   const Json stopped = state_where(ann_page, [](const Json& state) { return state["stop"].is_object(); });
   EXPECT_EQ(stopped["stop"]["why"], "fire drill");
   EXPECT_EQ(stopped["stop"]["by"], "desk");
+  const Json yours = state_where(ann_page, [](const Json& state) { return state["stop"]["yours"] == true; });
+  EXPECT_EQ(ann_page.order({{"order", "resume"}, {"stop", yours["stop"]["number"]}})["ok"], true);
+  EXPECT_FALSE(state_where(bob_page, [](const Json& state) { return state["stop"].is_object(); }).is_null());
+  EXPECT_FALSE(state_where(bob_page, [](const Json& state) { return state["stop"].is_null(); }).is_null());
   const auto audited = [&fixture](const std::string& text) {
     return fixture.folder.read("state/audit.log").find(text) != std::string::npos;
   };

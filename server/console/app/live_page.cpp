@@ -20,6 +20,11 @@ bool same(const std::vector<rpc::ListedSession>& a, const std::vector<rpc::Liste
   });
 }
 
+/// Number of the stop in force; 0: none.
+std::uint32_t number_of(const std::optional<rpc::StatusStop>& stop) {
+  return stop && !stop->ends.empty() ? stop->number : 0;
+}
+
 }  // namespace
 
 LivePage::LivePage(Gateway& gateway, std::shared_ptr<Person> person, std::function<void()> flush)
@@ -53,8 +58,9 @@ void LivePage::on_period(std::chrono::steady_clock::time_point now) {
   }
   choose_view();
   const auto own = link_->newest(), view = view_->newest();
-  // This person's words of a stop come from their own connection only.
-  if (view_ != link_ && view->live && view->live->telemetry.stops != own->status.stops) link_->poke();
+  link_->set_relieved(view_ != link_);
+  // Only this person's connection knows whether they may end a stop.
+  if (view_ != link_ && number_of(view->status.stop) != number_of(own->status.stop)) link_->poke();
   if (auto sessions = gateway_.sessions_of(*person_); greeted_ && !same(sessions, listed_, own->status.session_id))
     greet();
   on_news();
@@ -118,7 +124,9 @@ void LivePage::send_state(const LivePicture& own, const LivePicture& view) {
   if (!queue_.empty()) return window_.drop();
   const std::uint64_t n = window_.next();
   if (n == 0) return;
-  StateHead head{.n = n, .dropped = window_.dropped(), .age_ms = {}, .stop = &own.status.stop};
+  std::optional<rpc::StatusStop> stop = view.status.stop;
+  if (stop) stop->yours = number_of(own.status.stop) == stop->number && own.status.stop->yours;
+  StateHead head{.n = n, .dropped = window_.dropped(), .age_ms = {}, .stop = &stop};
   const Time now = io::monotonic_now();
   head.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch()).count();
   if (view.live) head.age_ms = 1e3 * seconds(now - view.live->arrived);

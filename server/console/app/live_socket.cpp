@@ -84,7 +84,7 @@ class BeastSocket final : public LiveSocket {
     stream_.async_write(net::buffer(page_->queue().front()), [self = self()](beast::error_code error, std::size_t) {
       self->writing_ = false;
       self->page_->queue().pop_front();
-      if (error) return self->drop();
+      if (error) self->open_ = false;  // the read that is pending ends too, after its close frame if it sends one
       if (self->open_ && !self->page_->queue().empty()) self->write();
     });
   }

@@ -16,6 +16,7 @@ using namespace std::chrono_literals;
 constexpr std::chrono::milliseconds kReplyTimeout = 2s;
 constexpr std::chrono::milliseconds kPeriod = 500ms;       // of status requests beside datagrams
 constexpr std::chrono::milliseconds kPeriodAlone = 200ms;  // without them; the server answers ten per second
+constexpr std::chrono::milliseconds kPeriodRelieved = 2s;  // if another link shows the session
 constexpr std::chrono::milliseconds kPokeInterval = 250ms;
 constexpr std::chrono::milliseconds kRetry = 1s, kListPeriod = 2s;
 constexpr std::chrono::milliseconds kFeedRetry = 5s;  // a watcher that was silent, or found no place, asks again
@@ -261,7 +262,7 @@ void ServerLink::work() {
       regain_feed();
     }
     hold.lock();
-    const auto period = !good ? kRetry : live() ? kPeriod : kPeriodAlone;
+    const auto period = !good ? kRetry : live() ? kPeriod : relieved_ ? kPeriodRelieved : kPeriodAlone;
     wake_.wait_until(hold, asked + std::min(period, kPokeInterval), [this] { return over_ || !orders_.empty(); });
     wake_.wait_until(hold, asked + period, [this] { return over_ || poked_ || !orders_.empty(); });
   }

@@ -61,6 +61,8 @@ class ServerLink final : public LiveSource {
   [[nodiscard]] bool live() const noexcept { return live_.load(std::memory_order_acquire); }
   /// Asks for the status now instead of within its period; at most every 250 ms.
   void poke();
+  /// Whether another link shows the session, so that this one asks for the status rarely.
+  void set_relieved(bool relieved) noexcept { relieved_.store(relieved, std::memory_order_relaxed); }
   /// Members of `state` of the newest picture (state_json.h). For the web thread only.
   [[nodiscard]] const std::string& state_members(const LivePicture& picture);
 
@@ -84,7 +86,7 @@ class ServerLink final : public LiveSource {
   std::deque<std::pair<rpc::Body, Reply>> orders_;
   bool over_ = false, poked_ = false;
   std::atomic<std::uint64_t> number_{0};
-  std::atomic<bool> live_{false};
+  std::atomic<bool> live_{false}, relieved_{false};
   // Of the link's thread:
   client::Console console_;
   std::unique_ptr<FeedThread> feed_;
