@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/auth/key_fingerprint.h"
 #include "common/base/sanitize.h"
 #include "server/console/join_body.h"
 #include "server/policy/roles.h"
@@ -17,6 +18,9 @@ namespace {
 using nlohmann::json;
 
 constexpr double kPointerMaxM = 10;  // of each coordinate of a pointer [m]
+constexpr double kTimeMaxS = 1e9, kPointsMax = 1000;
+constexpr std::size_t kItemsMax = 16, kItemMax = 40,
+                      kMarkMax = 1000;  // items of a sheet; name of one, text of a mark [bytes]
 
 /// Reader of one object. The first mistake counts; later reads return defaults.
 class Reader {
@@ -74,6 +78,53 @@ class Reader {
     if (!good) fail("\"" + std::string(key) + "\" must be three numbers in [-10, 10] m");
     return x;
   }
+  /// A time [s], or null: unknown.
+  std::optional<double> time(const char* key) {
+    const auto found = object_.find(key);
+    if (found != object_.end() && found->is_null()) return std::nullopt;
+    const double t = found != object_.end() && found->is_number() ? found->get<double>() : -1;
+    if (t >= 0 && t <= kTimeMaxS) return t;
+    fail("\"" + std::string(key) + "\" must be null or a time in [0, 1e9] s");
+    return std::nullopt;
+  }
+  std::map<std::string, std::int64_t> scores(const char* key) {
+    std::map<std::string, std::int64_t> points;
+    const auto found = object_.find(key);
+    bool good = found != object_.end() && found->is_object() && found->size() <= kItemsMax;
+    if (good)
+      for (const auto& [item, value] : found->items()) {
+        good = good && value.is_number_integer() && std::abs(value.get<double>()) <= kPointsMax;
+        if (good) points[sanitize(item, kItemMax)] = value.get<std::int64_t>();
+      }
+    if (!good) fail("\"" + std::string(key) + "\" must be an object of at most 16 integers by item");
+    return points;
+  }
+  rpc::Id session(const char* key) {
+    rpc::Id id{};
+    if (!auth::from_hex(text(key, 32), id)) fail("\"" + std::string(key) + "\" must be 32 hexadecimal digits of hello");
+    return id;
+  }
+  /// Persons of a new session: each takes a seat with the key of a workstation. Persons without a seat get no ticket.
+  std::vector<rpc::SeatHolder> people(const char* key) {
+    std::vector<rpc::SeatHolder> holders;
+    const auto found = object_.find(key);
+    if (found == object_.end() || !found->is_array() || found->size() > 2 * kSeatsMax) {
+      fail("\"" + std::string(key) + "\" must be a list of at most " + std::to_string(2 * kSeatsMax) + " persons");
+      return holders;
+    }
+    for (const json& row : *found) {
+      if (!row.is_object()) {
+        fail("each of \"" + std::string(key) + "\" must be an object");
+        break;
+      }
+      Reader person(row);
+      person.only({"name", "role", "seat"});
+      rpc::SeatHolder holder{person.text("seat", rpc::kNameMax), person.text("name", rpc::kNameMax)};
+      if (!person.error().empty()) fail("in \"" + std::string(key) + "\": " + person.error());
+      if (!holder.seat.empty()) holders.push_back(std::move(holder));
+    }
+    return holders;
+  }
   bool truth(const char* key) {
     const auto found = object_.find(key);
     if (found != object_.end() && found->is_boolean()) return found->get<bool>();
@@ -116,7 +167,19 @@ rpc::Body order_of(Reader& in, const std::string& order, const rpc::Id& session)
     in.only({"type", "id", "order", "grace_s"});
     return rpc::Drain{in.integer32("grace_s", 3600)};
   }
-  in.fail("\"order\" must be stop, pause, resume, authority, remove or drain");
+  if (order == "create") {
+    in.only({"type", "id", "order", "scene", "name", "people"});
+    rpc::CreateSession create{.name = in.text("name", rpc::kNameMax), .scene = in.text("scene", rpc::kNameMax)};
+    create.tickets_only = true;  // a code would let in more than the named persons
+    create.holders = in.people("people");
+    if (create.holders.size() > kSeatsMax) in.fail("a session has at most " + std::to_string(kSeatsMax) + " seats");
+    return create;
+  }
+  if (order == "end") {
+    in.only({"type", "id", "order", "session"});
+    return rpc::EndSession{in.session("session"), "ended at the lesson desk"};
+  }
+  in.fail("\"order\" must be stop, pause, resume, authority, remove, drain, create or end");
   return rpc::Ping{};
 }
 
@@ -167,8 +230,22 @@ std::expected<BrowserFrame, FrameError> parse_browser_frame(std::string_view tex
   } else if (type == "invite") {
     in.only({"type", "id"});
     parsed = Invite{in.integer("id", kIdMax)};
+  } else if (type == "mark") {
+    in.only({"type", "id", "t", "text"});
+    const std::uint64_t id = in.integer("id", kIdMax);
+    const auto t = in.time("t");
+    parsed = MarkFrame{id, t, in.text("text", kMarkMax)};
+    if (!server::allowed(role, rpc::Kind::kNote)) return refuse(server::forbidden_text(role, rpc::Kind::kNote));
+  } else if (type == "sheet") {
+    in.only({"type", "id", "sheet", "of", "scores", "closed"});
+    SheetFrame frame_of{in.integer("id", kIdMax), {in.text("sheet", 16), in.text("of", rpc::kNameMax)}};
+    frame_of.sheet.scores = in.scores("scores");
+    frame_of.sheet.closed = in.truth("closed");
+    if (!server::allowed(role, rpc::Kind::kNote)) return refuse(server::forbidden_text(role, rpc::Kind::kNote));
+    if (const auto good = check(frame_of.sheet); !good) in.fail(good.error());
+    parsed = std::move(frame_of);
   } else {
-    in.fail("\"type\" must be ack, watch, order, take, leave, pointer or invite");
+    in.fail("\"type\" must be ack, watch, order, take, leave, pointer, invite, mark or sheet");
   }
   if (!in.error().empty()) return refuse(in.error());
   return parsed;

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "proto/rpc/rpc_messages.h"
+#include "server/console/evaluation_sheets.h"
 
 namespace tandem::console {
 
@@ -48,7 +49,18 @@ struct Pointer {
 struct Invite {
   std::uint64_t id = 0;
 };
-using BrowserFrame = std::variant<Ack, Watch, Order, TakeSeat, LeaveSeat, Pointer, Invite>;
+/// A mark on the timeline.
+struct MarkFrame {
+  std::uint64_t id = 0;
+  std::optional<double> t_s;  ///< session time [s]
+  std::string text;
+};
+/// A sheet of an evaluator. Its form, items and points are checked.
+struct SheetFrame {
+  std::uint64_t id = 0;
+  EvaluationSheet sheet;
+};
+using BrowserFrame = std::variant<Ack, Watch, Order, TakeSeat, LeaveSeat, Pointer, Invite, MarkFrame, SheetFrame>;
 
 struct FrameError {
   bool close = false;  ///< no JSON object: the gateway closes the connection

@@ -1,9 +1,11 @@
 #include "server/console/live_json.h"
 
+#include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/auth/ticket.h"
 #include "common/base/hex.h"
 #include "server/console/json_text.h"
 #include "server/policy/roles.h"
@@ -20,10 +22,14 @@ std::string upper(std::string_view text) {
 }
 
 json may_of(AccessRole role, const PageOffers& offers) {
-  const std::pair<const char*, rpc::Kind> rights[] = {
-      {"stop", rpc::Kind::kStopSession},         {"pause", rpc::Kind::kPauseSession},
-      {"resume", rpc::Kind::kResumeSession},     {"authority", rpc::Kind::kSetAuthority},
-      {"remove", rpc::Kind::kRemoveParticipant}, {"drain", rpc::Kind::kDrain}};
+  const std::pair<const char*, rpc::Kind> rights[] = {{"stop", rpc::Kind::kStopSession},
+                                                      {"pause", rpc::Kind::kPauseSession},
+                                                      {"resume", rpc::Kind::kResumeSession},
+                                                      {"authority", rpc::Kind::kSetAuthority},
+                                                      {"remove", rpc::Kind::kRemoveParticipant},
+                                                      {"drain", rpc::Kind::kDrain},
+                                                      {"score", rpc::Kind::kNote},
+                                                      {"create", rpc::Kind::kCreateSession}};
   json may = json::array();
   for (const auto& [name, kind] : rights)
     if (server::allowed(role, kind)) may.push_back(name);
@@ -78,6 +84,21 @@ std::string event_json(const rpc::Id& session, const rpc::StatusEvent& event) {
 
 std::string reply_json(std::optional<std::uint64_t> id, bool ok, std::string_view text) {
   return json_text({{"type", "reply"}, {"id", id ? json(*id) : json()}, {"ok", ok}, {"text", text}});
+}
+
+std::string tickets_json(const rpc::SessionCreated& created) {
+  json rows = json::array();
+  for (const rpc::SeatTicket& ticket : created.tickets) {
+    const auto seat = std::ranges::find(created.session.seats, ticket.seat, &rpc::ListedSeat::name);
+    rows.push_back({{"person", ticket.workstation},
+                    {"role", seat == created.session.seats.end() ? json() : json(upper(to_text(seat->role)))},
+                    {"seat", ticket.seat},
+                    {"ticket", auth::ticket_text(ticket.ticket)}});
+  }
+  return json_text({{"type", "tickets"},
+                    {"session", session_hex(created.session.id)},
+                    {"name", created.session.name},
+                    {"tickets", std::move(rows)}});
 }
 
 std::string notice_json(std::string_view level, std::string_view text) {

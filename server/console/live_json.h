@@ -27,6 +27,8 @@ struct PageOffers {
                                      std::span<const rpc::ListedSession> sessions, const PageOffers& offers = {});
 [[nodiscard]] std::string event_json(const rpc::Id& session, const rpc::StatusEvent& event);
 [[nodiscard]] std::string reply_json(std::optional<std::uint64_t> id, bool ok, std::string_view text);
+/// A created session with the tickets of its seats, for the person who created it only.
+[[nodiscard]] std::string tickets_json(const rpc::SessionCreated& created);
 /// @param level  info, warning or error
 [[nodiscard]] std::string notice_json(std::string_view level, std::string_view text);
 

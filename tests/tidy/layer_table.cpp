@@ -121,7 +121,8 @@ const std::array<Layer, 44> kLayers{{
      "the session core knows control laws, secure datagrams and the device interface; sockets, clocks and files belong "
      "to server/app"},
     {"server/console",
-     {"common/base", "proto/rpc", "proto/spec", "proto/wire", "server/console", "server/policy"},
+     {"common/auth/key_fingerprint.h", "common/auth/ticket.h", "common/base", "proto/rpc", "proto/spec", "proto/wire",
+      "server/console", "server/policy"},
      {"json"},
      "server/console decides what browsers may send and writes JSON: no session, no socket; those belong to "
      "server/console/app"},

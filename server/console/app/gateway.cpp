@@ -74,6 +74,7 @@ std::expected<void, std::string> Gateway::join(const JoinBody& body, const auth:
   link.watch = link.join.console != AccessRole::kRecorder && session && !is_watched(*session);
   const auto person = std::make_shared<Person>();
   person->name = body.name;
+  person->number = joins_ + 1;  // 0: the gateway's own
   const std::uint64_t number = ++joins_;
   link.joined = [this, number](const std::expected<void, std::string>& result) {
     mailbox_->post([this, number, result] { finish(number, result); });
@@ -144,6 +145,17 @@ std::shared_ptr<ServerLink> Gateway::best_view(const std::shared_ptr<ServerLink>
   for (const auto& [name, other] : others_) consider(other.lock());
   browsers_.each([&](const std::shared_ptr<Person>& person) { consider(person->link); });
   return best;
+}
+
+EvaluationNotes& Gateway::notes_of(const rpc::Id& session) {
+  const auto found = std::ranges::find(notes_, session, &std::pair<rpc::Id, EvaluationNotes>::first);
+  if (found != notes_.end()) {
+    notes_.splice(notes_.begin(), notes_, found);
+  } else {
+    notes_.emplace_front(session, EvaluationNotes{});
+    if (notes_.size() > kNotesMax) notes_.pop_back();
+  }
+  return notes_.front().second;
 }
 
 void Gateway::on_second(Time now) {

@@ -9,6 +9,7 @@
 #include "server/console/live_json.h"
 #include "server/console/seat_picture.h"
 #include "server/console/state_json.h"
+#include "server/policy/roles.h"
 
 namespace tandem::console {
 namespace {
@@ -80,6 +81,7 @@ void LivePage::on_news() {
   if (own->number == 0 || view->number == 0) return;  // still joining
   if (!greeted_ || own->role != role_) greet();
   send_notices(*own, *view);
+  send_notes(*own);
   send_seat();
   if (view->number == shown_) return;
   const bool first = shown_ == 0;
@@ -154,6 +156,10 @@ std::string LivePage::on_frame(std::string_view text) {
     point(*pointer);
   } else if (const auto* invited = std::get_if<Invite>(&*frame)) {
     invite(*invited);
+  } else if (auto* noted = std::get_if<MarkFrame>(&*frame)) {
+    mark(std::move(*noted));
+  } else if (auto* filled = std::get_if<SheetFrame>(&*frame)) {
+    sheet(std::move(*filled));
   }
   return {};
 }
@@ -166,6 +172,7 @@ void LivePage::watch(const Watch& wish) {
   shown_ = 0;
   event_ = 0;
   scene_.clear();
+  notes_ = 0;
   warning_.clear();
   connected_ = true;
   choose_view();
@@ -173,14 +180,52 @@ void LivePage::watch(const Watch& wish) {
 }
 
 void LivePage::give(Order order) {
-  const auto id = order.id;
-  auto reply = [weak = weak_from_this(), &mailbox = gateway_.mailbox(), id](bool ok, std::string said) {
-    mailbox.post([weak, id, ok, said = std::move(said)] {
-      if (const auto self = weak.lock()) self->send(reply_json(id, ok, said));
+  ask(order.id, std::move(order.body), [](bool) {});
+}
+
+/// Sends an order over the person's connection, and the reply to the page. @param then  called in the web thread
+void LivePage::ask(std::uint64_t id, rpc::Body body, std::function<void(bool ok)> then) {
+  auto reply = [weak = weak_from_this(), &mailbox = gateway_.mailbox(), id, then = std::move(then)](
+                   bool ok, std::string said, std::string message) {
+    mailbox.post([weak, id, ok, then, said = std::move(said), message = std::move(message)] {
+      then(ok);
+      const auto self = weak.lock();
+      if (!self) return;
+      self->send(reply_json(id, ok, said));
+      if (!message.empty()) self->send(message);
     });
   };
-  if (!link_->order(std::move(order.body), std::move(reply)))
+  if (!link_->order(std::move(body), std::move(reply)))
     send(reply_json(id, false, "16 orders already wait for the server; repeat this one in a second"));
+}
+
+// The server stores a note with its author; the copy for pages is kept after that only.
+void LivePage::mark(MarkFrame frame) {
+  const rpc::Id session = link_->newest()->status.session_id;
+  EvaluationNotes::Mark mark{{person_->number, person_->name}, frame.t_s, std::move(frame.text)};
+  ask(frame.id, rpc::Note{session, rpc::NoteKind::kMark, mark_json(mark)},
+      [&gateway = gateway_, session, mark = std::move(mark)](bool ok) {
+        if (ok) gateway.notes_of(session).add(mark);
+      });
+}
+
+void LivePage::sheet(SheetFrame frame) {
+  const rpc::Id session = link_->newest()->status.session_id;
+  const EvaluationNotes::Author by{person_->number, person_->name};
+  if (const auto may = gateway_.notes_of(session).may_write(by, frame.sheet); !may)
+    return send(reply_json(frame.id, false, may.error()));
+  ask(frame.id, rpc::Note{session, rpc::NoteKind::kSheet, sheet_json(by, frame.sheet)},
+      [&gateway = gateway_, session, by, sheet = std::move(frame.sheet)](bool ok) {
+        if (ok && gateway.notes_of(session).may_write(by, sheet)) gateway.notes_of(session).put(by, sheet);
+      });
+}
+
+void LivePage::send_notes(const LivePicture& own) {
+  if (!server::allowed(own.role, rpc::Kind::kNote)) return;
+  const EvaluationNotes& notes = gateway_.notes_of(own.status.session_id);
+  if (notes.version() == notes_) return;
+  notes_ = notes.version();
+  send(notes.json_for(person_->number));
 }
 
 // The gateway's own right may take any seat, so it serves only persons who have the gateway's connection.

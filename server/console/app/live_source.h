@@ -12,7 +12,8 @@ namespace tandem::console {
 /// Source of live values and the way of orders to the server. All functions may be called by any thread.
 class LiveSource {
  public:
-  using Reply = std::function<void(bool ok, std::string text)>;  ///< called once, by the source's thread
+  /// Called once, by the source's thread. message: a further message for the page, empty: none
+  using Reply = std::function<void(bool ok, std::string text, std::string message)>;
 
   virtual ~LiveSource() = default;
   /// Never null.

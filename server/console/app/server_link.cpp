@@ -5,6 +5,7 @@
 
 #include "client/app/console_commands.h"
 #include "common/auth/io/control_client.h"
+#include "server/console/live_json.h"
 #include "server/console/state_json.h"
 
 namespace tandem::console {
@@ -210,17 +211,18 @@ void ServerLink::regain_feed() {
 
 void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
   if (!console_.connection)
-    return reply(false, "the connection to the server is lost; repeat the order when it is back");
+    return reply(false, "the connection to the server is lost; repeat the order when it is back", "");
   const auto answer = console_.connection->ask(body, kReplyTimeout);
   if (!answer) {
     lose(answer.error().text);
-    return reply(false, answer.error().text + "; check the state of the session, then repeat the order");
+    return reply(false, answer.error().text + "; check the state of the session, then repeat the order", "");
   }
   if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer))
-    return reply(false, refused->text + client::refusal_hint(body, console_.welcome.role));
+    return reply(false, refused->text + client::refusal_hint(body, console_.welcome.role), "");
   if (const auto* authority = std::get_if<rpc::AuthorityReply>(&*answer); authority != nullptr && !authority->applied)
-    return reply(false, "another change of authority came first; check it, then repeat the order");
-  reply(true, "");
+    return reply(false, "another change of authority came first; check it, then repeat the order", "");
+  const auto* const created = std::get_if<rpc::SessionCreated>(&*answer);
+  reply(true, "", created != nullptr ? tickets_json(*created) : std::string{});
   poke();
 }
 
