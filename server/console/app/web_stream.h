@@ -1,10 +1,15 @@
 #pragma once
 
+#include <array>
 #include <boost/asio/async_result.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/ssl.hpp>
-#include <boost/beast/websocket/teardown.hpp>
+#include <chrono>
+#include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace tandem::console {
@@ -53,17 +58,40 @@ class WebStream {
         handler, buffers);
   }
 
-  /// Called by a WebSocket after its close frame: the peer reads that before the connection ends. The close frames show
-  /// that no byte is missing, so TLS needs no end of its own.
+  /// Called by a WebSocket after its close frame. The close frames show that no byte is missing, so TLS needs no end of
+  /// its own. Beast 1.74 closes after one read; unread bytes then reset the connection before the peer has read the
+  /// close frame. This reads to the end of the peer, at most for kDrain.
   template <class Handler>
-  friend void async_teardown(boost::beast::role_type role, WebStream& stream, Handler&& handler) {
-    using boost::beast::websocket::async_teardown;
-    async_teardown(role, stream.lowest(), std::forward<Handler>(handler));
+  friend void async_teardown(boost::beast::role_type, WebStream& stream, Handler&& handler) {
+    boost::beast::error_code ignored;
+    stream.lowest().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    stream.lowest().expires_after(kDrain);
+    Drain<std::decay_t<Handler>>{&stream, std::forward<Handler>(handler), std::make_unique<Bytes>()}({}, 0);
   }
   /// Called by a WebSocket after a timeout.
   friend void beast_close_socket(WebStream& stream) { stream.lowest().close(); }
 
  private:
+  static constexpr std::chrono::seconds kDrain{2};
+  using Bytes = std::array<char, 2048>;
+
+  /// Reads and forgets until the connection ends, then closes it and calls `done`.
+  template <class Handler>
+  struct Drain {
+    WebStream* stream;
+    Handler done;
+    std::unique_ptr<Bytes> bytes;
+
+    void operator()(boost::beast::error_code error, std::size_t) {
+      if (!error) {
+        const auto into = boost::asio::buffer(*bytes);
+        return stream->lowest().async_read_some(into, std::move(*this));
+      }
+      stream->lowest().close();
+      done(boost::beast::error_code{});
+    }
+  };
+
   std::unique_ptr<Tcp> plain_;
   std::unique_ptr<Tls> tls_;
 };
