@@ -56,7 +56,7 @@ TEST(CreatedSessions, AreRejectedWithWords) {
       {{.name = "exam", .scene_text = std::string(rpc::kSceneTextMax, '{')}, ErrorCode::kBadFrame, "exam.textproto"},
       {{.name = "exam", .scene_text = std::string("\0\x1b[2J\xff", 7)}, ErrorCode::kBadFrame, "exam.textproto"},
       {{.name = "abcdefghjk", .scene = "lesson"}, ErrorCode::kBadFrame, "form of a session code"},
-      {{.name = "exam", .scene = "lesson", .holders = {{"nobody", "desk"}}}, ErrorCode::kNoSeat, "seats: instructor"},
+      {{.name = "exam", .scene = "lesson", .holders = {{"absent", "desk"}}}, ErrorCode::kNoSeat, "seats: instructor"},
       {{.name = "exam", .scene_text = slow},
        ErrorCode::kNotAllowed,
        "tick_hz 500, and the threads of this server tick at 1000 Hz"}};
