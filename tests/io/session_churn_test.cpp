@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "common/io/realtime.h"
 #include "server/app/process/shard.h"
 #include "tests/server/app/process/table_rig.h"
 #include "tests/support/alloc_guard.h"
@@ -33,6 +34,7 @@ TEST(SessionChurn, GrowsNothingAndDelaysNoTick) {
   ServerOptions options = options_with({lesson("first")});
   options.created_max = 2;
   TableRig rig(std::move(options));
+  io::lock_memory();  // as the server does
   rig.start();
   const Shard& shard = *rig.shards.all()[0];
   std::size_t warm = 0;
@@ -76,9 +78,13 @@ TEST(SessionChurn, GrowsNothingAndDelaysNoTick) {
   const double with = share(began, changed), without = share(changed, quiet);
   std::printf("[ FIGURES ] ticks that began more than 1 ms late: %.4f %% of %llu with 300 orders, %.4f %% without\n",
               100 * with, static_cast<unsigned long long>(span), 100 * without);
-  // Other programs of this machine delay ticks of both times. A shard that built sessions itself would be late in every
-  // one of the 200 creations.
-  EXPECT_LE(with, 3 * without + 0.01);
+  // A machine that is busy with other programs says nothing. A shard that built sessions itself would be late in each
+  // of the 200 creations, which is a share of 1 %.
+  if (without > 0.001) {
+    std::printf("[ NOT JUDGED ] ticks are late on this machine without any order\n");
+  } else {
+    EXPECT_LE(with, 0.004);
+  }
 }
 
 /// The shard adds and ends sessions without heap.
