@@ -110,7 +110,8 @@ std::string forbidden_text(std::optional<AccessRole> standing, rpc::Kind kind) {
 }
 
 bool may_join_console(AccessRole role) noexcept {
-  return role == AccessRole::kInstructor || role == AccessRole::kOperator || role == AccessRole::kRecorder;
+  return role == AccessRole::kInstructor || role == AccessRole::kEvaluator || role == AccessRole::kOperator ||
+         role == AccessRole::kRecorder;
 }
 
 }  // namespace tandem::server

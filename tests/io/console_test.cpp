@@ -114,7 +114,7 @@ TEST(Control, RejectsInvalidCommandsWithTheAllowedValues) {
   wrong({"authority", "trainer=0.4"}, "sum to 0.4; they must sum to 1");
   wrong({"authority", "trainer=2"}, "authority in [0, 1]");
   wrong({"drain", "3601"}, "[0, 3600]");
-  wrong({"--role", "trainee", "status"}, "must be operator, instructor or recorder");
+  wrong({"--role", "trainee", "status"}, "must be operator, instructor, evaluator or recorder");
   Process nobody = control("127.0.0.1:9", {"--timeout", "0.2", "status"});
   EXPECT_EQ(nobody.wait(), 1);
   EXPECT_NE(nobody.err().find("no server at 127.0.0.1:9"), std::string::npos) << nobody.err();

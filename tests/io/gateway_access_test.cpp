@@ -134,6 +134,45 @@ TEST(BrowserSeats, NeedATicketOfPersonsWhoSignedInByTicket) {
   EXPECT_FALSE(state_where(page, [](const Json& state) { return state["seats"][0]["engaged"] == true; }).is_null());
 }
 
+TEST(GatewayNotes, OfTwoEvaluatorsAreStoredAndHiddenUntilBothClosed) {
+  MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
+  WebGateway gateway(fixture.address, {"--sign-in", "--state", fixture.own});
+  const auto signed_in = [&](const std::string& role, const std::string& name) {
+    const HttpReply reply =
+        http_post(gateway.at, "/join", kJson, json_body(console_ticket(fixture, role), name), gateway.at.origin());
+    EXPECT_EQ(reply.status, 200U) << reply.body;
+    return WebPage(gateway.at, cookie_of(reply));
+  };
+  WebPage ann = signed_in("evaluator", "ann"), bob = signed_in("evaluator", "bob"), log = signed_in("recorder", "log");
+  const Json hello = ann.next("hello");
+  EXPECT_EQ(hello["role"], "EVALUATOR");
+  EXPECT_NE(hello["may"].dump().find("score"), std::string::npos);
+  const auto said = [](WebPage& page, Json message) {
+    message["id"] = 8;
+    page.send(message);
+    return page.next("reply");
+  };
+  const Json moves{{"type", "order"}, {"order", "authority"}, {"tool", 0}, {"version", 1}, {"alpha", {1}}};
+  EXPECT_EQ(said(ann, moves)["ok"], false) << "an evaluator moves no authority";
+  EXPECT_EQ(said(ann, {{"type", "mark"}, {"t", 1.5}, {"text", "slips"}})["ok"], true);
+  const Json notes = bob.next("notes");
+  EXPECT_EQ(notes["marks"][0]["text"], "slips");
+  EXPECT_EQ(notes["marks"][0]["person"], "ann");
+  Json sheet{
+      {"type", "sheet"}, {"sheet", "GOALS"}, {"of", "trainer"}, {"scores", {{"efficiency", 4}}}, {"closed", true}};
+  EXPECT_EQ(said(ann, sheet)["ok"], true);
+  EXPECT_TRUE(bob.next("notes")["sheets"].empty());
+  EXPECT_EQ(said(ann, sheet)["ok"], false) << "closed";
+  sheet["scores"]["efficiency"] = 2;
+  EXPECT_EQ(said(bob, sheet)["ok"], true);
+  const Json both = bob.until([](const Json& m) { return m["type"] == "notes" && m["sheets"].size() == 2; });
+  ASSERT_FALSE(both.is_null());
+  EXPECT_EQ(said(log, {{"type", "mark"}, {"t", 1.5}, {"text", "x"}})["ok"], false);
+  EXPECT_EQ(said(log, sheet)["ok"], false);
+  const std::string audit = fixture.folder.read("state/audit.log");
+  EXPECT_NE(audit.find("evaluator"), std::string::npos) << audit;
+}
+
 TEST(GatewayAccess, RefusesSigningInWithWords) {
   MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
   WebGateway gateway(fixture.address, {"--sign-in", "--state", fixture.own});

@@ -101,7 +101,7 @@ TEST(WatchLive, SaysThatTheServerWasLost) {
 TEST(WatchLive, ReportsWrongArgumentsAndMissingServers) {
   Process wrong = watch("127.0.0.1:9", {"--role", "trainee", "--timeout", "-1"});
   EXPECT_EQ(wrong.wait(), 2);
-  for (const char* part : {"--role", "operator, instructor or recorder", "--timeout"})
+  for (const char* part : {"--role", "operator, instructor, evaluator or recorder", "--timeout"})
     EXPECT_NE(wrong.err().find(part), std::string::npos) << part << " not in " << wrong.err();
   Process none = watch("127.0.0.1:9", {"--timeout", "0.3"});
   EXPECT_EQ(none.wait(), 1);

@@ -301,9 +301,9 @@ int control_command(const ControlArguments& arguments) {
   asking.console = wish ? role_for(*wish) : AccessRole::kOperator;
   if (!arguments.role.empty()) {
     const auto role = access_role_named(arguments.role);
-    const bool stands =
-        role && (*role == AccessRole::kInstructor || *role == AccessRole::kOperator || *role == AccessRole::kRecorder);
-    if (!stands) errors.add("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
+    const bool stands = role && (*role == AccessRole::kInstructor || *role == AccessRole::kEvaluator ||
+                                 *role == AccessRole::kOperator || *role == AccessRole::kRecorder);
+    if (!stands) errors.add("--role: \"" + arguments.role + "\" must be operator, instructor, evaluator or recorder");
     if (stands) asking.console = role;
   }
   asking.ticket = ticket_of(arguments.connection.ticket, errors);
@@ -342,7 +342,8 @@ void add_control_command(const io::Command& root) {
                      "ephemeral keys");
   command
       .add_option("--role", arguments.role,
-                  "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
+                  "without a ticket: operator, instructor, evaluator or recorder; default: operator, for `authority` "
+                  "instructor")
       .value_name("ROLE");
   add_state_option(command, arguments.connection.state);
   add_timeout_option(command, arguments.connection.timeout);

@@ -86,10 +86,11 @@ int watch_command(const WatchArguments& arguments) {
   asking.console = AccessRole::kOperator;
   if (!arguments.role.empty()) {
     const auto role = access_role_named(arguments.role);
-    if (role == AccessRole::kInstructor || role == AccessRole::kOperator || role == AccessRole::kRecorder) {
+    if (role == AccessRole::kInstructor || role == AccessRole::kEvaluator || role == AccessRole::kOperator ||
+        role == AccessRole::kRecorder) {
       asking.console = role;
     } else {
-      errors.add("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
+      errors.add("--role: \"" + arguments.role + "\" must be operator, instructor, evaluator or recorder");
     }
   }
   asking.ticket = ticket_of(arguments.connection.ticket, errors);
@@ -114,7 +115,8 @@ void add_watch_command(const io::Command& root) {
                      "ephemeral keys");
   command
       .add_option("--role", arguments.role,
-                  "without a ticket: operator, instructor or recorder; default: operator. A recorder gets every tick")
+                  "without a ticket: operator, instructor, evaluator or recorder; default: operator. A recorder gets "
+                  "every tick")
       .value_name("ROLE");
   add_state_option(command, arguments.connection.state);
   add_timeout_option(command, arguments.connection.timeout);

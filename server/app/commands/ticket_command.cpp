@@ -55,14 +55,14 @@ std::optional<AccessRole> find_role(const TicketArguments& arguments, const Open
   const bool sits = !arguments.seat.empty();
   if (role && (sits ? *role == AccessRole::kOperator || *role == AccessRole::kRecorder : !may_join_console(*role))) {
     errors.add(!sits ? "--seat is required: the role " + std::string(to_text(*role)) +
-                           " needs one; without a seat: instructor, operator, recorder"
+                           " needs one; without a seat: instructor, evaluator, operator, recorder"
                      : "--seat: the role " + std::string(to_text(*role)) + " has none");
     return role;
   }
   if (arguments.seat.empty() || session.seats.empty()) {
     if (arguments.role.empty())
       errors.add(arguments.seat.empty()
-                     ? "--seat is required, or a --role that needs none: operator, recorder, instructor"
+                     ? "--seat is required, or a --role that needs none: operator, recorder, instructor, evaluator"
                      : "--role is required: the session's seats are not known here");
     return role;
   }

@@ -233,7 +233,7 @@ void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
   if (role && !may_join_console(*role))
     return answer(ErrorReply{ErrorCode::kNotAllowed,
                              "the role " + std::string(to_text(*role)) +
-                                 " needs a seat; a console has the role instructor, operator or recorder",
+                                 " needs a seat; a console has the role instructor, evaluator, operator or recorder",
                              0});
   if (!request.hello.watch) return answer(admit_console(entry, request, *ticket, kConsolePlace));
   reserve_slot(

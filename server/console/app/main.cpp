@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
   client::add_session_option(root, arguments.connection);
   client::add_ticket_options(root, arguments.connection.ticket, "ticket printed by `tandem-server ticket`");
   root.add_option("--role", arguments.role, "without a ticket; default instructor")
-      .check(io::one_of({"instructor", "operator", "recorder"}));
+      .check(io::one_of({"instructor", "evaluator", "operator", "recorder"}));
   root.add_option("--listen", arguments.listen,
                   "address of the page; port 0: a free one; default 127.0.0.1:7080. Beyond loopback it needs TLS")
       .value_name("HOST:PORT");

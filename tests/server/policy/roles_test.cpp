@@ -131,11 +131,11 @@ TEST(Roles, NameThePermittedRolesInARejection) {
   EXPECT_NE(forbidden_text(std::nullopt, Kind::kDrain).find("join first"), std::string::npos);
 }
 
-TEST(Roles, LetOnlyInstructorsOperatorsAndRecordersJoinConsoles) {
+TEST(Roles, LetTraineesAndObserversJoinNoConsole) {
   for (std::uint8_t c = 0; c < kAccessRoles; ++c) {
     const auto role = static_cast<AccessRole>(c);
-    EXPECT_EQ(may_join_console(role),
-              role == AccessRole::kInstructor || role == AccessRole::kOperator || role == AccessRole::kRecorder)
+    EXPECT_EQ(may_join_console(role), role == AccessRole::kInstructor || role == AccessRole::kEvaluator ||
+                                          role == AccessRole::kOperator || role == AccessRole::kRecorder)
         << to_text(role);
   }
   EXPECT_FALSE(may_join_console(static_cast<AccessRole>(kAccessRoles)));
