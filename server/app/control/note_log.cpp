@@ -36,7 +36,7 @@ std::string NoteLog::append(const SessionNote& note, std::int64_t wall_s) const 
     return format("the notes of this session would exceed %llu MiB", static_cast<unsigned long long>(kFileMax >> 20U));
   const ssize_t size = ::write(file.get(), text.data(), text.size());
   if (size == static_cast<ssize_t>(text.size())) return {};
-  const std::string problem = path + ": " + std::strerror(size < 0 ? errno : ENOSPC);
+  std::string problem = path + ": " + std::strerror(size < 0 ? errno : ENOSPC);
   if (size > 0 && ::ftruncate(file.get(), status.st_size) != 0) return problem + "; its last line is not whole";
   return problem;
 }

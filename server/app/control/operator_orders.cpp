@@ -13,10 +13,12 @@ namespace {
 using rpc::ErrorCode;
 using rpc::ErrorReply;
 
-constexpr std::int64_t kTicketLifeS = 4 * 3600;  // as `tandem-server ticket` without --hours
-constexpr std::int64_t kTicketLifeMaxS = 12 * 3600;
+constexpr std::int64_t kTicketLifeS = std::int64_t{4} * 3600;  // as `tandem-server ticket` without --hours
+constexpr std::int64_t kTicketLifeMaxS = std::int64_t{12} * 3600;
 
-std::string with_reason(std::string text, const std::string& why) { return why.empty() ? text : text + ": " + why; }
+std::string with_reason(const std::string& text, const std::string& why) {
+  return why.empty() ? text : text + ": " + why;
+}
 
 }  // namespace
 
@@ -35,7 +37,7 @@ std::optional<ErrorReply> SessionCommands::holder_problem(const rpc::CreateSessi
   return std::nullopt;
 }
 
-void SessionCommands::order(rpc::Body command, const std::string& who, std::function<void(rpc::Body)> answer) {
+void SessionCommands::order(rpc::Body command, const std::string& who, const std::function<void(rpc::Body)>& answer) {
   if (orders_ == nullptr)
     return answer(ErrorReply{ErrorCode::kNotAllowed, "this server creates and ends no sessions on request", 0});
   SessionOrder order{.who = who};

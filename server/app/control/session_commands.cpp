@@ -49,7 +49,7 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
     return answer(rpc::Ok{});
   }
   if (std::holds_alternative<rpc::CreateSession>(command) || std::holds_alternative<rpc::EndSession>(command))
-    return order(std::move(command), who, std::move(answer));
+    return order(std::move(command), who, answer);
   const rpc::Id* const id = session_of(command);
   if (id == nullptr || *id != joined.session_id)
     return answer(

@@ -50,7 +50,7 @@ class SessionCommands {
 
  private:
   /// Queues an order to create or end a session.
-  void order(rpc::Body command, const std::string& who, std::function<void(rpc::Body)> answer);
+  void order(rpc::Body command, const std::string& who, const std::function<void(rpc::Body)>& answer);
   /// Adds the tickets of the named workstations to the reply of a created session, and audits both.
   void complete(rpc::SessionCreated& created, const rpc::CreateSession& wanted, const std::string& who);
   [[nodiscard]] std::optional<rpc::ErrorReply> holder_problem(const rpc::CreateSession& wanted) const;
