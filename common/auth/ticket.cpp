@@ -33,7 +33,8 @@ bool legal_seat(std::string_view seat) noexcept {
 
 /// Returns whether a role may hold a ticket without a seat. An instructor may also observe from a console.
 bool needs_no_seat(AccessRole role) noexcept {
-  return role == AccessRole::kInstructor || role == AccessRole::kOperator || role == AccessRole::kRecorder;
+  return role == AccessRole::kInstructor || role == AccessRole::kEvaluator || role == AccessRole::kOperator ||
+         role == AccessRole::kRecorder;
 }
 
 /// Returns the field that is out of range; empty: all are in range.

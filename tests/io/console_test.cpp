@@ -90,7 +90,7 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
 
   Process resume = control(address, {"resume", "2"});
   EXPECT_EQ(resume.wait(), 0) << resume.err();
-  ASSERT_TRUE(host.wait_for("the session runs again")) << host.err();
+  ASSERT_TRUE(host.wait_for("RESUMED")) << host.err();
   EXPECT_TRUE(both_show("A-A")) << "active, released, active again; " << phases_of(folder.read("trainer.csv")) << ' '
                                 << phases_of(folder.read("trainee.csv"));
 
