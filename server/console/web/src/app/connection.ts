@@ -73,8 +73,9 @@ export class Connection {
   }
 
   /** Sends a frame without reply. Drops it when the rate is used up: the next one is newer. */
-  signal(body: Signal): void {
-    if (this.socket?.readyState !== WebSocket.OPEN || !this.budget.take(performance.now(), kReserve)) return;
+  signal(body: Signal, urgent = false): void {
+    if (this.socket?.readyState !== WebSocket.OPEN) return;
+    if (!this.budget.take(performance.now(), urgent ? 0 : kReserve)) return;
     this.socket.send(JSON.stringify(body));
   }
 

@@ -35,7 +35,7 @@ for (const scheme of ['light', 'dark'] as const) {
   });
 
   for (const width of [1440, 768, 390]) {
-    test(`screenshots, ${width} px, ${scheme}`, async ({ start, open }, info) => {
+    test(`screenshots, ${width} px, ${scheme}`, async ({ start, open }) => {
       const gateway = await start({ role: 'OPERATOR', freeSeat: true });
       const page = await open(gateway);
       await page.emulateMedia({ colorScheme: scheme });
@@ -43,7 +43,7 @@ for (const scheme of ['light', 'dark'] as const) {
       for (const name of kNames) {
         await view(page, name);
         await page.waitForTimeout(400);
-        const path = info.outputPath('..', 'screenshots', `${name}-${width}-${scheme}.png`);
+        const path = `screenshots/${name}-${width}-${scheme}.png`;
         const picture = await page.screenshot({ path, fullPage: true });
         expect(picture.length).toBeGreaterThan(5000);
       }

@@ -3,7 +3,7 @@ import type { Page } from '@playwright/test';
 
 async function fill(page: Page, points: number): Promise<void> {
   await view(page, 'evaluator');
-  await page.getByLabel('Sheet', { exact: true }).selectOption('GOALS');
+  await page.locator('.sheet-panel select').first().selectOption('GOALS');
   const items = page.locator('fieldset.item');
   await expect(items).toHaveCount(5);
   for (let i = 0; i < 5; i += 1) await items.nth(i).getByLabel(String(points), { exact: true }).check();
@@ -38,10 +38,10 @@ test('a sheet without all scores cannot be closed; drafts of several sheets stay
   await page.locator('fieldset.item').first().getByLabel('3', { exact: true }).check();
   await expect(page.locator('.total')).toHaveText('Total 3 of 35 · 6 items without a score');
   await expect(page.getByRole('button', { name: 'Close sheet' })).toBeDisabled();
-  await page.getByLabel('Sheet', { exact: true }).selectOption('CHECKLIST');
+  await page.locator('.sheet-panel select').first().selectOption('CHECKLIST');
   await page.getByLabel('Target reached').check();
   await expect(page.locator('.total')).toHaveText('Total 1 of 6');
-  await page.getByLabel('Sheet', { exact: true }).selectOption('OSATS');
+  await page.locator('.sheet-panel select').first().selectOption('OSATS');
   await expect(page.locator('fieldset.item').first().getByLabel('3', { exact: true })).toBeChecked();
 });
 

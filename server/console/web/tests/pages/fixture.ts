@@ -12,6 +12,7 @@ interface Fixtures {
 }
 
 export const test = base.extend<Fixtures>({
+  // eslint-disable-next-line no-empty-pattern
   start: async ({}, use) => {
     const started: MockGateway[] = [];
     await use(async (options = {}) => {

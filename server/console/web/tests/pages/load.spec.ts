@@ -50,7 +50,11 @@ test('twelve hours of a lesson in one page: memory stays bounded', async ({ star
     for (let i = 0; i < 60; i += 1) gateway.session.event(`event ${hour}.${i}`);
     for (const seat of gateway.session.seats) seat.trips += 1;
   };
-  trouble(0);
+  // The bounded logs are full after the first hour, so that only a leak can grow.
+  for (let i = 0; i < 20; i += 1) {
+    trouble(0);
+    await gateway.burst(10, 2);
+  }
   await gateway.burst(kStates, 3600 / kStates);
   const first = await heap();
   for (let hour = 1; hour < kHours; hour += 1) {
@@ -63,6 +67,6 @@ test('twelve hours of a lesson in one page: memory stays bounded', async ({ star
     `12 h: ${(first / 1e6).toFixed(1)} MB after 1 h, ${(last / 1e6).toFixed(1)} MB after 12 h, ${nodes} elements`,
   );
   expect(gateway.session.t).toBeGreaterThan(12 * 3600 - 1);
-  await expect(page.locator('.time').first()).toHaveText(/^12:0/);
+  await expect(page.locator('.time').first()).toHaveText(/^12:/);
   expect(last).toBeLessThanOrEqual(1.2 * first);
 });

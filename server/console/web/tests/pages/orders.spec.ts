@@ -5,7 +5,7 @@ test('the instructor hands over: the transfer is announced, then applied', async
   const page = await open(gateway);
   await view(page, 'instructor');
   const panel = page.locator('.authority-panel');
-  await panel.getByLabel('Seat', { exact: true }).selectOption({ label: 'trainee' });
+  await panel.locator('select').last().selectOption({ label: 'trainee' });
   await panel.getByRole('button', { name: 'Hand over' }).click();
   await expect.poll(() => gateway.session.wanted).toEqual([0, 1]);
   await expect(page.locator('.events-panel')).toContainText('ina gives the tool to trainee (100 %)');
@@ -76,7 +76,7 @@ test('keys do nothing while the person writes, or when they are switched off', a
   await page.getByLabel('Note').pressSequentially('stop press 1');
   await expect(page.locator('[data-view=evaluator]')).toHaveAttribute('aria-current', 'page');
   await page.getByText('Settings').click();
-  await page.getByLabel('Keys').uncheck();
+  await page.getByRole('checkbox', { name: 'Keys' }).uncheck();
   await page.locator('main').focus();
   await page.keyboard.press('s');
   await page.keyboard.press('1');
