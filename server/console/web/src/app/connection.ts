@@ -7,6 +7,8 @@ import { t } from '../strings/strings';
 
 /** Frames that stay free for orders when acknowledgements and pointer use up the rate. */
 const kReserve = 10;
+/** Time between two measurements of the round trip [ms]. */
+const kMeasurePeriod = 10_000;
 
 /** The WebSocket of the page: connects again after a loss, acknowledges states and matches replies. */
 export class Connection {
@@ -19,6 +21,7 @@ export class Connection {
   onChange: () => void = () => undefined;
 
   constructor(private readonly model: SessionModel) {
+    setInterval(() => this.measure(), kMeasurePeriod);
     setInterval(() => {
       this.pending.expire(performance.now(), t('order.unanswered'));
       // A hidden page draws no frames; it still acknowledges a few states per second for its alarms.
@@ -70,8 +73,9 @@ export class Connection {
   }
 
   /** Sends a frame without reply. Drops it when the rate is used up: the next one is newer. */
-  signal(body: Signal): void {
-    if (this.socket?.readyState !== WebSocket.OPEN || !this.budget.take(performance.now(), kReserve)) return;
+  signal(body: Signal, urgent = false): void {
+    if (this.socket?.readyState !== WebSocket.OPEN) return;
+    if (!this.budget.take(performance.now(), urgent ? 0 : kReserve)) return;
     this.socket.send(JSON.stringify(body));
   }
 
@@ -101,6 +105,14 @@ export class Connection {
     const sessions = this.model.hello?.sessions ?? [];
     const session = sessions.find(({ id }) => id === watched) ?? sessions[0];
     if (session) void this.request({ type: 'watch', session: session.id });
+    // The first round trip contains the start of the page; the smallest one counts.
+    setTimeout(() => this.measure(), 1500);
+  }
+
+  /** Watches the same session again: the gateway answers by itself, so the reply measures the transport. */
+  private measure(): void {
+    const session = this.model.scene?.session;
+    if (session && this.model.link === 'open' && !document.hidden) void this.request({ type: 'watch', session });
   }
 
   private async onClose(socket: WebSocket, opened: boolean, code: number, reason: string): Promise<void> {

@@ -60,6 +60,8 @@ export class SessionModel {
         break;
       case 'scene':
         if (this.scene?.session !== message.session) this.beginSession();
+        // A request for the same session sends the same scene again; drafts in the panels stay.
+        if (JSON.stringify(this.scene) === JSON.stringify(message)) break;
         this.scene = message;
         this.revision += 1;
         break;

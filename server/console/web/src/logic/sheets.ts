@@ -87,7 +87,7 @@ export function validScores(form: SheetForm, scores: Readonly<Record<string, num
 
 export interface Total {
   points: number;
-  /** Largest total of the items that have a score. */
+  /** Largest total of all required items and of the optional ones that have a score. */
   of: number;
   missing: string[];
 }
@@ -97,7 +97,7 @@ export function totalOf(form: SheetForm, scores: Readonly<Record<string, number>
   const values = Object.values(valid);
   return {
     points: values.reduce((a, b) => a + b, 0),
-    of: values.length * form.range[1],
+    of: form.items.filter((item) => !item.optional || valid[item.id] !== undefined).length * form.range[1],
     missing: form.items.filter((item) => !item.optional && valid[item.id] === undefined).map((item) => item.id),
   };
 }

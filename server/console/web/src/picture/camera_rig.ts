@@ -38,7 +38,7 @@ export class CameraRig {
     this.zoom = 1;
     this.controls.enabled = choice === 'free';
     this.controls.target.set(0, 0, 0);
-    if (choice === 'free') this.camera.position.set(0.1, -0.2, 0.1);
+    if (choice === 'free') this.camera.position.set(-0.07, -0.18, 0.09);
     this.controls.update();
   }
 

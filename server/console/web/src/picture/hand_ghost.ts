@@ -7,6 +7,7 @@ import {
   SphereGeometry,
   TorusGeometry,
   Color,
+  Vector3,
 } from 'three';
 
 import type { SceneSeat, SeatState } from '../protocol/messages';
@@ -34,22 +35,24 @@ export interface PictureOptions {
 export class HandGhost {
   readonly group = new Group();
   private readonly body = new Group();
+  private readonly place = new Vector3();
   private readonly colour: Color;
   private readonly material: MeshLambertMaterial;
   private readonly ring: Mesh<TorusGeometry, MeshBasicMaterial>;
-  private readonly label = new Label();
+  readonly label: Label;
   private readonly force = new ForceArrow();
   private readonly trail = new TrailLine();
 
   constructor(private readonly index: number) {
     this.colour = new Color(seatColour(index));
+    this.label = new Label(seatColour(index));
     this.material = new MeshLambertMaterial({ color: this.colour, transparent: true, opacity: 0.62 });
     const handle = new Mesh(kHandle, this.material);
     // The handle of a pen points up and towards the person.
     handle.rotation.set(Math.PI / 2 + 0.6, 0, 0);
     handle.position.set(0, -0.006, 0.009);
     this.ring = new Mesh(kRing, new MeshBasicMaterial({ color: '#b42318' }));
-    this.body.add(new Mesh(kBall, this.material), handle, this.ring, this.label.sprite);
+    this.body.add(new Mesh(kBall, this.material), handle, this.ring);
     this.group.add(this.body, this.force.arrow, this.trail.line);
   }
 
@@ -62,6 +65,7 @@ export class HandGhost {
   ): void {
     const present = seat.x !== null && seat.taken !== false;
     this.body.visible = present;
+    this.label.show(present && options.names);
     this.trail.update(now, present ? seat.x : null, this.colour, colours.background, options.trails);
     this.force.set(present ? seat.x : null, seat.f, options.forceScale, this.colour, options.forces);
     if (!present || !seat.x) return;
@@ -73,16 +77,13 @@ export class HandGhost {
       this.ring.material.color.copy(colours.limit);
       this.ring.scale.setScalar(options.reducedMotion ? 1.2 : 1.15 + 0.2 * Math.abs(Math.sin(now * 6)));
     }
-    this.label.sprite.visible = options.names;
     const name = scene?.name ?? String(this.index + 1);
-    this.label.set(
-      clipping ? `${name} · ${t('picture.limit')}` : name,
-      colours.text,
-      colours.label,
-      clipping ? `#${colours.limit.getHexString()}` : seatColour(this.index),
-    );
-    // Neighbouring labels would cover each other when all hands follow one tool.
-    this.label.sprite.position.set(0, 0, 0.024 + 0.0095 * (this.index % 4));
+    this.label.set(clipping ? `${name} · ${t('picture.limit')}` : name, clipping);
+  }
+
+  /** Place of the label [m], above the hand. */
+  get top(): Vector3 {
+    return this.place.copy(this.body.position).setZ(this.body.position.z + 0.021);
   }
 
   /** Turns the ring towards the camera. */
@@ -93,7 +94,6 @@ export class HandGhost {
   dispose(): void {
     this.material.dispose();
     this.ring.material.dispose();
-    this.label.dispose();
     this.force.dispose();
     this.trail.dispose();
   }

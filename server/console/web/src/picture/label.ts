@@ -1,55 +1,48 @@
-import { CanvasTexture, LinearFilter, Sprite, SpriteMaterial } from 'three';
+/** Vertical distance of two labels that would cover each other [px]. */
+const kRow = 26;
+const kWidth = 90;
 
-/** Height of a label in the picture [m]. */
-const kHeight = 0.0075;
-const kFont = 40;
-
-/** A name that always faces the camera. Draws its texture again only when the text or the colours change. */
+/** One name at a place of the picture. An element stays sharp when the picture lowers its resolution. */
 export class Label {
-  private readonly canvas = document.createElement('canvas');
-  private readonly texture = new CanvasTexture(this.canvas);
-  readonly sprite: Sprite;
-  private shown = '';
+  readonly node = document.createElement('span');
+  private readonly swatch = document.createElement('i');
+  private readonly words = document.createElement('span');
 
-  constructor() {
-    this.texture.minFilter = LinearFilter;
-    this.texture.generateMipmaps = false;
-    this.sprite = new Sprite(new SpriteMaterial({ map: this.texture, depthTest: false, transparent: true }));
-    this.sprite.renderOrder = 10;
+  constructor(colour: string) {
+    this.node.className = 'name-label';
+    this.swatch.style.background = colour;
+    this.node.append(this.swatch, this.words);
   }
 
-  set(text: string, colour: string, background: string, accent: string): void {
-    const key = [text, colour, background, accent].join('\n');
-    if (key === this.shown) return;
-    this.shown = key;
-    const context = this.canvas.getContext('2d');
-    if (!context) return;
-    const font = `600 ${kFont}px system-ui, sans-serif`;
-    context.font = font;
-    this.canvas.width = Math.min(1024, Math.ceil(context.measureText(text).width) + 64);
-    this.canvas.height = 64;
-    context.font = font;
-    context.globalAlpha = 0.88;
-    context.fillStyle = background;
-    context.beginPath();
-    context.roundRect(0, 0, this.canvas.width, 64, 14);
-    context.fill();
-    context.globalAlpha = 1;
-    context.fillStyle = accent;
-    context.beginPath();
-    context.roundRect(10, 12, 14, 40, 7);
-    context.fill();
-    context.fillStyle = colour;
-    context.textBaseline = 'middle';
-    context.fillText(text, 36, 34);
-    // A texture of another size needs new storage on the graphics processor.
-    this.texture.dispose();
-    this.texture.needsUpdate = true;
-    this.sprite.scale.set((kHeight * this.canvas.width) / 64, kHeight, 1);
+  set(text: string, alarm: boolean): void {
+    if (this.words.textContent !== text) this.words.textContent = text;
+    this.node.classList.toggle('alarm', alarm);
   }
 
-  dispose(): void {
-    this.texture.dispose();
-    this.sprite.material.dispose();
+  show(shown: boolean): void {
+    if (this.node.hidden === shown) this.node.hidden = !shown;
   }
+
+  place(x: number, y: number): void {
+    this.node.style.transform = `translate(-50%, -100%) translate(${Math.round(x)}px, ${Math.round(y)}px)`;
+  }
+}
+
+export interface Place {
+  x: number;
+  y: number;
+}
+
+/** Moves labels up until none covers another. At most 24 labels, therefore the quadratic search is cheap. */
+export function spread(places: readonly Place[]): Place[] {
+  const free: Place[] = [];
+  for (const wanted of places) {
+    const covers = (y: number): boolean =>
+      free.some((other) => Math.abs(other.x - wanted.x) < kWidth && Math.abs(other.y - y) < kRow);
+    let y = wanted.y;
+    // Each label that is placed blocks at most two rows.
+    for (let tries = 0; tries < 2 * places.length && covers(y); tries += 1) y -= kRow;
+    free.push({ x: wanted.x, y });
+  }
+  return free;
 }

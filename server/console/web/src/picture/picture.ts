@@ -4,6 +4,7 @@ import type { Scene, State } from '../protocol/messages';
 import { CameraRig } from './camera_rig';
 import { forceOfArrow } from './force_arrow';
 import { HandGhost, type PictureOptions } from './hand_ghost';
+import { spread } from './label';
 import { readColours, type PictureColours } from './palette';
 import { buildSurfaces, disposeSurfaces } from './surfaces';
 import { ToolMark } from './tool_mark';
@@ -18,6 +19,8 @@ const kForceLimit = 3.3;
 /** The picture of a session. Lowers its resolution on slow machines, so that motion stays smooth. */
 export class Picture {
   readonly canvas = document.createElement('canvas');
+  /** Names of the hands, above the canvas. */
+  readonly labels = document.createElement('div');
   readonly rig: CameraRig;
   readonly options: PictureOptions = {
     trails: true,
@@ -42,12 +45,14 @@ export class Picture {
 
   /** @throws Error if the browser has no WebGL */
   constructor(label: string) {
+    this.labels.className = 'labels';
+    this.labels.ariaHidden = 'true';
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('role', 'img');
     this.canvas.setAttribute('aria-label', label);
     this.renderer = new WebGLRenderer({
       canvas: this.canvas,
-      antialias: this.ratio < 1.5,
+      antialias: this.ratio < 1.5 && !isSoftware(),
       powerPreference: 'low-power',
     });
     this.colours = readColours(document.documentElement);
@@ -98,6 +103,7 @@ export class Picture {
       part.dispose();
     }
     this.hands.clear();
+    this.labels.replaceChildren();
     this.tools.clear();
   }
 
@@ -115,6 +121,19 @@ export class Picture {
     const seat = choice.startsWith('seat:') ? state.seats[Number(choice.slice(5))] : undefined;
     this.rig.update(seat?.x ?? null, this.options.reducedMotion);
     for (const part of [...this.hands.values(), ...this.tools.values()]) part.face(this.rig.camera.quaternion);
+    if (this.options.names) this.placeLabels();
+  }
+
+  /** Puts the names above their hands and spreads those that would cover each other. */
+  private placeLabels(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const hands = [...this.hands.values()];
+    this.rig.camera.updateMatrixWorld();
+    const places = hands.map((hand) => {
+      const at = hand.top.project(this.rig.camera);
+      return { x: ((at.x + 1) / 2) * width, y: ((1 - at.y) / 2) * height };
+    });
+    spread(places).forEach((place, i) => hands[i]?.label.place(place.x, place.y));
   }
 
   private hand(index: number): HandGhost {
@@ -122,6 +141,7 @@ export class Picture {
     if (found) return found;
     const made = new HandGhost(index);
     this.hands.set(index, made);
+    this.labels.append(made.label.node);
     this.scene.add(made.group);
     return made;
   }
@@ -164,4 +184,13 @@ export class Picture {
       this.frameTime = (kSlow + kFast) / 2;
     }
   }
+}
+
+/** Returns whether the browser renders without a graphics processor: smoothing of edges would cost half of the frames. */
+function isSoftware(): boolean {
+  const probe = document.createElement('canvas').getContext('webgl2');
+  const info = probe?.getExtension('WEBGL_debug_renderer_info');
+  const name: unknown = probe && info ? probe.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
+  probe?.getExtension('WEBGL_lose_context')?.loseContext();
+  return typeof name === 'string' && /swiftshader|llvmpipe|software/i.test(name);
 }

@@ -13,8 +13,8 @@ import type { SceneTool, Surface } from '../protocol/messages';
 import type { PictureColours } from './palette';
 
 /** Drawn size of a surface and of its solid side [m]. */
-const kSize = 0.12;
-const kThickness = 0.012;
+const kSize = 0.09;
+const kThickness = 0.008;
 
 function block(surface: Surface, kind: 'wall' | 'tissue', colours: PictureColours): Group {
   const size: [number, number, number] = [kSize, kSize, kSize];

@@ -35,11 +35,10 @@ const count = (value: unknown): number => {
 };
 const flag = (value: unknown): boolean | null => (typeof value === 'boolean' ? value : null);
 // Control characters could change the direction or the lines of a text on the page.
+// eslint-disable-next-line no-control-regex
+const kControl = /[\u0000-\u001f\u007f-\u009f\u200e\u200f\u202a-\u202e\u2066-\u2069]/g;
 const text = (value: unknown): string =>
-  // eslint-disable-next-line no-control-regex
-  typeof value === 'string'
-    ? value.slice(0, kTextMax).replace(/[\u0000-\u001f\u007f-\u009f\u200e\u200f\u202a-\u202e\u2066-\u2069]/g, ' ')
-    : '';
+  typeof value === 'string' ? value.slice(0, kTextMax).replace(kControl, ' ') : '';
 const textOrNull = (value: unknown): string | null => (typeof value === 'string' ? text(value) : null);
 const texts = (value: unknown): string[] =>
   list(value)

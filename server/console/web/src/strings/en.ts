@@ -100,7 +100,7 @@ export const en = {
   'drain.explain': 'All sessions end after the grace time. No new participant can join.',
   'drain.grace': 'Grace time (s)',
   'authority.title': 'Authority',
-  'authority.tool': 'Tool {tool}',
+  'authority.tool': 'Tool',
   'authority.wanted': 'wanted',
   'authority.applied': 'applied',
   'authority.share_of': 'Authority of {seat}',

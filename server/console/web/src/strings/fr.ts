@@ -102,7 +102,7 @@ export const fr: Readonly<Record<StringKey, string>> = {
   'drain.explain': 'Toutes les sessions finissent après le délai. Personne ne peut plus entrer.',
   'drain.grace': 'Délai (s)',
   'authority.title': 'Autorité',
-  'authority.tool': 'Outil {tool}',
+  'authority.tool': 'Outil',
   'authority.wanted': 'voulue',
   'authority.applied': 'appliquée',
   'authority.share_of': 'Autorité de {seat}',

@@ -24,7 +24,7 @@ export class AlarmList implements View {
 
   constructor(private readonly page: Page) {
     const scroll = (label: string, list: HTMLElement): HTMLElement =>
-      el('div', { class: 'scroll log-box', tabindex: 0, role: 'region', 'aria-label': label }, list);
+      el('div', { class: 'scroll log-box', tabindex: 0, role: 'group', 'aria-label': label }, list);
     this.node = el(
       'div',
       { class: 'logs' },

@@ -27,6 +27,7 @@ interface Row {
 export class AuthorityPanel implements View {
   readonly node: HTMLElement;
   private readonly tools = select([['0', '']], '0', () => this.discard());
+  private readonly toolField = labelled(t('authority.tool'), this.tools);
   private readonly rows = el('div', { class: 'shares' });
   private readonly presets = el('div', { class: 'row presets' });
   private readonly to = select([], '', () => undefined);
@@ -49,7 +50,7 @@ export class AuthorityPanel implements View {
     this.node = panel(
       t('authority.title'),
       'authority-panel',
-      labelled(t('authority.tool', { tool: '' }).trim(), this.tools),
+      this.toolField,
       this.rows,
       el('div', { class: 'row' }, this.apply, this.reset, this.draftNote),
       el('h3', {}, t('authority.presets')),
@@ -58,7 +59,7 @@ export class AuthorityPanel implements View {
       el(
         'div',
         { class: 'row' },
-        labelled(t('authority.hand_over'), this.to),
+        labelled(t('who.seat'), this.to),
         labelled(`${t('authority.share')} (%)`, this.share),
         this.give,
       ),
@@ -95,7 +96,7 @@ export class AuthorityPanel implements View {
     setDisabled(this.give, !may || this.masters.length < 2);
     setDisabled(this.to, !may);
     setDisabled(this.share, !may);
-    setDisabled(this.tools, this.tools.options.length < 2);
+    this.toolField.hidden = this.tools.options.length < 2;
     for (const preset of this.presets.children) setDisabled(preset as HTMLButtonElement, !may);
     const transfer = tool?.transfer ?? null;
     setText(

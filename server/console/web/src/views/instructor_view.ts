@@ -20,8 +20,8 @@ export class InstructorView implements View {
     this.node = el(
       'div',
       { class: 'view instructor-view' },
-      el('div', { class: 'column' }, this.slot, alarms.node),
-      el('div', { class: 'column' }, authority.node, who.node),
+      el('div', { class: 'column' }, this.slot, who.node),
+      el('div', { class: 'column' }, authority.node, alarms.node),
       el('div', { class: 'column wide' }, cards.node),
     );
   }

@@ -59,7 +59,7 @@ export class LiveView implements View {
           'values-panel',
           el(
             'div',
-            { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': t('picture.values') },
+            { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': t('picture.values') },
             el('table', {}, el('thead', {}, el('tr', {}, ...heads)), this.rows),
           ),
         ),

@@ -23,7 +23,7 @@ export class PictureHost {
     }
     this.picture = picture;
     this.node = el('div', { class: 'picture' }, picture?.canvas ?? el('p', { class: 'no-picture' }, t('picture.none')));
-    this.node.append(el('div', { class: 'overlay' }, this.delay, this.scale, this.phase));
+    this.node.append(el('div', { class: 'overlay' }, picture?.labels ?? null, this.delay, this.scale, this.phase));
     const motion = matchMedia('(prefers-reduced-motion: reduce)');
     const follow = (): void => {
       if (!picture) return;

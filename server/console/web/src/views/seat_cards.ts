@@ -82,7 +82,12 @@ export class SeatCards implements View {
         this.sparkAt = 0;
       },
     );
-    this.node = panel(t('cards.title'), 'cards-panel', labelled(t('cards.quantity'), quantities), this.grid);
+    this.node = panel(
+      t('cards.title'),
+      'cards-panel',
+      el('div', { class: 'row' }, labelled(t('cards.quantity'), quantities)),
+      this.grid,
+    );
   }
 
   update(): void {

@@ -38,8 +38,6 @@ export class SeatPad {
       this.canvas.addEventListener(end, () => device.grip('pointer', false));
     }
     this.canvas.addEventListener('keydown', (event) => this.onKey(event));
-    // A page without focus gets no key that releases the hand.
-    window.addEventListener('blur', () => device.release());
   }
 
   /** @param share force in shares of the limit, or null if unknown */

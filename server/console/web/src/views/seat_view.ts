@@ -40,6 +40,9 @@ export class SeatView implements View {
     this.hold = button(t('seat.hold'), () => this.device.grip('button', !this.device.pressed), {
       'aria-pressed': 'false',
     });
+    // A page without focus gets neither keys nor frames of the screen that would release the hand.
+    window.addEventListener('blur', () => this.release());
+    document.addEventListener('visibilitychange', () => this.release());
     const plane = select(
       [
         ['front', t('seat.front')],
@@ -89,7 +92,7 @@ export class SeatView implements View {
   }
 
   hidden(): void {
-    this.device.release();
+    this.release();
     this.page.sound.ownForce(null);
   }
 
@@ -134,7 +137,7 @@ export class SeatView implements View {
     const own = model.ownSeat;
     this.readGamepad((now_ms - this.last_ms) / 1000);
     this.last_ms = now_ms;
-    if (own && now_ms - this.sent_ms >= 1000 / kPointerRate) {
+    if (own?.seat && now_ms - this.sent_ms >= 1000 / kPointerRate) {
       this.sent_ms = now_ms;
       this.page.connection.signal({ type: 'pointer', x: this.device.x, pressed: this.device.pressed });
     }
@@ -148,6 +151,14 @@ export class SeatView implements View {
       this.depth.value = String(Math.round((this.device.x[vertical] ?? 0) * 1000));
     this.pad.draw(own, share);
     this.page.sound.ownForce(own ? share : null);
+  }
+
+  /** Releases the hand at once: a hidden view or page sends no further frames of the pointer. */
+  private release(): void {
+    this.device.release();
+    if (this.page.model.ownSeat?.seat) {
+      this.page.connection.signal({ type: 'pointer', x: this.device.x, pressed: false }, true);
+    }
   }
 
   private takeSeat(): void {

@@ -70,8 +70,7 @@ export class SheetForm implements View {
     const total = totalOf(form, this.scores);
     const missing = total.missing.length;
     const words = form.name === 'CHECKLIST' || missing === 0 ? '' : ` · ${t('sheet.missing', { n: missing })}`;
-    const of = form.name === 'CHECKLIST' ? form.items.length : total.of;
-    setText(this.total, t('sheet.total', { points: total.points, of }) + words);
+    setText(this.total, t('sheet.total', { points: total.points, of: total.of }) + words);
     const may = model.may('score') && !this.closed;
     setDisabled(this.save, !may);
     setDisabled(this.close, !may || (form.name !== 'CHECKLIST' && missing > 0));

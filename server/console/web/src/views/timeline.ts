@@ -50,7 +50,7 @@ export class Timeline implements View {
       'timeline-panel',
       this.line,
       form,
-      el('div', { class: 'scroll log-box', tabindex: 0, role: 'region', 'aria-label': t('marks.title') }, this.list),
+      el('div', { class: 'scroll log-box', tabindex: 0, role: 'group', 'aria-label': t('marks.title') }, this.list),
     );
   }
 

@@ -30,7 +30,7 @@ export class WhoPanel implements View {
       'who-panel',
       el(
         'div',
-        { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': t('who.title') },
+        { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': t('who.title') },
         el('table', {}, el('thead', {}, el('tr', {}, ...heads, el('td'))), this.rows),
       ),
       el('div', { class: 'row' }, this.drain),

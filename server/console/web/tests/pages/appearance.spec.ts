@@ -1,0 +1,112 @@
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+
+import { expect, test, view } from './fixture';
+
+const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const kNames = ['live', 'instructor', 'evaluator', 'seat', 'desk'];
+
+interface Violation {
+  id: string;
+  nodes: { html: string; failureSummary: string }[];
+}
+
+for (const scheme of ['light', 'dark'] as const) {
+  test(`axe finds no violation, ${scheme}`, async ({ start, open }) => {
+    const gateway = await start({ role: 'OPERATOR', freeSeat: true });
+    const page = await open(gateway);
+    await page.emulateMedia({ colorScheme: scheme });
+    gateway.session.order({ order: 'pause', why: 'axe' }, 'ina', 'INSTRUCTOR');
+    gateway.session.marks.push({ t: 1, text: 'mark', person: 'eva' });
+    gateway.session.seats[0]!.heard = false;
+    await page.evaluate(kAxe);
+    for (const width of [1280, 390]) {
+      await page.setViewportSize({ width, height: 844 });
+      for (const name of kNames) {
+        await view(page, name);
+        await page.waitForTimeout(250);
+        const found = await page.evaluate(async () => {
+          const { axe } = window as unknown as { axe: { run: () => Promise<{ violations: Violation[] }> } };
+          return (await axe.run()).violations.map((v) => [v.id, v.nodes.map((n) => `${n.html} ${n.failureSummary}`)]);
+        });
+        expect([scheme, width, name, found]).toEqual([scheme, width, name, []]);
+      }
+    }
+  });
+
+  for (const width of [1440, 768, 390]) {
+    test(`screenshots, ${width} px, ${scheme}`, async ({ start, open }) => {
+      const gateway = await start({ role: 'OPERATOR', freeSeat: true });
+      const page = await open(gateway);
+      await page.emulateMedia({ colorScheme: scheme });
+      await page.setViewportSize({ width, height: 900 });
+      for (const name of kNames) {
+        await view(page, name);
+        await page.waitForTimeout(400);
+        const path = `screenshots/${name}-${width}-${scheme}.png`;
+        const picture = await page.screenshot({ path, fullPage: true });
+        expect(picture.length).toBeGreaterThan(5000);
+      }
+    });
+  }
+}
+
+test('no view is wider than the window from 320 px to 4K', async ({ start, open }) => {
+  const gateway = await start({ seats: 8, role: 'OPERATOR' });
+  const page = await open(gateway);
+  for (const width of [320, 390, 600, 768, 1000, 1440, 2000, 3840]) {
+    await page.setViewportSize({ width, height: 900 });
+    for (const name of kNames) {
+      await view(page, name);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      expect([name, width, wide]).toEqual([name, width, width]);
+    }
+  }
+});
+
+test('French: all texts change, and the choice stays', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await page.getByText('Settings').click();
+  await page.getByLabel('Language').selectOption('fr');
+  await expect(page.locator('html')).toHaveAttribute('lang', 'fr');
+  await expect(page.getByRole('button', { name: 'ARRÊT' })).toBeVisible();
+  await expect(page.locator('.delay')).toHaveText(/Retard/);
+  await page.reload();
+  await expect(page.getByRole('button', { name: 'ARRÊT' })).toBeVisible();
+});
+
+test('dark colours by choice, whatever the system has', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await page.emulateMedia({ colorScheme: 'light' });
+  await page.getByText('Settings').click();
+  await page.getByLabel('Colours').selectOption('dark');
+  expect(await page.evaluate(() => getComputedStyle(document.body).color)).toBe('rgb(232, 237, 242)');
+});
+
+test('reduced motion switches the trails off', async ({ start, browser }) => {
+  const gateway = await start();
+  const context = await browser.newContext({ reducedMotion: 'reduce' });
+  const page = await context.newPage();
+  await page.goto(gateway.entry());
+  await expect(page.getByLabel('Trails of 3 s')).not.toBeChecked();
+  await context.close();
+});
+
+test('the keyboard reaches all controls: tab order, camera, views', async ({ start, open }) => {
+  const gateway = await start({ role: 'OPERATOR' });
+  const page = await open(gateway);
+  const reached = new Set<string>();
+  for (let i = 0; i < 40; i += 1) {
+    await page.keyboard.press('Tab');
+    reached.add(
+      await page.evaluate(() => document.activeElement?.textContent || document.activeElement?.tagName || ''),
+    );
+  }
+  for (const name of ['Skip to content', 'STOP', 'Pause', 'Live', 'Lesson desk', 'Settings', 'CANVAS']) {
+    expect([...reached]).toContain(name);
+  }
+  await page.keyboard.press('5');
+  await expect(page.locator('[data-view=desk]')).toHaveAttribute('aria-current', 'page');
+});

@@ -1,0 +1,160 @@
+import { expect, test, view } from './fixture';
+
+test('the instructor hands over: the transfer is announced, then applied', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  const panel = page.locator('.authority-panel');
+  await panel.locator('select').last().selectOption({ label: 'trainee' });
+  await panel.getByRole('button', { name: 'Hand over' }).click();
+  await expect.poll(() => gateway.session.wanted).toEqual([0, 1]);
+  await expect(page.locator('.events-panel')).toContainText('ina gives the tool to trainee (100 %)');
+  await expect(panel.locator('.share').nth(2).locator('.applied span').last()).toHaveText(/100/);
+  expect(gateway.session.orders.at(-1)).toMatchObject({ order: 'authority', tool: 0, version: 1, alpha: [0, 1] });
+});
+
+test('an announced transfer is shown with its ticks', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  gateway.session.transfer = { by: 'trainer', to: 'trainee', alpha: 0.5, ticks: 5000 };
+  await expect(page.locator('.transfer')).toHaveText(/trainer gives 50.% to trainee\. Begins in \d+ ticks\./);
+  await expect(page.locator('.transfer')).toHaveClass(/announced/);
+});
+
+test('sliders keep the sum and are sent with Apply only', async ({ start, open }) => {
+  const gateway = await start({ seats: 3 });
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  await page.getByRole('slider', { name: 'Authority of trainer' }).focus();
+  for (let i = 0; i < 8; i += 1) await page.keyboard.press('ArrowLeft');
+  await expect(page.locator('.share .draft')).toHaveText([/60/, /20/, /20/]);
+  expect(gateway.session.wanted).toEqual([1, 0, 0]);
+  await page.getByRole('button', { name: 'Apply' }).click();
+  await expect
+    .poll(() => gateway.session.wanted.map((share: number) => Math.round(share * 1e6) / 1e6))
+    .toEqual([0.6, 0.2, 0.2]);
+});
+
+test('presets give authority for demonstration, guidance and evaluation', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  for (const [name, alpha] of [
+    ['Evaluation of trainee', [0, 1]],
+    ['Guidance', [0.5, 0.5]],
+    ['Demonstration', [1, 0]],
+  ] as const) {
+    await page.getByRole('button', { name }).click();
+    await expect.poll(() => gateway.session.wanted).toEqual(alpha);
+    await expect(page.locator('.share .number').nth(0)).toHaveText(new RegExp(`${alpha[0] * 100}`));
+  }
+});
+
+test('STOP by button and resume; pause by key and resume by key', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await page.getByRole('button', { name: 'STOP' }).click();
+  await expect(page.locator('.active-stop')).toHaveText('Stop by ina: from the console');
+  await expect(page.locator('.badge')).toHaveText('stopped');
+  expect(gateway.session.phase).toBe('STOPPED');
+  await page.getByRole('button', { name: 'Resume' }).click();
+  await expect(page.locator('.badge')).toHaveText('running');
+  await page.locator('main').focus();
+  await page.keyboard.press('p');
+  await expect(page.locator('.badge')).toHaveText('paused');
+  await page.keyboard.press('r');
+  await expect(page.locator('.badge')).toHaveText('running');
+  await page.keyboard.press('s');
+  await expect(page.locator('.badge')).toHaveText('stopped');
+});
+
+test('keys do nothing while the person writes, or when they are switched off', async ({ start, open }) => {
+  const gateway = await start({ role: 'OPERATOR' });
+  const page = await open(gateway);
+  await view(page, 'evaluator');
+  await page.getByLabel('Note').pressSequentially('stop press 1');
+  await expect(page.locator('[data-view=evaluator]')).toHaveAttribute('aria-current', 'page');
+  await page.getByText('Settings').click();
+  await page.getByRole('checkbox', { name: 'Keys' }).uncheck();
+  await page.locator('main').focus();
+  await page.keyboard.press('s');
+  await page.keyboard.press('1');
+  await expect(page.locator('[data-view=evaluator]')).toHaveAttribute('aria-current', 'page');
+  expect(gateway.session.orders).toEqual([]);
+});
+
+test('a refusal is shown with its reason', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  gateway.session.setAuthority = () => 'the authority has version 7, not 1; look at the new values and repeat';
+  await page.getByRole('button', { name: 'Guidance' }).click();
+  await expect(page.getByRole('alert')).toHaveText(/Presets was refused: the authority has version 7, not 1/);
+  await page.getByRole('button', { name: 'Dismiss' }).click();
+  await expect(page.getByRole('alert')).toHaveCount(0);
+});
+
+test('a trainee cannot end the stop of the instructor', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway, 'ted', 'TRAINEE');
+  gateway.session.order({ order: 'stop', why: 'tissue torn' }, 'ina', 'INSTRUCTOR');
+  await expect(page.locator('.active-stop')).toContainText(
+    'Only the person who stopped, or an instructor, may resume.',
+  );
+  await expect(page.getByRole('button', { name: 'Resume' })).toBeDisabled();
+  await view(page, 'instructor');
+  await expect(page.getByRole('slider', { name: 'Authority of trainer' })).toBeDisabled();
+  await expect(page.getByRole('button', { name: 'Guidance' })).toBeDisabled();
+  await expect(page.getByRole('button', { name: 'Remove… trainer' })).toBeHidden();
+});
+
+test('an observer has no control that works', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway, 'otto', 'OBSERVER');
+  for (const name of ['live', 'instructor', 'evaluator', 'seat', 'desk']) {
+    await view(page, name);
+    await expect(page.locator('button.stop')).toBeHidden();
+    // The pad and its view of the plane move nothing without a seat; lists and cameras only choose what is shown.
+    const enabled = page.locator('main button:enabled:not([type=submit]), main input[type=range]:enabled');
+    const names = await enabled.evaluateAll((nodes) => nodes.map((node) => node.textContent));
+    expect(names.filter((text) => text !== 'Add person' && text !== '✕')).toEqual([]);
+  }
+  await page.keyboard.press('s');
+  expect(gateway.session.orders).toEqual([]);
+});
+
+test('remove and drain ask first, and cancel sends nothing', async ({ start, open }) => {
+  const gateway = await start({ role: 'OPERATOR' });
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  await page.getByRole('button', { name: 'Remove… trainee' }).click();
+  await page.getByRole('button', { name: 'Cancel' }).click();
+  expect(gateway.session.orders).toEqual([]);
+  await page.getByRole('button', { name: 'Remove… trainee' }).click();
+  await page.getByLabel('Reason').fill('device broken');
+  await page.keyboard.press('Enter');
+  await expect(page.locator('.who-panel tbody tr').nth(1)).toContainText('free');
+  await page.getByRole('button', { name: 'Drain…' }).click();
+  await page.getByLabel('Grace time (s)').fill('3600');
+  await page.getByRole('button', { name: 'Drain', exact: true }).click();
+  await expect
+    .poll(() => gateway.session.orders.map((order: { order: string }) => order.order))
+    .toEqual(['remove', 'drain']);
+  expect(gateway.session.orders).toMatchObject([{ seat: 'trainee', why: 'device broken' }, { grace_s: 3600 }]);
+});
+
+test('alarms are listed in words with their time', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  const seat = gateway.session.seats[1]!;
+  seat.heard = false;
+  await expect(page.locator('.alarms-panel')).toContainText('Seat trainee: no data from the device.');
+  await expect(page.locator('.alarms-panel time').first()).toHaveText(/^\d+:\d\d\.\d$/);
+  await expect(page.locator('.card').nth(1)).toHaveAttribute('data-band', 'red');
+  seat.heard = true;
+  seat.rtt = 250;
+  await expect(page.locator('.alarms-panel')).toContainText('Seat trainee: link quality red.');
+  await expect(page.locator('.card').nth(1)).toContainText('red: outside the limits for force feedback');
+});
