@@ -44,13 +44,13 @@ json walls_of(const EnvironmentSpec& environment) {
   if (!environment.wall) return json::array();
   const WallSpec& wall = *environment.wall;
   return json::array(
-      {{{"axis", wall.axis}, {"at_m", wall.at}, {"stiffness_n_m", wall.k}, {"free_below", wall.from_below}}});
+      {{{"axis", wall.axis}, {"at_m", wall.at}, {"stiffness_n_m", wall.k}, {"from_below", wall.from_below}}});
 }
 json tissues_of(const EnvironmentSpec& environment) {
   if (!environment.tissue) return json::array();
   const TissueSpec& tissue = *environment.tissue;
   return json::array(
-      {{{"axis", tissue.axis}, {"at_m", tissue.at}, {"stiffness_n_m", tissue.k}, {"free_below", tissue.from_below}}});
+      {{{"axis", tissue.axis}, {"at_m", tissue.at}, {"stiffness_n_m", tissue.k}, {"from_below", tissue.from_below}}});
 }
 
 std::string origin_of(const SceneSpec& scene, std::uint32_t by) {

@@ -40,6 +40,13 @@ TANDEM_PACKAGES_TEST=(
   "valgrind: counts instructions"
 )
 
+# Further packages of the label web. Without them its tests are skipped.
+# shellcheck disable=SC2034
+TANDEM_PACKAGES_WEB=(
+  "npm: installs the packages that build the page of tandem-console"
+  "chromium: shows the page in tests"
+)
+
 # Further packages of ./test --full, --nightly and --bench. Without them the default ./test lists what it did not run.
 # shellcheck disable=SC2034
 TANDEM_PACKAGES_FULL=(
@@ -144,4 +151,15 @@ ensure_packages() {
     fi
   fi
   packages_say "Installed: ${names[*]}" ""
+}
+
+# try_packages "name: reason" ...: installs the missing packages if that is possible. @return 1: some are missing
+try_packages() {
+  local missing=()
+  mapfile -t missing < <(packages_missing "$@")
+  if ((${#missing[@]} == 0)); then return 0; fi
+  packages_say "Installing ${missing[*]%%:*}; tests that need them are skipped if that fails."
+  packages_become_root || return 1
+  packages_apt install -y --no-install-recommends "${missing[@]%%:*}" >/dev/null 2>&1 ||
+    { packages_apt update >/dev/null 2>&1 && packages_apt install -y --no-install-recommends "${missing[@]%%:*}" >/dev/null 2>&1; }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -54,13 +55,15 @@ class WebPage {
   bool send(const Json& message) { return send(message.dump()); }
   /// Returns the next message and acknowledges it if it is a state; null: the connection was closed, or 30 s passed.
   [[nodiscard]] Json read();
-  /// Reads until a message fulfils the condition. @return it; null: none
+  static constexpr std::chrono::seconds kTimeout{60};
+  /// Reads until a message fulfils the condition, for kTimeout at most. @return it; null: none
   template <class Condition>
   [[nodiscard]] Json until(Condition condition) {
-    while (true) {
+    for (const auto end = std::chrono::steady_clock::now() + kTimeout; std::chrono::steady_clock::now() < end;) {
       Json message = read();
       if (message.is_null() || condition(message)) return message;
     }
+    return nullptr;
   }
   /// Reads until a message has this type.
   [[nodiscard]] Json next(const std::string& type) {

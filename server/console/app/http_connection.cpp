@@ -78,8 +78,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (target == "/healthz") return answer(http::status::ok, "ok\n");
     if (target == "/join") return send_sign_in(http::status::ok, {});
     if (const std::string_view token = token_of(target); !token.empty()) return redeem(token);
-    if (!person && target == "/") return redirect("/join", {});
-    if (!person) return answer(http::status::forbidden, "this browser has no access; open /join\n");
+    // The page has no secret: without a cookie it shows the form for a ticket.
     for (const PageFile& file : page_files())
       if (file.path == target) return send_file(file);
     answer(http::status::not_found, "no such file\n");

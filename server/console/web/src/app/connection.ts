@@ -7,6 +7,8 @@ import { t } from '../strings/strings';
 
 /** Frames that stay free for orders when acknowledgements and pointer use up the rate. */
 const kReserve = 10;
+/** Close code of the gateway for a browser without a valid cookie. */
+const kSignIn = 4401;
 /** Time between two measurements of the round trip [ms]. */
 const kMeasurePeriod = 10_000;
 
@@ -120,7 +122,8 @@ export class Connection {
     this.socket = null;
     this.pending.failAll(t('order.no_connection'));
     const detail = reason || `WebSocket ${code}`;
-    this.model.disconnected(!opened && (await gatewayAnswers()) ? 'refused' : 'lost', detail);
+    const refused = code === kSignIn || (!opened && (await gatewayAnswers()));
+    this.model.disconnected(refused ? 'refused' : 'lost', detail);
     this.onChange();
     if (this.model.link === 'lost') this.retry = setTimeout(() => this.connect(), this.backoff.next(Math.random()));
   }

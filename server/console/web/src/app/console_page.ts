@@ -35,6 +35,7 @@ export class ConsolePage implements Page {
   private prefilled = ticketOfHash(location.hash);
   private lastNotice: Notice | null = null;
   private updated_ms = 0;
+  private played = false;
   private readonly dark = matchMedia('(prefers-color-scheme: dark)');
 
   constructor(
@@ -143,12 +144,22 @@ export class ConsolePage implements Page {
       this.prefilled = null;
       this.choose(this.current);
     }
+    this.play();
     const fresh = model.notices.newest;
     if (fresh && fresh !== this.lastNotice) {
       this.lastNotice = fresh;
       this.report(fresh.level, fresh.text);
     }
     this.update();
+  }
+
+  /** Takes the seat of a trial at once; the person may leave it and take another one. */
+  private play(): void {
+    const seat = this.model.hello?.play;
+    if (!seat || this.played || !this.model.may('seat')) return;
+    this.played = true;
+    this.choose('seat');
+    void this.request(t('seat.take'), { type: 'take', seat });
   }
 
   private update(): void {

@@ -78,7 +78,9 @@ export class SessionModel {
         this.notices.push(message);
         break;
       case 'seat':
-        this.ownSeat = message;
+        this.ownSeat = message.joined && message.ended === null ? message : null;
+        if (message.ended !== null && message.ended !== 'left')
+          this.notices.push({ type: 'notice', level: 'error', text: `${message.seat}: ${message.ended}` });
         break;
       case 'notes':
         this.notes = message;

@@ -7,7 +7,17 @@ export const kToolsMax = 8;
 export const kTextMax = 1000;
 
 export type Vec3 = readonly [number, number, number];
-export type Right = 'stop' | 'pause' | 'resume' | 'authority' | 'remove' | 'drain' | 'score' | 'create' | 'seat';
+export type Right =
+  | 'stop'
+  | 'pause'
+  | 'resume'
+  | 'authority'
+  | 'remove'
+  | 'drain'
+  | 'score'
+  | 'create'
+  | 'seat'
+  | 'invite';
 export type Phase = 'WAITING' | 'RUNNING' | 'STOPPED' | 'PAUSED' | 'OVER';
 export type SheetName = 'OSATS' | 'GEARS' | 'GOALS' | 'CHECKLIST';
 
@@ -27,6 +37,8 @@ export interface Hello {
   sessions: readonly SessionName[];
   /** Names of scenes from which this person may create a session; empty if the gateway does not say. */
   scenes: readonly string[];
+  /** Seat that the page takes at once; null: none. */
+  play: string | null;
 }
 
 export interface SceneSeat {
@@ -153,6 +165,10 @@ export interface OwnSeat {
   x: Vec3 | null;
   engaged: boolean | null;
   phase: string;
+  /** The server admitted the person. */
+  joined: boolean;
+  /** Why the seat is over; null: it is not. */
+  ended: string | null;
 }
 
 export interface Mark {
@@ -199,7 +215,7 @@ export type OrderBody =
   | { order: 'remove'; seat: string; why: string }
   | { order: 'drain'; grace_s: number }
   | { order: 'create'; scene: string; name: string; people: readonly { name: string; role: string; seat: string }[] }
-  | { order: 'start' | 'end'; session: string };
+  | { order: 'end'; session: string };
 
 /** Frames that expect a reply; the connection adds the `id`. */
 export type Request =
@@ -208,7 +224,8 @@ export type Request =
   | { type: 'mark'; t: number; text: string }
   | { type: 'sheet'; sheet: SheetName; of: string; scores: Readonly<Record<string, number>>; closed: boolean }
   | { type: 'take'; seat: string }
-  | { type: 'leave' };
+  | { type: 'leave' }
+  | { type: 'invite' };
 
 /** Frames without a reply. */
 export type Signal = { type: 'ack'; n: number } | { type: 'pointer'; x: Vec3; pressed: boolean };

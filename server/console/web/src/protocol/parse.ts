@@ -189,6 +189,7 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
       .map(object)
       .map((session) => ({ id: text(session.id), name: text(session.name), state: text(session.state) })),
     scenes: texts(from.scenes),
+    play: textOrNull(from.play),
   }),
   scene: (from) => ({
     type: 'scene',
@@ -220,6 +221,8 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
     x: vec3(from.x),
     engaged: flag(from.engaged),
     phase: text(from.phase),
+    joined: from.joined !== false,
+    ended: textOrNull(from.ended) ?? (text(from.seat) === '' ? 'left' : null),
   }),
   notes: (from) => ({
     type: 'notes',

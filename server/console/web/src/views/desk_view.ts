@@ -25,7 +25,6 @@ export class DeskView implements View {
   });
   private readonly people = el('div', { class: 'people' });
   private readonly create = el('button', { type: 'submit', class: 'primary' }, t('desk.create'));
-  private readonly start: HTMLButtonElement;
   private readonly end: HTMLButtonElement;
   private readonly tickets = el('div', { class: 'tickets' });
   private rows: PersonRow[] = [];
@@ -40,8 +39,7 @@ export class DeskView implements View {
       pattern: '[A-Za-z0-9_\\-]{1,32}',
       required: true,
     });
-    this.start = button(t('desk.start'), () => this.order('start'));
-    this.end = button(t('desk.end'), () => this.order('end'), { class: 'danger' });
+    this.end = button(t('desk.end'), () => this.endSession(), { class: 'danger' });
     const form = el(
       'form',
       {
@@ -69,7 +67,13 @@ export class DeskView implements View {
     this.node = el(
       'div',
       { class: 'view desk-view' },
-      panel(t('desk.title'), 'desk-panel', form, el('div', { class: 'row' }, this.start, this.end)),
+      panel(
+        t('desk.title'),
+        'desk-panel',
+        form,
+        el('p', { class: 'note' }, t('desk.begins')),
+        el('div', { class: 'row' }, this.end),
+      ),
       this.tickets,
     );
     this.add('INSTRUCTOR', 'trainer');
@@ -80,7 +84,6 @@ export class DeskView implements View {
     const { model } = this.page;
     const may = model.may('create');
     setDisabled(this.create, !may);
-    setDisabled(this.start, !may || !this.session());
     setDisabled(this.end, !may || !this.session());
     if (model.revision !== this.revision) {
       this.revision = model.revision;
@@ -96,9 +99,9 @@ export class DeskView implements View {
     return this.page.model.tickets?.session ?? this.page.model.scene?.session;
   }
 
-  private order(order: 'start' | 'end'): void {
+  private endSession(): void {
     const session = this.session();
-    if (session) void this.page.order(t(`desk.${order}`), { order, session });
+    if (session) void this.page.order(t('desk.end'), { order: 'end', session });
   }
 
   private add(role: string, seat: string): void {

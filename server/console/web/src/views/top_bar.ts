@@ -3,7 +3,7 @@ import type { Settings } from '../app/settings';
 import { clock } from '../logic/format';
 import type { Hello } from '../protocol/messages';
 import { kLanguages, setLanguage, t, word, currentLanguage, type Language } from '../strings/strings';
-import { button, checkbox, el, fillSelect, labelled, select, setAttribute, setText } from './dom';
+import { button, checkbox, el, fillSelect, labelled, select, setAttribute, setDisabled, setText } from './dom';
 
 export const kViews: readonly ViewName[] = ['live', 'instructor', 'evaluator', 'seat', 'desk'];
 
@@ -29,6 +29,8 @@ export class TopBar implements View {
   private readonly link = el('span', { class: 'link', role: 'status' });
   private readonly person = el('span', { class: 'person' });
   private readonly tabs: readonly HTMLButtonElement[];
+  private readonly invite = button(t('bar.invite'), () => void this.askInvitation());
+  private readonly invitation = el('input', { type: 'text', readonly: true, 'aria-label': t('bar.invitation') });
   private known: Hello | null = null;
 
   constructor(
@@ -63,8 +65,11 @@ export class TopBar implements View {
         labelled(t('bar.theme'), theme),
         checkbox(t('bar.keys'), settings.keys, (keys) => actions.change({ keys })),
         el('p', { class: 'note' }, t('bar.keys_help')),
+        this.invite,
+        this.invitation,
       ),
     );
+    this.invitation.hidden = true;
     const sound = checkbox(t('bar.sound'), page.sound.on, (on) => page.sound.switch(on));
     this.node = el(
       'header',
@@ -83,6 +88,15 @@ export class TopBar implements View {
       ),
       el('nav', { 'aria-label': t('nav.label') }, ...this.tabs),
     );
+  }
+
+  /** Shows a URL for another browser. It works once, so that each click gives a new one. */
+  private async askInvitation(): Promise<void> {
+    const reply = await this.page.connection.request({ type: 'invite' });
+    if (!reply.ok) return this.page.report('error', t('order.refused', { what: t('bar.invite'), why: reply.text }));
+    this.invitation.value = location.origin + reply.text;
+    this.invitation.hidden = false;
+    this.invitation.select();
   }
 
   choose(view: ViewName): void {
@@ -109,6 +123,7 @@ export class TopBar implements View {
     setText(this.time, state ? clock(state.t) : '');
     setText(this.link, t(`link.${model.link}`));
     setAttribute(this.link, 'data-link', model.link);
+    setDisabled(this.invite, !model.may('invite'));
     for (const tab of this.tabs) {
       const right = { live: null, instructor: null, evaluator: 'score', seat: 'seat', desk: 'create' } as const;
       const needed = right[tab.dataset.view as ViewName];

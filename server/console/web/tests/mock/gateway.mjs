@@ -251,7 +251,7 @@ export class MockGateway {
       });
       return page.send({ type: 'tickets', session: kSession, name: frame.name, tickets });
     }
-    if (frame.order === 'start' || frame.order === 'end') return page.reply(frame.id, '');
+    if (frame.order === 'end') return page.reply(frame.id, '');
     return page.reply(frame.id, this.session.order(frame, page.person, page.role));
   }
 

@@ -17,6 +17,7 @@ const hello: Hello = {
   may: ['stop'],
   sessions: [],
   scenes: [],
+  play: null,
 };
 
 /** Entries of all arrays and maps below an object: what could grow. */
