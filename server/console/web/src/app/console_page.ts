@@ -144,7 +144,6 @@ export class ConsolePage implements Page {
       this.prefilled = null;
       this.choose(this.current);
     }
-    this.play();
     const fresh = model.notices.newest;
     if (fresh && fresh !== this.lastNotice) {
       this.lastNotice = fresh;
@@ -153,16 +152,18 @@ export class ConsolePage implements Page {
     this.update();
   }
 
-  /** Takes the seat of a trial at once; the person may leave it and take another one. */
+  /** Takes the seat of a trial at once if it is free; the person may leave it and take another one. */
   private play(): void {
-    const seat = this.model.hello?.play;
-    if (!seat || this.played || !this.model.may('seat')) return;
+    const { hello, scene, state } = this.model;
+    if (this.played || !hello?.play || !scene || !state || !this.model.may('seat')) return;
     this.played = true;
     this.choose('seat');
-    void this.request(t('seat.take'), { type: 'take', seat });
+    const taken = state.seats[scene.seats.findIndex(({ name }) => name === hello.play)]?.taken;
+    if (taken === false) void this.request(t('seat.take'), { type: 'take', seat: hello.play });
   }
 
   private update(): void {
+    this.play();
     this.bar?.update();
     this.control?.update();
     this.host.update(this.model.states.sample(performance.now()));
