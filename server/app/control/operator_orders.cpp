@@ -41,6 +41,7 @@ void SessionCommands::order(rpc::Body command, const std::string& who, const std
   if (orders_ == nullptr)
     return answer(ErrorReply{ErrorCode::kNotAllowed, "this server creates and ends no sessions on request", 0});
   SessionOrder order{.who = who};
+  std::function<void()> announce = [] {};  // once the order is accepted
   if (auto* const create = std::get_if<rpc::CreateSession>(&command)) {
     if (registry_.drain().active())
       return answer(ErrorReply{ErrorCode::kDraining, "this server is draining and creates no sessions", 10});
@@ -62,7 +63,9 @@ void SessionCommands::order(rpc::Body command, const std::string& who, const std
     std::string name;
     if (SessionEntry* const entry = registry_.find(end.session_id)) {
       name = entry->registration.name;
-      entry->notices.add(truncate_utf8(with_reason("the session is ENDED by " + who, end.why), rpc::kTextMax));
+      announce = [entry, text = truncate_utf8(with_reason("the session is ENDED by " + who, end.why), rpc::kTextMax)] {
+        entry->notices.add(text);
+      };
     }
     order.answer = [this, name, detail = with_reason(who, end.why), answer](rpc::Body reply) {
       if (std::holds_alternative<rpc::Ok>(reply)) {
@@ -72,10 +75,10 @@ void SessionCommands::order(rpc::Body command, const std::string& who, const std
       answer(std::move(reply));
     };
   }
-  if (!orders_->post(std::move(order)))
-    answer(ErrorReply{
-        ErrorCode::kNotNow,
-        format("%zu orders about sessions wait already; repeat it when they are done", SessionOrders::kMax), 1});
+  if (orders_->post(std::move(order))) return announce();
+  answer(ErrorReply{ErrorCode::kNotNow,
+                    format("%zu orders about sessions wait already; repeat it when they are done", SessionOrders::kMax),
+                    1});
 }
 
 void SessionCommands::complete(rpc::SessionCreated& created, const rpc::CreateSession& wanted, const std::string& who) {

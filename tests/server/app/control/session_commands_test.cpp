@@ -185,6 +185,7 @@ TEST(SessionCommands, QueueOrdersAboutSessionsUpToALimit) {
     c.commands.execute(c.joined, c.office, exam, [&](const rpc::Body&) { ++replies; });
   EXPECT_EQ(replies, 0U);
   EXPECT_EQ(error_of(c.ask(rpc::EndSession{id_of(1), ""})).code, ErrorCode::kNotNow);
+  EXPECT_TRUE(c.notices().empty()) << "a refused order ends no session";
   for (std::size_t i = 0; i < SessionOrders::kMax; ++i) {
     const auto order = orders.take();
     ASSERT_TRUE(order);
