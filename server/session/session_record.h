@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "server/session/session.h"
 
 namespace tandem::server {
@@ -10,6 +13,15 @@ namespace tandem::server {
 void record_seat(const wire::StateMessage& said, const wire::Telemetry& telemetry, double scale,
                  SeatRecord& record) noexcept;
 void record_slave(const wire::Telemetry& said, ToolRecord& record) noexcept;
+
+/// Motion of a tool's slave and the force of its environment, as records and watchers get them. A SLAVE seat has those
+/// of its newest telemetry; a tool without a slave has its own.
+struct SlaveMotion {
+  std::array<double, 3> x{};      ///< tip, or position of the virtual mass [m]
+  std::array<double, 3> f_env{};  ///< force of the environment on it [N]
+  double penetration = 0;         ///< in the environment [m]
+};
+[[nodiscard]] SlaveMotion slave_motion(const Session& session, std::size_t tool) noexcept;
 
 /// Fills the record of this tick for traces and reports. Values of seats are those of their newest STATE.
 void record_tick(const Session& session, const LeadingHands& leading, TickRecord& record) noexcept;
