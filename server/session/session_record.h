@@ -14,14 +14,13 @@ void record_seat(const wire::StateMessage& said, const wire::Telemetry& telemetr
                  SeatRecord& record) noexcept;
 void record_slave(const wire::Telemetry& said, ToolRecord& record) noexcept;
 
-/// Motion of a tool's slave and the force of its environment, as records and watchers get them. A SLAVE seat has those
-/// of its newest telemetry; a tool without a slave has its own.
-struct SlaveMotion {
-  std::array<double, 3> x{};      ///< tip, or position of the virtual mass [m]
-  std::array<double, 3> f_env{};  ///< force of the environment on it [N]
-  double penetration = 0;         ///< in the environment [m]
-};
-[[nodiscard]] SlaveMotion slave_motion(const Session& session, std::size_t tool) noexcept;
+/// Fills what records and watchers show of a tool's slave. A SLAVE seat has the values of its newest telemetry; a tool
+/// without a slave has its own.
+/// @param x            tip, or position of the virtual mass [m]
+/// @param f_env        force of the environment on it [N]
+/// @param penetration  in the environment [m]
+void slave_motion(const Session& session, std::size_t tool, std::array<double, 3>& x, std::array<double, 3>& f_env,
+                  double& penetration) noexcept;
 
 /// Fills the record of this tick for traces and reports. Values of seats are those of their newest STATE.
 void record_tick(const Session& session, const LeadingHands& leading, TickRecord& record) noexcept;

@@ -42,10 +42,7 @@ wire::WatchedToolState tool_state(const Session& session, Time now, std::size_t 
   out.touching = session.touching(now, j);
   out.braked = tool.authority.held();
   if (tool.spec().remote && !session.seat(tool.spec().seat).sent_telemetry()) return out;
-  const SlaveMotion slave = slave_motion(session, j);
-  out.x = slave.x;
-  out.f = slave.f_env;
-  out.depth = slave.penetration;
+  slave_motion(session, j, out.x, out.f, out.depth);
   return out;
 }
 

@@ -1,5 +1,5 @@
-// What a watching console costs the server: CPU time of the shard's thread, in user space and in the kernel, with a
-// console per session beside the same shard without. Rounds with and without consoles alternate in one process, and
+// The cost of a watching console for the server: CPU time of the shard's thread, in user space and in the kernel, with
+// a console per session beside the same shard without. Rounds with and without consoles alternate in one process, and
 // only their ratio is meaningful on a shared machine.
 #include <poll.h>
 #include <sys/socket.h>
