@@ -29,10 +29,20 @@ class Histogram {
     if (count_ == 0) return 0;
     const double share = q >= 0 ? std::min(q, 1.0) : 0.0;
     const double wanted = share * static_cast<double>(count_);
+    const auto reached = [&](std::uint64_t below) { return below > 0 && static_cast<double>(below) >= wanted; };
     std::uint64_t below = 0;
-    for (std::size_t bin = 0; bin < kBins; ++bin) {
+    std::size_t bin = 0;
+    // Skips whole octaves: most bins lie below the quantile. Their sum takes a quarter of the instructions.
+    for (std::uint64_t held = 0; bin < kBins; bin += kBinsPerOctave, below += held) {
+      held = 0;
+      const std::uint64_t* const octave = bins_.data() + bin;
+#pragma GCC unroll 32
+      for (std::size_t i = 0; i < kBinsPerOctave; ++i) held += octave[i];
+      if (reached(below + held)) break;
+    }
+    for (; bin < kBins; ++bin) {
       below += bins_[bin];
-      if (below > 0 && static_cast<double>(below) >= wanted) return std::min(LogScale::last_of(bin), max_);
+      if (reached(below)) return std::min(LogScale::last_of(bin), max_);
     }
     return max_;
   }
@@ -70,7 +80,8 @@ class Histogram {
  private:
   static constexpr std::size_t kBins = LogScale::kBins;
   static constexpr std::size_t kBinsPerBucket = std::size_t{1} << (LogScale::kSubBits - 2);
-  static_assert(kBins % kBinsPerBucket == 0 && LogScale::kExact % kBinsPerBucket == 0);
+  static constexpr std::size_t kBinsPerOctave = std::size_t{1} << LogScale::kSubBits;
+  static_assert(kBins % kBinsPerOctave == 0 && kBins % kBinsPerBucket == 0 && LogScale::kExact % kBinsPerBucket == 0);
 
   std::array<std::uint64_t, kBins> bins_{};
   std::uint64_t count_ = 0;

@@ -31,7 +31,7 @@ class LinkTestPeers {
                               [this](std::span<const std::byte> in) { return codec_.decode_link_probe(in); });
   }
   /// Removes silent peers, and marks a LINK_REPORT as due for the others.
-  void on_tick(Time now) noexcept TANDEM_REALTIME { static_cast<void>(slots_.on_tick(now, 1, 1)); }
+  void on_tick(Time now) noexcept TANDEM_REALTIME { static_cast<void>(slots_.on_tick(now, true, true)); }
   /// Writes the next datagram; nullopt if none is due.
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::uint32_t tick,
                                                       std::span<std::byte> buffer) noexcept TANDEM_REALTIME {

@@ -19,8 +19,8 @@ JoinResult PeerSlots::admit(Time now, std::unique_ptr<transport::SecureChannel>&
     v.connection.emplace(now, std::exchange(link, std::move(before)), tick_);
     v.connected = any_ = true;
     v.every_tick = every_tick;
+    any_every_tick_ |= every_tick;
     v.send_due = false;
-    v.since = 0;
     v.closes_left = 0;
     place = i;
     return JoinResult::kAccepted;
@@ -36,23 +36,23 @@ std::size_t PeerSlots::places_free(Time now) const noexcept {
 bool PeerSlots::remove(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept {
   if (place >= peers_.size() || !peers_[place].connected || peers_[place].connection->link().own_cid() != cid)
     return false;
+  removing_ = true;
   peers_[place].closes_left = kCloseRepeats;
   peers_[place].close_reason = why;
   return true;
 }
 
-bool PeerSlots::on_tick(Time now, std::uint32_t interval_every_tick, std::uint32_t interval) noexcept {
-  any_ = any_every_tick_ = false;
+bool PeerSlots::on_tick(Time now, bool turn_every_tick, bool turn) noexcept {
+  any_ = any_every_tick_ = removing_ = false;
   bool answers = false;
   for (Peer& v : peers_) {
     v.connected = v.connected && v.connection->silence(now) <= kSilenceMax;
     if (!v.connected) continue;
     any_ = true;
     any_every_tick_ |= v.every_tick;
+    removing_ |= v.closes_left > 0;
     const bool closes = v.closes_left > 0 || session_end_->sends_close();
-    const bool turn = ++v.since >= (v.every_tick ? interval_every_tick : interval);
-    if ((!turn && !closes) || !v.connection->proven_address()) continue;
-    v.since = 0;
+    if ((!(v.every_tick ? turn_every_tick : turn) && !closes) || !v.connection->proven_address()) continue;
     v.send_due = may_send_ = true;
     answers |= !closes;
   }

@@ -72,11 +72,17 @@ class PeerSlots {
     return true;
   }
 
-  /// Removes peers that have been silent for more than 2 s, and marks the datagrams of this tick.
-  /// @param interval  ticks between two datagrams: of a peer that may get one at every tick, of the others; at least 1
+  /// A peer gets CLOSE, at every tick.
+  [[nodiscard]] bool closing() const noexcept { return removing_ || session_end_->sends_close(); }
+  /// Removes peers that have been silent for more than 2 s, and marks the datagrams of this tick. A tick without a turn
+  /// of any peer needs no call, unless `closing`.
+  /// @param turn_every_tick  an answer is due to peers that may get one at every tick
+  /// @param turn             an answer is due to the others
   /// @return whether an answer is due to a peer
-  bool on_tick(Time now, std::uint32_t interval_every_tick, std::uint32_t interval) noexcept TANDEM_REALTIME;
+  bool on_tick(Time now, bool turn_every_tick, bool turn) noexcept TANDEM_REALTIME;
 
+  /// False: `poll_transmit` has nothing to send.
+  [[nodiscard]] bool may_send() const noexcept { return may_send_; }
   /// Writes the next datagram, CLOSE at the end of the session; nullopt if none is due.
   /// @param answer  seals the answer to a peer with this connection
   template <class Answer>
@@ -102,7 +108,6 @@ class PeerSlots {
   struct Peer {
     std::optional<Connection> connection;  ///< kept after the peer has left, until another joins
     bool connected = false, send_due = false, every_tick = true;
-    std::uint32_t since = 0;   ///< ticks since the last answer
     unsigned closes_left = 0;  ///< CLOSE datagrams still to send to a removed peer
     wire::CloseReason close_reason = wire::CloseReason::kRemoved;
   };
@@ -110,7 +115,8 @@ class PeerSlots {
   [[nodiscard]] std::optional<wire::CloseReason> close_reason(Peer& peer) const noexcept;
 
   std::vector<Peer> peers_;
-  bool any_ = false, any_every_tick_ = false;  ///< a peer is connected, or was at the last tick
+  bool any_ = false, any_every_tick_ = false;  ///< a peer is connected, or was at the last `on_tick`
+  bool removing_ = false;                      ///< a removed peer may still get CLOSE
   bool may_send_ = false;                      ///< something may be due since `poll_transmit` found nothing
   wire::Codec codec_;                          ///< of PATH and CLOSE, whose layout is always the same
   Duration tick_;

@@ -151,13 +151,8 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
 }
 
 void Session::serve_watchers(Time now) noexcept {
-  if (!watchers_.on_tick(now, lifecycle_.load_state().level)) return;
-  if (!recorded_) {  // `running` stays that of the last record, because it decides which ticks make one
-    const bool running = record_.running;
-    record_tick(*this, leading_hands_, record_);
-    record_.running = running;
-  }
-  fill_telemetry(*this, now, watchers_.next_turn(), watchers_.telemetry());
+  if (watchers_.on_tick(now, clock_.tick(), lifecycle_.load_state().level))
+    fill_telemetry(*this, now, watchers_.next_turn(), watchers_.telemetry());
 }
 
 void Session::run_one_tick(Time now) noexcept {
@@ -222,7 +217,7 @@ std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> bu
   if (!send_.done()) out = send_.poll(now, clock_.tick(), participants_.closing(), buffer);
   if (out) return out;
   if (link_test_peers_.any()) out = link_test_peers_.poll_transmit(now, clock_.tick(), buffer);
-  if (!out && watchers_.any()) out = watchers_.poll_transmit(now, clock_.tick(), buffer);
+  if (!out && watchers_.may_send()) out = watchers_.poll_transmit(now, clock_.tick(), buffer);
   if (!out) send_.rewind();
   return out;
 }

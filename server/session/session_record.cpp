@@ -34,6 +34,29 @@ void record_slave(const wire::Telemetry& said, ToolRecord& r) noexcept {
   r.penetration = said.penetration_m;
 }
 
+void slave_motion(const Session& session, std::size_t j, std::array<double, 3>& x, std::array<double, 3>& f_env,
+                  double& penetration) noexcept {
+  const Tool& tool = session.tool(j);
+  if (tool.slave() != nullptr) {
+    const hal::State& s = tool.slave()->state();
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = s.x[static_cast<Eigen::Index>(k)];
+      f_env[k] = s.f_env[static_cast<Eigen::Index>(k)];
+    }
+    penetration = s.penetration;
+  } else if (const control::VirtualTool* const body = tool.body(); body != nullptr && !tool.spec().remote) {
+    const std::size_t axes = session.scene().dof;
+    for (std::size_t a = 0; a < 3; ++a) x[a] = a < axes ? tool.x(a) : 0;
+    f_env = body->surface_force();
+    penetration = body->penetration();
+  } else {
+    const wire::Telemetry& said = session.seat(tool.spec().seat).telemetry();
+    x = said.x;
+    f_env = said.f_env;
+    penetration = said.penetration_m;
+  }
+}
+
 void record_tick(const Session& session, const LeadingHands& leading, TickRecord& record) noexcept {
   const SceneSpec& scene = session.scene();
   const std::size_t masters = scene.masters();
@@ -60,23 +83,14 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
     const Tool& tool = session.tool(j);
     ToolRecord& r = record.tools[j];
     for (std::size_t a = 0; a < std::min<std::size_t>(3, scene.dof); ++a) r.x_tool[a] = tool.x(a);
+    slave_motion(session, j, r.x, r.f_env, r.penetration);
     if (tool.slave() != nullptr) {
-      const hal::State& s = tool.slave()->state();
       const hal::Vec3 f = tool.slave_force_commanded();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto e = static_cast<Eigen::Index>(k);
-        r.x[k] = s.x[e];
-        r.f_env[k] = s.f_env[e];
-        r.f_cmd[k] = f[e];
-      }
-      r.q = s.q;
-      r.penetration = s.penetration;
+      for (std::size_t k = 0; k < 3; ++k) r.f_cmd[k] = f[static_cast<Eigen::Index>(k)];
+      r.q = tool.slave()->state().q;
       r.sample_tick = session.clock().session_tick();
-    } else if (const control::VirtualTool* const body = tool.body(); body != nullptr && !tool.spec().remote) {
-      r.x = r.x_tool;
-      r.f_env = body->surface_force();
+    } else if (tool.body() != nullptr && !tool.spec().remote) {
       for (std::size_t k = 0; k < 3; ++k) r.f_cmd[k] = -r.f_env[k];
-      r.penetration = body->penetration();
       r.sample_tick = session.clock().session_tick();
     } else {
       record_slave(session.seat(tool.spec().seat).telemetry(), r);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "server/session/session.h"
 
 namespace tandem::server {
@@ -10,6 +13,14 @@ namespace tandem::server {
 void record_seat(const wire::StateMessage& said, const wire::Telemetry& telemetry, double scale,
                  SeatRecord& record) noexcept;
 void record_slave(const wire::Telemetry& said, ToolRecord& record) noexcept;
+
+/// Fills what records and watchers show of a tool's slave. A SLAVE seat has the values of its newest telemetry; a tool
+/// without a slave has its own.
+/// @param x            tip, or position of the virtual mass [m]
+/// @param f_env        force of the environment on it [N]
+/// @param penetration  in the environment [m]
+void slave_motion(const Session& session, std::size_t tool, std::array<double, 3>& x, std::array<double, 3>& f_env,
+                  double& penetration) noexcept;
 
 /// Fills the record of this tick for traces and reports. Values of seats are those of their newest STATE.
 void record_tick(const Session& session, const LeadingHands& leading, TickRecord& record) noexcept;

@@ -1,9 +1,11 @@
 #include "server/session/session_telemetry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "proto/wire/wire_codec.h"
+#include "server/session/session_record.h"
 
 namespace tandem::server {
 
@@ -16,29 +18,31 @@ wire::WatchedSeatState seat_state(const Session& session, Time now, std::size_t 
   wire::WatchedSeatState out;
   out.taken = seat.taken();
   if (!seat.taken()) return out;
-  const SeatRecord& record = session.record().seats[i];
+  const wire::StateMessage& said = seat.last_state();
   out.heard = seat.alive(now);
-  out.stopped = seat.last_state().stop;
-  out.engaged = record.engaged;
-  out.gate = record.gate;
+  out.stopped = said.stop;
+  out.engaged = said.engaged;
+  out.gate = said.gate;
   if (!seat.sent_telemetry() || i >= session.scene().masters()) return out;
-  // The record has the force that the tool feels: with a motion scale, another one than that on the hand.
+  // The force is that on the hand. Records have the one that the tool feels, which differs with a motion scale.
   out.f = seat.telemetry().f_out;
-  const auto sendable = [](double x) { return std::abs(x) <= wire::kPositionMaxM; };  // scaled by up to 4
-  if (std::ranges::all_of(record.x, sendable)) out.x = record.x;
+  std::array<double, 3> x = seat.telemetry().x;
+  bool sendable = true;
+  for (double& axis : x) {
+    axis *= session.scene().seats[i].motion_scale;  // up to 4
+    sendable &= std::abs(axis) <= wire::kPositionMaxM;
+  }
+  if (sendable) out.x = x;
   return out;
 }
 
 wire::WatchedToolState tool_state(const Session& session, Time now, std::size_t j) noexcept {
   const Tool& tool = session.tool(j);
-  const ToolRecord& record = session.record().tools[j];
   wire::WatchedToolState out;
   out.touching = session.touching(now, j);
-  out.braked = record.held;
+  out.braked = tool.authority.held();
   if (tool.spec().remote && !session.seat(tool.spec().seat).sent_telemetry()) return out;
-  out.x = record.x;
-  out.f = record.f_env;
-  out.depth = record.penetration;
+  slave_motion(session, j, out.x, out.f, out.depth);
   return out;
 }
 

@@ -5,9 +5,9 @@
 
 namespace tandem::server {
 
-/// Fills the TELEMETRY of this tick from the session and its record.
+/// Fills the TELEMETRY of this tick from the session. Its values are those of the record of this tick, which need not
+/// exist.
 /// @param turn  number of the datagram: selects the seat of `link` and the tool of `authority`
-/// @pre session.record() is of this tick
 void fill_telemetry(const Session& session, Time now, std::uint32_t turn, wire::SessionTelemetry& out) noexcept;
 
 }  // namespace tandem::server

@@ -24,8 +24,7 @@ Watchers::Watchers(const SceneSpec& scene, const CloseOut& session_end)
       usual_(ticks_of(scene, wire::kTelemetryHz)),
       slowest_(ticks_of(scene, kSlowestHz)) {}
 
-std::uint32_t Watchers::interval(bool recorder, ShedLevel level) const noexcept {
-  if (level == ShedLevel::kNone) return recorder ? 1 : usual_;
+std::uint32_t Watchers::interval_shedding(bool recorder, ShedLevel level) const noexcept {
   if (level == ShedLevel::kTelemetry) return recorder ? kRecorderStretch : kStretch * usual_;
   return slowest_;
 }

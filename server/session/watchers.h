@@ -8,6 +8,7 @@
 #include "proto/wire/telemetry_codec.h"
 #include "server/policy/load_shedder.h"
 #include "server/session/peer_slots.h"
+#include "server/session/staggered_turn.h"
 
 namespace tandem::server {
 
@@ -40,15 +41,27 @@ class Watchers {
 
   /// Ticks between two TELEMETRY datagrams to a watcher; at least 1. Without overload 60 per second, and every tick for
   /// recorders. At the first shed level a quarter and a tenth of that, then two per second.
-  [[nodiscard]] std::uint32_t interval(bool recorder, ShedLevel level) const noexcept;
-  /// Removes silent watchers, and marks the datagrams of this tick.
+  [[nodiscard]] std::uint32_t interval(bool recorder, ShedLevel level) const noexcept {
+    if (level == ShedLevel::kNone) [[likely]]
+      return recorder ? 1 : usual_;
+    return interval_shedding(recorder, level);
+  }
+  /// Sets the ticks at which consoles get TELEMETRY. Sessions of a shard have different phases.
+  /// @param phase  [ticks]
+  void set_phase(std::uint32_t phase) noexcept { console_turn_.set_phase(phase); }
+  /// Removes silent watchers, and marks the datagrams of this tick. All consoles have their turn at the same ticks.
+  /// @param tick  number of the server's tick
   /// @return whether TELEMETRY is due: the caller fills `telemetry` before the next `poll_transmit`
-  [[nodiscard]] bool on_tick(Time now, ShedLevel level) noexcept TANDEM_REALTIME {
-    return slots_.on_tick(now, interval(true, level), interval(false, level));
+  [[nodiscard]] bool on_tick(Time now, std::uint32_t tick, ShedLevel level) noexcept TANDEM_REALTIME {
+    const bool recorders = slots_.any_every_tick() && recorder_turn_.begins(tick, interval(true, level));
+    const bool consoles = console_turn_.begins(tick, interval(false, level));
+    return (recorders || consoles || slots_.closing()) && slots_.on_tick(now, recorders, consoles);
   }
   [[nodiscard]] wire::SessionTelemetry& telemetry() noexcept { return telemetry_; }
   /// Number of the next TELEMETRY, for the turns of seats and tools.
   [[nodiscard]] std::uint32_t next_turn() noexcept { return turn_++; }
+  /// False: `poll_transmit` has nothing to send.
+  [[nodiscard]] bool may_send() const noexcept { return slots_.may_send(); }
   /// Writes the next datagram; nullopt if none is due.
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::uint32_t tick,
                                                       std::span<std::byte> buffer) noexcept TANDEM_REALTIME {
@@ -58,9 +71,12 @@ class Watchers {
   }
 
  private:
+  [[nodiscard]] std::uint32_t interval_shedding(bool recorder, ShedLevel level) const noexcept;
+
   PeerSlots slots_;
   wire::TelemetryCodec codec_;
   std::uint32_t usual_, slowest_;  ///< intervals [ticks]: of 60 and of 2 datagrams per second
+  StaggeredTurn console_turn_, recorder_turn_;
   std::uint32_t turn_ = 0;
   wire::SessionTelemetry telemetry_{};
 };

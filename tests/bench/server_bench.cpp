@@ -1,7 +1,6 @@
 // Measures the server's cost of a sealed client-tick (open, decode, step, encode, seal; 3 axes). It counts user-space
 // instructions with callgrind. It also compares the CPU time of the shard's thread with a bare recvmmsg/sendmmsg echo
 // of the same datagrams in the same run.
-#include <pthread.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -18,8 +17,8 @@
 
 #include "common/io/clock.h"
 #include "common/io/realtime.h"
-#include "server/app/process/shard.h"
-#include "tests/bench/bench_clients.h"
+#include "tests/bench/crowd.h"
+#include "tests/bench/hosted_shard.h"
 #include "tests/bench/instruction_count.h"
 #include "tests/bench/served_sessions.h"
 #include "tests/bench/udp_load.h"
@@ -62,12 +61,6 @@ void print_instructions(const std::string& self) {
   }
 }
 
-Duration cpu_of(pthread_t thread) {
-  clockid_t clock{};
-  pthread_getcpuclockid(thread, &clock);
-  return io::read_clock(clock);
-}
-
 /// Answers each datagram with `size` bytes, in batches, once per millisecond: the minimum cost of any server.
 class Echo {
  public:
@@ -104,31 +97,6 @@ class Echo {
   std::array<io::SocketAddress, io::ReceiveBatch::kMax> to_{};
 };
 
-/// Sockets of many clients. One thread drives them: all clients send at the start of each millisecond.
-class Crowd {
- public:
-  Crowd(std::size_t clients, const io::SocketAddress& to) {
-    for (std::size_t i = 0; i < clients; ++i) sockets_.push_back(std::move(io::connect_udp(to)->fd));
-  }
-  template <class Fill, class Hear>
-  void run(Duration length, Fill fill, Hear hear) {
-    std::array<std::byte, 1500> buffer;
-    const Time begin = io::monotonic_now();
-    for (int ms = 1; ms <= length / 1ms; ++ms) {
-      UdpLoad::pause_until((begin + ms * 1ms).time_since_epoch());
-      for (std::size_t c = 0; c < sockets_.size(); ++c) {
-        for (ssize_t size; (size = ::recv(sockets_[c].get(), buffer.data(), buffer.size(), MSG_DONTWAIT)) > 0;)
-          hear(c, std::span{buffer}.first(static_cast<std::size_t>(size)));
-        for (std::size_t size; (size = fill(c, buffer)) > 0;) [[maybe_unused]]
-          const auto sent = ::send(sockets_[c].get(), buffer.data(), size, 0);
-      }
-    }
-  }
-
- private:
-  std::vector<io::Fd> sockets_;
-};
-
 constexpr wire::BodyLayout kThreeAxes{.axes = 3, .port = PortSpace::kTip};
 constexpr std::size_t kStateBytes = wire::state_size(kThreeAxes, false) + 32, kForceBytes = wire::force_size(3) + 32;
 
@@ -156,53 +124,10 @@ double echo_cost(std::size_t clients, Duration length) {
 
 /// Returns the CPU time of the shard's thread per client-tick [ns]; negative if not every hand was engaged.
 double shard_cost(const SceneSpec& scene, std::size_t sessions, Duration length) {
-  auto socket = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
-  const io::SocketAddress at = socket->local;
-  auto shard = std::make_unique<server::Shard>(std::move(*socket), scene.tick_hz);
-  std::vector<std::unique_ptr<server::TickQueue>> queues;
-  std::vector<std::unique_ptr<server::LiveSession>> hosted;
-  std::vector<std::unique_ptr<BareClient>> clients;
-  std::vector<server::ShardRequest> orders(sessions);
-  for (std::size_t s = 0; s < sessions; ++s) {
-    queues.push_back(std::make_unique<server::TickQueue>(
-        64));  // full soon: the shard drops and counts further rows, as with a late recorder
-    hosted.push_back(std::make_unique<server::LiveSession>(scene, *server::make_local_slaves(scene, Time{}),
-                                                           static_cast<std::uint8_t>(s), *queues.back()));
-    for (std::size_t i = 0; i < scene.seats.size(); ++i)
-      clients.push_back(std::make_unique<BareClient>(
-          *netsim::simulate_join(hosted.back()->session(), io::monotonic_now(), i, caps_of(scene, i), RandomKey{s}, i,
-                                 false, static_cast<std::uint8_t>(s))));
-    orders[s].what = server::ShardRequest::What::kAddSession;
-    orders[s].session = hosted.back().get();
-    if (!shard->post(orders[s])) return -1;
-  }
-  Crowd crowd{clients.size(), at};
-  std::thread thread{[&] { shard->run(); }};
-  std::vector<bool> sent(clients.size(), false);
-  std::uint32_t tick = 0;
-  const auto fill = [&](std::size_t c, std::span<std::byte> buffer) -> std::size_t {
-    const bool answers = clients[c]->answers();
-    if (!answers) sent[c] = !sent[c];
-    return answers || sent[c] ? clients[c]->send(io::monotonic_now(), ++tick, buffer) : 0;
-  };
-  const auto hear = [&](std::size_t c, std::span<const std::byte> bytes) {
-    clients[c]->hear(io::monotonic_now(), bytes);
-  };
-  const auto forces = [&] {
-    std::uint64_t sum = 0;
-    for (const auto& c : clients) sum += c->forces();
-    return sum;
-  };
-  crowd.run(500ms, fill, hear);
-  const Duration cpu = cpu_of(thread.native_handle());
-  const std::uint64_t before = forces();
-  crowd.run(length, fill, hear);
-  const Duration spent = cpu_of(thread.native_handle()) - cpu;
-  const auto ticks = static_cast<double>(forces() - before);
-  const bool all = std::ranges::all_of(clients, [](const auto& c) { return c->settled(); });
-  shard->stop();
-  thread.join();
-  return all ? static_cast<double>(spent.count()) / ticks : -1;
+  HostedShard host{scene, sessions, true};
+  host.run(500ms);
+  const HostedShard::Spent spent = host.run(length);
+  return host.settled() ? spent.ns_per_client_tick() : -1;
 }
 
 void compare_with_echo() {

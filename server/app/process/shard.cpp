@@ -35,8 +35,12 @@ bool Shard::add_session(LiveSession& session) noexcept {
   LiveSession*& place = sessions_[session.slot()];
   if (place != nullptr) return false;
   place = &session;
+  stagger(session);
   return true;
 }
+
+/// Lets the consoles of different sessions get TELEMETRY at different ticks.
+void Shard::stagger(LiveSession& session) noexcept { session.session().watchers().set_phase(ticks_ + session.slot()); }
 
 void Shard::stop(wire::CloseReason why) noexcept {
   stop_reason_.store(why, std::memory_order_relaxed);
@@ -77,6 +81,7 @@ void Shard::run() noexcept {
     tick(now, missed);
     load_.end_tick(now, before, io::read_clock(CLOCK_THREAD_CPUTIME_ID));
     due += (missed + 1) * period_;
+    ticks_ += missed + 1;
   }
   execute_requests(io::monotonic_now());  // reply to pending requests that the session is over
   completions_.signal();
@@ -133,7 +138,9 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
   const bool stopping = stop_.load(std::memory_order_relaxed);
   if (request.what == ShardRequest::What::kAddSession) {
     request.result = stopping || place != nullptr ? JoinResult::kSessionOver : JoinResult::kAccepted;
-    if (request.result == JoinResult::kAccepted) place = live;
+    if (request.result != JoinResult::kAccepted) return;
+    place = live;
+    stagger(*live);
     return;
   }
   request.result = place == live ? JoinResult::kAccepted : JoinResult::kSessionOver;

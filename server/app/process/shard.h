@@ -55,6 +55,7 @@ class Shard {
   void receive() noexcept;
   void execute_requests(Time now) noexcept;
   void execute(Time now, ShardRequest& request) noexcept;
+  void stagger(LiveSession& session) noexcept;
   void tick(Time now, std::uint32_t missed) noexcept;
   void send(Time now, Session& session) noexcept;
   void flush() noexcept;
@@ -62,6 +63,7 @@ class Shard {
   io::UdpSocket socket_;
   io::EventFd wake_, completions_;
   Duration period_;
+  std::uint32_t ticks_ = 0;  ///< so far, with missed ones
   std::array<LiveSession*, kSessionsMax> sessions_{};
   std::atomic<bool> stop_{false};
   std::atomic<wire::CloseReason> stop_reason_{wire::CloseReason::kServerStops};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -46,6 +47,26 @@ TEST(Histogram, QuantilesAreAtMostThreePercentHigh) {
   }
   EXPECT_EQ(h.quantile(1), values.back());
   EXPECT_EQ(h.max(), values.back());
+}
+
+TEST(Histogram, QuantileIsThatOfASumOverSingleBins) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    SCOPED_TRACE(seed);
+    RandomStream random{seed};
+    std::array<std::uint64_t, LogScale::kBins> bins{};
+    Histogram h;
+    for (std::uint64_t i = 0, n = 1 + random.below(300); i < n; ++i) {
+      const std::uint64_t value = random.bits() >> (1 + random.below(62));
+      ++bins[LogScale::bin_of(value)];
+      h.add(static_cast<std::int64_t>(value));
+    }
+    for (const double q : {0.0, 0.01, 0.25, 0.5, 0.75, 0.99, 1.0}) {
+      std::uint64_t below = 0;
+      std::size_t bin = 0;
+      while ((below += bins[bin]) == 0 || static_cast<double>(below) < q * static_cast<double>(h.count())) ++bin;
+      EXPECT_EQ(h.quantile(q), std::min(LogScale::last_of(bin), h.max())) << q;
+    }
+  }
 }
 
 TEST(Histogram, TakesTheWholeRange) {

@@ -72,6 +72,31 @@ TEST(Watchers, ReceiveSixtyPerSecondAndRecordersEveryTick) {
   EXPECT_EQ(console.watch->statistics().lost(), 0u);
 }
 
+TEST(Watchers, OfOneSessionReceiveAtTheSameTickAndOfOthersAtAnotherOne) {
+  Watched s, other;
+  s.session->watchers().set_phase(100);
+  other.session->watchers().set_phase(101);
+  Watched::Watcher& first = s.add();
+  s.steps(5);
+  Watched::Watcher& second = s.add();
+  Watched::Watcher& elsewhere = other.add();
+  other.steps(5);
+  for (int n = 0; n < 200; ++n) {
+    s.step();
+    other.step();
+  }
+  first.telemetry = second.telemetry = elsewhere.telemetry = 0;
+  for (int n = 0; n < 340; ++n) {
+    const int before = first.telemetry, before_elsewhere = elsewhere.telemetry;
+    s.step();
+    other.step();
+    ASSERT_EQ(first.telemetry, second.telemetry) << n;
+    EXPECT_FALSE(first.telemetry > before && elsewhere.telemetry > before_elsewhere) << n;
+  }
+  EXPECT_EQ(first.telemetry, 20);
+  EXPECT_EQ(elsewhere.telemetry, 20);
+}
+
 TEST(Watchers, ReceiveTheValuesOfTheRecord) {
   Watched s("lesson");
   Watched::Watcher& recorder = s.add(true);
