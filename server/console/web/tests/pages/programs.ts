@@ -14,6 +14,8 @@ export interface Program {
   /** Part of its output that the expression captures, once it is there. */
   said: (expression: RegExp) => Promise<string>;
   end: (signal: NodeJS.Signals) => Promise<void>;
+  /** Waits until it has ended by itself, without trouble. */
+  ended: () => Promise<void>;
 }
 
 function start(name: string, ...args: string[]): Program {
@@ -32,6 +34,9 @@ function start(name: string, ...args: string[]): Program {
         child.on('exit', () => resolve());
         child.kill(signal);
       }),
+    ended: async () => {
+      await expect.poll(() => child.exitCode, { message: text, timeout: 20_000 }).toBe(0);
+    },
   };
 }
 
