@@ -128,7 +128,7 @@ export class SeatView implements View {
       this.words,
       own !== ''
         ? `${t('seat.yours', { seat: own })} ${hand}`
-        : t(!model.granted('seat') ? 'seat.not_allowed' : free.length === 0 ? 'seat.none_free' : 'seat.explain'),
+        : t(!model.granted('seat') ? 'seat.not_allowed' : free.length === 0 ? 'seat.none_free' : 'seat.take_first'),
     );
   }
 
