@@ -1,5 +1,6 @@
 import './style/base.css';
 import './style/views.css';
+import './style/narrow.css';
 
 import { Connection } from './app/connection';
 import { ConsolePage } from './app/console_page';

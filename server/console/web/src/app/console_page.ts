@@ -46,7 +46,7 @@ export class ConsolePage implements Page {
     // The ticket must not stay in the address or in the history of the browser.
     if (this.prefilled) history.replaceState(null, '', '/');
     setLanguage(this.settings.language);
-    this.host = new PictureHost(model);
+    this.host = new PictureHost(model, this.settings.marks);
     connection.onChange = () => this.onChange();
     this.dark.addEventListener('change', () => this.paint());
     document.addEventListener('keydown', (event) => this.onKey(event));
@@ -86,7 +86,7 @@ export class ConsolePage implements Page {
     });
     this.control = new ControlBar(this);
     this.views = new Map<ViewName, View>([
-      ['live', new LiveView(this, this.host.picture)],
+      ['live', new LiveView(this, this.host)],
       ['instructor', new InstructorView(this)],
       ['evaluator', new EvaluatorView(this)],
       ['seat', new SeatView(this)],

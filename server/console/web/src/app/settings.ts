@@ -7,6 +7,8 @@ export interface Settings {
   language: Language;
   theme: Theme;
   keys: boolean;
+  /** The picture carries marks that tests of its delay read; no control of the page sets this. */
+  marks: boolean;
 }
 
 const kName = 'tandem';
@@ -27,6 +29,7 @@ export function loadSettings(): Settings {
       found.language === 'en' || found.language === 'fr' ? found.language : preferredLanguage(navigator.languages),
     theme: found.theme === 'light' || found.theme === 'dark' ? found.theme : 'auto',
     keys: found.keys !== false,
+    marks: found.marks === true,
   };
 }
 

@@ -12,10 +12,11 @@ import {
 
 import type { SceneSeat, SeatState } from '../protocol/messages';
 import { isClipping } from '../logic/limits';
+import { seatColour } from '../logic/seat_colour';
 import { t } from '../strings/strings';
 import { ForceArrow } from './force_arrow';
 import { Label } from './label';
-import { seatColour, type PictureColours } from './palette';
+import type { PictureColours } from './palette';
 import { TrailLine } from './trail_line';
 
 const kBall = new SphereGeometry(0.0042, 20, 14);

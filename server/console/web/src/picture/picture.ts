@@ -6,6 +6,7 @@ import { forceOfArrow } from './force_arrow';
 import { HandGhost, type PictureOptions } from './hand_ghost';
 import { spread } from './label';
 import { readColours, type PictureColours } from './palette';
+import { drawMark } from './mark_cells';
 import { buildSurfaces, disposeSurfaces } from './surfaces';
 import { ToolMark } from './tool_mark';
 
@@ -18,17 +19,10 @@ const kForceLimit = 3.3;
 
 /** The picture of a session. Lowers its resolution on slow machines, so that motion stays smooth. */
 export class Picture {
-  readonly canvas = document.createElement('canvas');
+  readonly canvas: HTMLCanvasElement;
   /** Names of the hands, above the canvas. */
   readonly labels = document.createElement('div');
   readonly rig: CameraRig;
-  readonly options: PictureOptions = {
-    trails: true,
-    forces: true,
-    names: true,
-    forceScale: 0.01,
-    reducedMotion: false,
-  };
   private readonly renderer: WebGLRenderer;
   private readonly scene = new ThreeScene();
   private surfaces: Group | null = null;
@@ -40,21 +34,24 @@ export class Picture {
   private frameTime = kFast;
   private last = 0;
   private size = '';
-  /** Frames that were drawn; tests read it. */
-  frames = 0;
 
-  /** @throws Error if the browser has no WebGL */
-  constructor(label: string) {
+  /**
+   * @param marks draws the time of each drawn state as cells that a test can read
+   * @throws Error if the browser has no WebGL
+   */
+  constructor(
+    label: string,
+    readonly options: PictureOptions,
+    private readonly marks: boolean,
+  ) {
+    const [canvas, context] = contextOf(this.ratio < 1.5);
+    this.canvas = canvas;
     this.labels.className = 'labels';
     this.labels.ariaHidden = 'true';
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('role', 'img');
     this.canvas.setAttribute('aria-label', label);
-    this.renderer = new WebGLRenderer({
-      canvas: this.canvas,
-      antialias: this.ratio < 1.5 && !isSoftware(),
-      powerPreference: 'low-power',
-    });
+    this.renderer = new WebGLRenderer({ canvas, context });
     this.colours = readColours(document.documentElement);
     this.rig = new CameraRig(this.canvas);
     const sun = new DirectionalLight('#ffffff', 2);
@@ -73,13 +70,15 @@ export class Picture {
     this.known = null;
   }
 
-  draw(scene: Scene | null, state: State | null, now_ms: number): void {
-    if (!this.fit()) return;
+  /** Draws one frame. Returns whether it shows a state. */
+  draw(scene: Scene | null, state: State | null, now_ms: number): boolean {
+    if (!this.fit()) return false;
     this.adapt(now_ms);
     if (scene && scene !== this.known) this.adopt(scene);
     if (scene && state) this.update(scene, state);
     this.renderer.render(this.scene, this.rig.camera);
-    this.frames += 1;
+    if (this.marks && state) drawMark(this.renderer, state.t, this.canvas.clientHeight);
+    return scene !== null && state !== null;
   }
 
   private adopt(scene: Scene): void {
@@ -186,11 +185,29 @@ export class Picture {
   }
 }
 
-/** Returns whether the browser renders without a graphics processor: smoothing of edges would cost half of the frames. */
-function isSoftware(): boolean {
-  const probe = document.createElement('canvas').getContext('webgl2');
-  const info = probe?.getExtension('WEBGL_debug_renderer_info');
-  const name: unknown = probe && info ? probe.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
-  probe?.getExtension('WEBGL_lose_context')?.loseContext();
-  return typeof name === 'string' && /swiftshader|llvmpipe|software/i.test(name);
+const kContext: WebGLContextAttributes = {
+  alpha: true,
+  antialias: false,
+  depth: true,
+  powerPreference: 'low-power',
+  stencil: false,
+};
+
+/**
+ * Returns a canvas and its context. A context costs 0.1 s where the browser renders without a graphics processor; there, this
+ * makes one only, and without smoothing of edges, which would cost half of the frames.
+ * @throws Error if the browser has no WebGL
+ */
+function contextOf(smooth: boolean): [HTMLCanvasElement, WebGL2RenderingContext] {
+  const canvas = document.createElement('canvas');
+  const context = canvas.getContext('webgl2', kContext);
+  if (!context) throw new Error('the browser has no WebGL 2');
+  const info = context.getExtension('WEBGL_debug_renderer_info');
+  const name: unknown = info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
+  if (!smooth || (typeof name === 'string' && /swiftshader|llvmpipe|software/i.test(name))) return [canvas, context];
+  const fine = document.createElement('canvas');
+  const smoothed = fine.getContext('webgl2', { ...kContext, antialias: true });
+  context.getExtension('WEBGL_lose_context')?.loseContext();
+  if (!smoothed) throw new Error('the browser has no second WebGL 2 context');
+  return [fine, smoothed];
 }

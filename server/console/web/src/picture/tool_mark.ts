@@ -1,9 +1,10 @@
 import { Color, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, RingGeometry, SphereGeometry } from 'three';
 
+import { seatColour } from '../logic/seat_colour';
 import type { SceneTool, State, ToolState, Vec3 } from '../protocol/messages';
 import type { PictureOptions } from './hand_ghost';
 import { ForceArrow } from './force_arrow';
-import { seatColour, type PictureColours } from './palette';
+import type { PictureColours } from './palette';
 import { TrailLine } from './trail_line';
 
 const kTip = new SphereGeometry(0.003, 20, 14);

@@ -222,6 +222,7 @@ export const en = {
   'seat.choose': 'Free seat',
   'seat.take': 'Take seat',
   'seat.leave': 'Leave seat',
+  'seat.take_first': 'Take a free seat. Then hold the pad and move the hand.',
   'seat.none_free': 'No master seat is free.',
   'seat.not_allowed': 'The gateway or your role does not allow browser seats.',
   'seat.yours': 'You have seat {seat}.',

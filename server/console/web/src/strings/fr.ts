@@ -224,6 +224,7 @@ export const fr: Readonly<Record<StringKey, string>> = {
   'seat.choose': 'Poste libre',
   'seat.take': 'Prendre le poste',
   'seat.leave': 'Quitter le poste',
+  'seat.take_first': 'Prenez un poste libre. Tenez ensuite la surface et déplacez la main.',
   'seat.none_free': 'Aucun poste maître n’est libre.',
   'seat.not_allowed': 'La passerelle ou votre rôle ne permet pas de poste dans le navigateur.',
   'seat.yours': 'Vous avez le poste {seat}.',

@@ -1,11 +1,11 @@
 import type { Page, View } from '../app/page';
 import { fixed, kUnknown, percent } from '../logic/format';
+import { seatColour } from '../logic/seat_colour';
 import type { CameraChoice } from '../picture/camera_rig';
-import type { Picture } from '../picture/picture';
-import { seatColour } from '../picture/palette';
 import type { Scene, Vec3 } from '../protocol/messages';
 import { t } from '../strings/strings';
 import { checkbox, el, fillSelect, labelled, panel, select, setText, svg } from './dom';
+import type { PictureHost } from './picture_host';
 
 const millimetres = (x: Vec3 | null): string =>
   x === null ? kUnknown : x.map((component) => fixed(component * 1000, 1)).join(' ');
@@ -31,12 +31,12 @@ export class LiveView implements View {
 
   constructor(
     private readonly page: Page,
-    picture: Picture | null,
+    host: PictureHost,
   ) {
-    this.camera = select([], 'free', (choice) => picture?.rig.choose(choice as CameraChoice));
+    this.camera = select([], 'free', (choice) => host.look(choice as CameraChoice));
     const option = (key: 'trails' | 'forces' | 'names'): HTMLLabelElement =>
-      checkbox(t(`picture.${key}`), picture?.options[key] ?? false, (on) => {
-        if (picture) picture.options[key] = on;
+      checkbox(t(`picture.${key}`), host.options[key], (on) => {
+        host.options[key] = on;
       });
     const heads = (['what', 'position', 'force', 'authority'] as const).map((key) =>
       el('th', { scope: 'col' }, t(`values.${key}`)),

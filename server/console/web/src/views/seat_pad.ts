@@ -26,16 +26,24 @@ export class SeatPad {
         -(event.clientY - box.top - box.height / 2) / half,
       );
     };
+    // One pointer has the hand until it ends: further fingers and buttons change nothing.
+    let holder: number | null = null;
     this.canvas.addEventListener('pointerdown', (event) => {
+      if (holder !== null || event.button !== 0) return;
+      holder = event.pointerId;
       this.canvas.setPointerCapture(event.pointerId);
       device.grip('pointer', true);
       move(event);
     });
     this.canvas.addEventListener('pointermove', (event) => {
-      if (this.canvas.hasPointerCapture(event.pointerId)) move(event);
+      if (event.pointerId === holder) move(event);
     });
     for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) {
-      this.canvas.addEventListener(end, () => device.grip('pointer', false));
+      this.canvas.addEventListener(end, (event) => {
+        if ((event as PointerEvent).pointerId !== holder) return;
+        holder = null;
+        device.grip('pointer', false);
+      });
     }
     this.canvas.addEventListener('keydown', (event) => this.onKey(event));
   }

@@ -128,7 +128,7 @@ export class SeatView implements View {
       this.words,
       own !== ''
         ? `${t('seat.yours', { seat: own })} ${hand}`
-        : t(!model.granted('seat') ? 'seat.not_allowed' : free.length === 0 ? 'seat.none_free' : 'seat.explain'),
+        : t(!model.granted('seat') ? 'seat.not_allowed' : free.length === 0 ? 'seat.none_free' : 'seat.take_first'),
     );
   }
 
@@ -173,9 +173,10 @@ export class SeatView implements View {
   private readGamepad(dt_s: number): void {
     const pad = navigator.getGamepads?.().find((found) => found !== null && found.connected) ?? null;
     setText(this.gamepad, t(pad ? 'seat.gamepad_on' : 'seat.gamepad') + (pad ? ` ${t('seat.gamepad')}` : ''));
+    // A gamepad that is unplugged holds nothing.
+    this.device.grip('gamepad', pad?.buttons[0]?.pressed ?? false);
     if (!pad) return;
     const axis = (index: number): number => pad.axes[index] ?? 0;
     this.device.stick([axis(0), -axis(3), -axis(1)], dt_s);
-    this.device.grip('gamepad', pad.buttons[0]?.pressed ?? false);
   }
 }

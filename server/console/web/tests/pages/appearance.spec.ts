@@ -13,6 +13,7 @@ interface Violation {
 
 for (const scheme of ['light', 'dark'] as const) {
   test(`axe finds no violation, ${scheme}`, async ({ start, open }) => {
+    test.setTimeout(180_000);
     const gateway = await start({ role: 'OPERATOR', freeSeat: true });
     const page = await open(gateway);
     await page.emulateMedia({ colorScheme: scheme });
@@ -20,7 +21,15 @@ for (const scheme of ['light', 'dark'] as const) {
     gateway.session.marks.push({ t: 1, text: 'mark', person: 'eva' });
     gateway.session.seats[0]!.heard = false;
     await page.evaluate(kAxe);
-    for (const width of [1280, 390]) {
+    for (const [width, language] of [
+      [1280, 'en'],
+      [390, 'en'],
+      [320, 'fr'],
+      [3840, 'fr'],
+    ] as const) {
+      await page.locator('details.settings').evaluate((node: HTMLDetailsElement) => (node.open = true));
+      await page.locator('.settings-box select').first().selectOption(language);
+      await expect(page.locator('html')).toHaveAttribute('lang', language);
       await page.setViewportSize({ width, height: 844 });
       for (const name of kNames) {
         await view(page, name);
@@ -29,7 +38,7 @@ for (const scheme of ['light', 'dark'] as const) {
           const { axe } = window as unknown as { axe: { run: () => Promise<{ violations: Violation[] }> } };
           return (await axe.run()).violations.map((v) => [v.id, v.nodes.map((n) => `${n.html} ${n.failureSummary}`)]);
         });
-        expect([scheme, width, name, found]).toEqual([scheme, width, name, []]);
+        expect([scheme, width, language, name, found]).toEqual([scheme, width, language, name, []]);
       }
     }
   });

@@ -1,54 +1,9 @@
-import { spawn, type ChildProcess } from 'node:child_process';
-
-import { expect, test as base, type Page } from '@playwright/test';
+import { type Page } from '@playwright/test';
 
 import { view } from './fixture';
+import { expect, needPrograms, phaseOf, test, urlOf } from './programs';
 
-/** Folder of the built programs; without it only the mock gateway is tested. */
-const folder = process.env.TANDEM_PROGRAMS ?? '';
-
-interface Program {
-  child: ChildProcess;
-  /** Part of its output that the expression captures, once it is there. */
-  said: (expression: RegExp) => Promise<string>;
-  end: (signal: NodeJS.Signals) => Promise<void>;
-}
-
-function start(name: string, ...args: string[]): Program {
-  const child = spawn(`${folder}/${name}`, args, { stdio: ['ignore', 'pipe', 'pipe'] });
-  let text = '';
-  for (const stream of [child.stdout, child.stderr]) stream.on('data', (data: Buffer) => (text += data.toString()));
-  return {
-    child,
-    said: async (expression) => {
-      await expect.poll(() => text, { timeout: 20_000 }).toMatch(expression);
-      return expression.exec(text)?.[1] ?? '';
-    },
-    end: (signal) =>
-      new Promise((resolve) => {
-        if (child.exitCode !== null || child.signalCode !== null) return resolve();
-        child.on('exit', () => resolve());
-        child.kill(signal);
-      }),
-  };
-}
-
-const test = base.extend<{ run: typeof start }>({
-  // eslint-disable-next-line no-empty-pattern
-  run: async ({}, use) => {
-    const programs: Program[] = [];
-    await use((name, ...args) => {
-      const program = start(name, ...args);
-      programs.push(program);
-      return program;
-    });
-    for (const program of programs.reverse()) await program.end('SIGINT');
-  },
-});
-test.skip(folder === '', 'TANDEM_PROGRAMS names no folder with tandem-console, tandem-server and tandem-client');
-
-const url = (console_: Program): Promise<string> => console_.said(/once: (http:\S+)/);
-const phase = (page: Page): ReturnType<Page['locator']> => page.locator('.badge[data-phase]');
+needPrograms();
 
 /** First coordinate of a row of the live view's values [mm]. */
 async function position(page: Page, row: string): Promise<number> {
@@ -59,9 +14,9 @@ async function position(page: Page, row: string): Promise<number> {
 test('two browsers share a tool, and one stops it', async ({ browser, run }) => {
   const first = await (await browser.newContext()).newPage();
   const began = Date.now();
-  await first.goto(await url(run('tandem-console', '--play', '--listen', '127.0.0.1:0')));
+  await first.goto(await urlOf(run('tandem-console', '--play', '--listen', '127.0.0.1:0')));
   await expect(first.locator('.seat-view')).toContainText('You have seat instructor');
-  await expect(phase(first)).toHaveAttribute('data-phase', 'RUNNING');
+  await expect(phaseOf(first)).toHaveAttribute('data-phase', 'RUNNING');
   console.log(`from the URL to a seat in a running session: ${Date.now() - began} ms (asked: <= 5000)`);
 
   await first.locator('details.settings summary').click();
@@ -85,18 +40,18 @@ test('two browsers share a tool, and one stops it', async ({ browser, run }) => 
   await expect.poll(() => position(second, 'instructor')).toBeGreaterThan(5);
 
   await second.getByRole('button', { name: 'STOP' }).click();
-  await expect(phase(first)).toHaveAttribute('data-phase', 'STOPPED');
+  await expect(phaseOf(first)).toHaveAttribute('data-phase', 'STOPPED');
   await second.getByRole('button', { name: 'Resume' }).click();
-  await expect(phase(first)).toHaveAttribute('data-phase', 'RUNNING');
+  await expect(phaseOf(first)).toHaveAttribute('data-phase', 'RUNNING');
 });
 
 test('the page comes back after the server, and asks for a ticket after a new gateway', async ({ page, run }) => {
   const host = run('tandem-server', 'run', 'one_axis', '--listen', '127.0.0.1:0');
   const address = await host.said(/listening on (\S+)/);
   const gateway = run('tandem-console', '--server', address, '--listen', '127.0.0.1:0');
-  const entry = await url(gateway);
+  const entry = await urlOf(gateway);
   await page.goto(entry);
-  await expect(phase(page)).toHaveAttribute('data-phase', 'WAITING');
+  await expect(phaseOf(page)).toHaveAttribute('data-phase', 'WAITING');
   await host.end('SIGKILL');
   await expect(page.locator('.messages')).toContainText('the connection to the server was lost');
   run('tandem-server', 'run', 'contact', '--listen', address);
