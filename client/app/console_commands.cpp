@@ -153,12 +153,15 @@ std::string in_quotes(std::string_view text) {
   return out + '"';
 }
 
+std::string name_or_null(const std::string& name) { return name.empty() ? "null" : "\"" + name + "\""; }
+
 std::string maker_of(const rpc::StatusStop& stop) {
   const std::string& who = stop.seat.empty() ? stop.workstation : stop.seat;
   if (stop.kind == rpc::StopKind::kFault) return "the session itself";
   std::string text = "an unknown client";
   if (!who.empty())
-    text = sanitize(who) + " (" + std::string(to_text(stop.role)) + (stop.seat.empty() ? " at a console)" : ")");
+    text = (stop.person.empty() ? "" : stop.person + " at ") + sanitize(who) + " (" + std::string(to_text(stop.role)) +
+           (stop.seat.empty() ? " at a console)" : ")");
   return text + (stop.why.empty() ? "" : ": " + sanitize(stop.why));
 }
 
@@ -302,10 +305,11 @@ std::string status_text(const rpc::Status& s) {
   if (!s.held.empty()) text += "  BRAKED: " + sanitize(s.held) + "\n";
   if (s.drain) text += "  " + drain_text(*s.drain) + "\n";
   for (const rpc::StatusSeat& seat : s.seats)
-    text += format("  seat %-16s %-10s %s\n", seat.name.c_str(), std::string(to_text(seat.role)).c_str(),
+    text += format("  seat %-16s %-10s %s%s\n", seat.name.c_str(), std::string(to_text(seat.role)).c_str(),
                    !seat.taken  ? "free"
                    : seat.heard ? "here"
-                                : "SILENT");
+                                : "SILENT",
+                   seat.person.empty() ? "" : (", " + seat.person).c_str());
   for (const rpc::StatusTool& tool : s.tools)
     text += format("  tool %-16s %s\n", tool.name.c_str(), weights_text(s, tool.alpha).c_str());
   return text;
@@ -323,9 +327,9 @@ std::string status_json(const rpc::Status& s) {
   for (std::size_t i = 0; i < s.seats.size(); ++i) {
     const rpc::StatusSeat& seat = s.seats[i];
     if (seat.master) masters.push_back(seat.name);
-    text += format("%s{\"name\": \"%s\", \"role\": \"%s\", \"taken\": %s, \"heard\": %s}", i == 0 ? "" : ", ",
-                   seat.name.c_str(), std::string(to_text(seat.role)).c_str(), seat.taken ? "true" : "false",
-                   seat.heard ? "true" : "false");
+    text += format("%s{\"name\": \"%s\", \"role\": \"%s\", \"taken\": %s, \"heard\": %s, \"person\": %s}",
+                   i == 0 ? "" : ", ", seat.name.c_str(), std::string(to_text(seat.role)).c_str(),
+                   seat.taken ? "true" : "false", seat.heard ? "true" : "false", name_or_null(seat.person).c_str());
   }
   text += "], \"tools\": [";
   for (std::size_t j = 0; j < s.tools.size(); ++j) {
@@ -342,7 +346,8 @@ std::string status_json(const rpc::Status& s) {
         s.stop->number, kKinds[static_cast<int>(s.stop->kind)], s.stop->seat.c_str(), s.stop->workstation.c_str(),
         std::string(to_text(s.stop->role)).c_str());
     text += in_quotes(s.stop->why) + format(", \"ago_s\": %.3f, \"ends\": ", s.stop->ago_s) + in_quotes(s.stop->ends) +
-            (s.stop->yours ? ", \"yours\": true}" : ", \"yours\": false}");
+            (s.stop->yours ? ", \"yours\": true" : ", \"yours\": false") +
+            ", \"person\": " + name_or_null(s.stop->person) + "}";
   } else {
     text += "null";
   }

@@ -62,9 +62,10 @@ using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::P
 /// Returns the session status as text: one line, then one per seat and per tool.
 [[nodiscard]] std::string status_text(const rpc::Status& status);
 /// Returns the session status as JSON: `{"session", "id", "phase", "time_s", "stops", "authority_version", "draining",
-/// "shed", "seats": [{"name", "role", "taken", "heard"}], "tools": [{"name", "alpha": {SEAT: WEIGHT}}], "stop": null or
-/// {"number", "kind", "seat", "workstation", "role", "why", "ago_s", "ends", "yours"}, "drain": null or {"left_s",
-/// "sessions", "people"}, "held": null or why no tool moves}`
+/// "shed", "seats": [{"name", "role", "taken", "heard", "person"}], "tools": [{"name", "alpha": {SEAT: WEIGHT}}],
+/// "stop": null or
+/// {"number", "kind", "seat", "workstation", "role", "why", "ago_s", "ends", "yours", "person"}, "drain": null or
+/// {"left_s", "sessions", "people"}, "held": null or why no tool moves}`
 [[nodiscard]] std::string status_json(const rpc::Status& status);
 
 }  // namespace tandem::client

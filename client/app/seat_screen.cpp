@@ -39,8 +39,9 @@ std::string maker(const ClientStatus& s, const Words& words) {
   if (!words || !words->stop || words->stop->number < s.stops) return {};  // the status is older than this stop
   const rpc::StatusStop& stop = *words->stop;
   if (stop.kind == rpc::StopKind::kFault) return " by the session itself, as its numbers could not be trusted";
-  if (!stop.seat.empty()) return " by " + sanitize(stop.seat);
-  return stop.workstation.empty() ? std::string() : " by " + sanitize(stop.workstation) + " (console)";
+  const std::string person = stop.person.empty() ? "" : stop.person + " at ";
+  if (!stop.seat.empty()) return " by " + person + sanitize(stop.seat);
+  return stop.workstation.empty() ? std::string() : " by " + person + sanitize(stop.workstation) + " (console)";
 }
 
 /// Returns why no tool moves, as far as this client knows without the server.

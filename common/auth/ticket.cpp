@@ -25,24 +25,18 @@ std::vector<std::byte> message_to_sign(std::span<const std::byte> content) {
   return message;
 }
 
-bool legal_seat(std::string_view seat) noexcept {
-  return seat.size() <= Ticket::kSeatMax && std::ranges::all_of(seat, [](char c) {
+bool legal_name(std::string_view name) noexcept {
+  return name.size() <= Ticket::kNameMax && std::ranges::all_of(name, [](char c) {
            return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
          });
-}
-
-/// Returns whether a role may hold a ticket without a seat. An instructor may also observe from a console.
-bool needs_no_seat(AccessRole role) noexcept {
-  return role == AccessRole::kInstructor || role == AccessRole::kEvaluator || role == AccessRole::kOperator ||
-         role == AccessRole::kRecorder;
 }
 
 /// Returns the field that is out of range; empty: all are in range.
 std::string wrong_field(const Ticket& t) {
   if (static_cast<std::uint8_t>(t.role) >= kAccessRoles) return "role must be one of the six";
   if (t.force_scale < 1 || t.force_scale > Ticket::kFullForce) return "force_scale must be in [1, 1000] thousandths";
-  if (!legal_seat(t.seat)) return "seat must be at most 32 characters of A-Z a-z 0-9 _ -";
-  if (t.seat.empty() && !needs_no_seat(t.role)) return "seat is missing: this role needs a seat";
+  if (!legal_name(t.seat)) return "seat must be at most 32 characters of A-Z a-z 0-9 _ -";
+  if (!legal_name(t.person)) return "person must be at most 32 characters of A-Z a-z 0-9 _ -";
   if (t.not_before < 0 || t.not_after < t.not_before || t.not_after - t.not_before > Ticket::kLifeMax)
     return "not_after must be at most 12 h after not_before, and not before it";
   return {};
@@ -60,7 +54,8 @@ std::expected<Ticket, std::string> read(const rpc::TicketContent& in) {
            .force_scale = static_cast<std::uint16_t>(in.force_scale),
            .not_before = in.not_before,
            .not_after = in.not_after,
-           .epoch_min = in.epoch_min};
+           .epoch_min = in.epoch_min,
+           .person = in.person};
   if (std::string wrong = wrong_field(t); !wrong.empty()) return std::unexpected(std::move(wrong));
   return t;
 }
@@ -115,7 +110,8 @@ std::expected<TicketBytes, std::string> sign_ticket(const Ticket& ticket, const 
                                                                   .seat = ticket.seat,
                                                                   .not_before = ticket.not_before,
                                                                   .not_after = ticket.not_after,
-                                                                  .epoch_min = ticket.epoch_min})};
+                                                                  .epoch_min = ticket.epoch_min,
+                                                                  .person = ticket.person})};
   out.signature = key.sign(message_to_sign(out.content));
   return rpc::encode(out);
 }

@@ -21,21 +21,21 @@ using Id16 = std::array<std::byte, 16>;
 /// The right of one workstation to join one seat of one session, once. All times are seconds since 1970, UTC, on the
 /// server's clock. The server both signs and checks, so clocks of other machines do not matter.
 struct Ticket {
-  static constexpr std::uint32_t kVersion = 2;  ///< of the format
-  static constexpr std::size_t kSeatMax = 32;
+  static constexpr std::uint32_t kVersion = 2;                       ///< of the format
+  static constexpr std::size_t kNameMax = 32;                        ///< of seats and persons
   static constexpr std::int64_t kLifeMax = std::int64_t{12} * 3600;  ///< [s]
   static constexpr std::uint16_t kFullForce = 1000;
 
   Id16 ticket_id{};  ///< random; makes the ticket single-use
   Id16 session_id{};
-  std::string seat;  ///< 0 to 32 characters of A-Z a-z 0-9 _ -; empty for operators and recorders, which have no seat,
-                     ///< and for an instructor at a console
+  std::string seat;  ///< 0 to 32 characters of A-Z a-z 0-9 _ -; empty: a console
   AccessRole role = AccessRole::kObserver;
   KeyFingerprint workstation;              ///< only the machine with this key may use the ticket
   std::uint16_t force_scale = kFullForce;  ///< of the scene's force limit [1/1000], 1 to 1000
   std::int64_t not_before = 0;             ///< first second of validity
   std::int64_t not_after = 0;              ///< last second of validity; at most 12 h after not_before
   std::uint64_t epoch_min = 0;             ///< smallest valid epoch of the session
+  std::string person{};                    ///< name of the person who gets it: as `seat`; empty: not named
 
   friend bool operator==(const Ticket&, const Ticket&) = default;
 };

@@ -92,6 +92,7 @@ bool read(const wire_pb::Welcome& in, Welcome& out) {
   out.udp_port = static_cast<std::uint16_t>(in.udp_port());
   good = take(in.resume_secret(), out.resume_secret.bytes) && good;
   out.authority_version = in.authority_version();
+  good = take_name(in.person(), out.person, true) && good;
   return in.has_limits() && read(in.limits(), out.limits) && good;
 }
 void write(const Welcome& in, wire_pb::Welcome& out) {
@@ -114,6 +115,7 @@ void write(const Welcome& in, wire_pb::Welcome& out) {
   l.set_authority_burst(in.limits.authority_burst);
   l.set_commands_per_s(in.limits.commands_per_s);
   l.set_commands_burst(in.limits.commands_burst);
+  out.set_person(in.person);
 }
 
 bool read(const wire_pb::ErrorReply& in, ErrorReply& out) {
@@ -226,11 +228,11 @@ bool read(const wire_pb::StatusRequest& in, StatusRequest& out) { return take(in
 void write(const StatusRequest& in, wire_pb::StatusRequest& out) { out.set_session_id(text_of(in.session_id)); }
 
 bool read(const wire_pb::StatusStop& in, StatusStop& out) {
-  out = {in.number(), static_cast<StopKind>(in.kind()), {}, {}, {}, in.why(), in.ago_s(), in.ends(), in.yours()};
+  out = {in.number(), static_cast<StopKind>(in.kind()), {}, {}, {}, in.why(), in.ago_s(), in.ends(), in.yours(), {}};
   return in.number() > 0 && within(in.kind(), 1, static_cast<std::uint32_t>(StopKind::kFault)) &&
          take_name(in.seat(), out.seat, true) && take_name(in.workstation(), out.workstation, true) &&
          (out.seat.empty() || out.workstation.empty()) && take_role(in.role(), out.role) && is_text(out.why) &&
-         in.ago_s() >= 0 && in.ago_s() <= kTimeMax && is_text(out.ends);
+         in.ago_s() >= 0 && in.ago_s() <= kTimeMax && is_text(out.ends) && take_name(in.person(), out.person, true);
 }
 void write(const StatusStop& in, wire_pb::StatusStop& out) {
   out.set_number(in.number);
@@ -242,6 +244,7 @@ void write(const StatusStop& in, wire_pb::StatusStop& out) {
   out.set_ago_s(in.ago_s);
   out.set_ends(in.ends);
   out.set_yours(in.yours);
+  out.set_person(in.person);
 }
 
 bool read(const wire_pb::Status& in, Status& out) {
@@ -255,6 +258,7 @@ bool read(const wire_pb::Status& in, Status& out) {
   out.time_s = in.time_s();
   out.draining = in.draining();
   out.shed = in.shed();
+  out.notes = in.notes();
   if (in.shed() > kShedMax) return false;
   if (!take(in.session_id(), out.session_id) || !take_name(in.name(), out.name)) return false;
   for (const wire_pb::StatusSeat& s : in.seat()) {
@@ -263,6 +267,7 @@ bool read(const wire_pb::Status& in, Status& out) {
     seat.heard = s.heard();
     seat.master = s.master();
     if (!take_name(s.name(), seat.name) || !take_role(s.role(), seat.role)) return false;
+    if (!take_name(s.person(), seat.person, true)) return false;
   }
   for (const wire_pb::StatusTool& t : in.tool()) {
     StatusTool& tool = out.tools.emplace_back();
@@ -288,6 +293,7 @@ void write(const Status& in, wire_pb::Status& out) {
   out.set_time_s(in.time_s);
   out.set_draining(in.draining);
   out.set_shed(in.shed);
+  out.set_notes(in.notes);
   for (const StatusSeat& s : in.seats) {
     auto& seat = *out.add_seat();
     seat.set_name(s.name);
@@ -295,6 +301,7 @@ void write(const Status& in, wire_pb::Status& out) {
     seat.set_taken(s.taken);
     seat.set_heard(s.heard);
     seat.set_master(s.master);
+    seat.set_person(s.person);
   }
   for (const StatusTool& t : in.tools) {
     auto& tool = *out.add_tool();
@@ -350,6 +357,10 @@ constexpr std::array<Conversion, kKinds> kConversions{
     conversion<SessionCreated, &Pb::session_created, &Pb::mutable_session_created>(),
     conversion<EndSession, &Pb::end_session, &Pb::mutable_end_session>(),
     conversion<Note, &Pb::note, &Pb::mutable_note>(),
+    conversion<SceneListRequest, &Pb::scene_list_request, &Pb::mutable_scene_list_request>(),
+    conversion<SceneList, &Pb::scene_list, &Pb::mutable_scene_list>(),
+    conversion<NotesRequest, &Pb::notes_request, &Pb::mutable_notes_request>(),
+    conversion<NoteList, &Pb::note_list, &Pb::mutable_note_list>(),
 };
 
 }  // namespace

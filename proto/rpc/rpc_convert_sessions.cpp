@@ -1,6 +1,8 @@
 #include "proto/rpc/rpc_convert_sessions.h"
 
 #include <algorithm>
+#include <functional>
+#include <string>
 
 #include "proto/rpc/rpc_bounds.h"
 
@@ -39,11 +41,14 @@ bool read(const pb::rpc::CreateSession& in, CreateSession& out) {
   out.life_s = in.life_s();
   if (!take_name(in.name(), out.name) || !take_name(in.scene(), out.scene, true)) return false;
   if (out.scene.empty() == out.scene_text.empty() || out.scene_text.size() > kSceneTextMax) return false;
-  if (out.life_s > kLifeMaxS || in.holder_size() > static_cast<int>(kSeatsMax)) return false;
+  if (out.life_s > kLifeMaxS || in.holder_size() > static_cast<int>(kHoldersMax)) return false;
   for (const pb::rpc::SeatHolder& h : in.holder()) {
-    if (std::ranges::find(out.holders, h.seat(), &SeatHolder::seat) != out.holders.end()) return false;
+    const bool sits = !h.seat().empty();
+    if (sits && std::ranges::find(out.holders, h.seat(), &SeatHolder::seat) != out.holders.end()) return false;
     SeatHolder& holder = out.holders.emplace_back();
-    if (!take_name(h.seat(), holder.seat) || !take_name(h.workstation(), holder.workstation)) return false;
+    if (!take_name(h.seat(), holder.seat, true) || !take_name(h.workstation(), holder.workstation)) return false;
+    if (!take_name(h.person(), holder.person, true) || !take_role(h.role(), holder.role)) return false;
+    if (sits && holder.role != AccessRole{}) return false;
   }
   return true;
 }
@@ -57,18 +62,21 @@ void write(const CreateSession& in, pb::rpc::CreateSession& out) {
     auto& holder = *out.add_holder();
     holder.set_seat(h.seat);
     holder.set_workstation(h.workstation);
+    holder.set_person(h.person);
+    holder.set_role(static_cast<std::uint32_t>(h.role));
   }
 }
 
 bool read(const pb::rpc::SessionCreated& in, SessionCreated& out) {
   out.code = in.code();
   if (!in.has_session() || !read_listed(in.session(), out.session)) return false;
-  if (!(out.code.empty() || is_code(out.code)) || in.ticket_size() > static_cast<int>(kSeatsMax)) return false;
+  if (!(out.code.empty() || is_code(out.code)) || in.ticket_size() > static_cast<int>(kHoldersMax)) return false;
   for (const pb::rpc::SeatTicket& t : in.ticket()) {
     SeatTicket& ticket = out.tickets.emplace_back();
     ticket.ticket = to_bytes(t.ticket());
     if (t.ticket().empty() || t.ticket().size() > kTicketMax) return false;
-    if (!take_name(t.seat(), ticket.seat) || !take_name(t.workstation(), ticket.workstation)) return false;
+    if (!take_name(t.seat(), ticket.seat, true) || !take_name(t.workstation(), ticket.workstation)) return false;
+    if (!take_name(t.person(), ticket.person, true) || !take_role(t.role(), ticket.role)) return false;
   }
   return true;
 }
@@ -80,6 +88,8 @@ void write(const SessionCreated& in, pb::rpc::SessionCreated& out) {
     ticket.set_seat(t.seat);
     ticket.set_workstation(t.workstation);
     ticket.set_ticket(text_of(t.ticket));
+    ticket.set_person(t.person);
+    ticket.set_role(static_cast<std::uint32_t>(t.role));
   }
 }
 
@@ -102,6 +112,67 @@ void write(const Note& in, pb::rpc::Note& out) {
   out.set_session_id(text_of(in.session_id));
   out.set_kind(static_cast<std::uint32_t>(in.kind));
   out.set_json(in.json);
+}
+
+bool read(const pb::rpc::SceneListRequest&, SceneListRequest&) { return true; }
+void write(const SceneListRequest&, pb::rpc::SceneListRequest&) {}
+
+bool read(const pb::rpc::SceneList& in, SceneList& out) {
+  out.more = in.more();
+  out.scenes.assign(in.scene().begin(), in.scene().end());
+  return out.scenes.size() <= kScenesMax && std::ranges::all_of(out.scenes, [](const auto& s) { return is_name(s); }) &&
+         std::ranges::adjacent_find(out.scenes, std::greater_equal{}) == out.scenes.end();
+}
+void write(const SceneList& in, pb::rpc::SceneList& out) {
+  for (const std::string& scene : in.scenes) out.add_scene(scene);
+  out.set_more(in.more);
+}
+
+bool read(const pb::rpc::NotesRequest& in, NotesRequest& out) {
+  out.after = in.after();
+  return take(in.session_id(), out.session_id);
+}
+void write(const NotesRequest& in, pb::rpc::NotesRequest& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_after(in.after);
+}
+
+bool read(const pb::rpc::NoteList& in, NoteList& out) {
+  out.more = in.more();
+  if (in.note_size() > static_cast<int>(kNotesMax)) return false;
+  std::uint32_t last = 0;
+  std::size_t size = 0;
+  for (const pb::rpc::StoredNote& n : in.note()) {
+    if (n.number() <= last || !within(n.kind(), 1, 2) || !(n.time_s() >= 0 && n.time_s() <= kTimeMax)) return false;
+    last = n.number();
+    size += n.json().size();
+    StoredNote& note = out.notes.emplace_back();
+    note.number = n.number();
+    note.kind = static_cast<NoteKind>(n.kind());
+    note.time_s = n.time_s();
+    note.yours = n.yours();
+    note.json = n.json();
+    if (!take_name(n.person(), note.person, true) || !take_name(n.workstation(), note.workstation) ||
+        !take_name(n.seat(), note.seat, true) || !take_role(n.role(), note.role) || note.json.empty() ||
+        !is_text(note.json, kNoteMax) || size > kNotesBytesMax)
+      return false;
+  }
+  return true;
+}
+void write(const NoteList& in, pb::rpc::NoteList& out) {
+  out.set_more(in.more);
+  for (const StoredNote& n : in.notes) {
+    auto& note = *out.add_note();
+    note.set_number(n.number);
+    note.set_kind(static_cast<std::uint32_t>(n.kind));
+    note.set_time_s(n.time_s);
+    note.set_person(n.person);
+    note.set_workstation(n.workstation);
+    note.set_role(static_cast<std::uint32_t>(n.role));
+    note.set_seat(n.seat);
+    note.set_yours(n.yours);
+    note.set_json(n.json);
+  }
 }
 
 }  // namespace tandem::rpc

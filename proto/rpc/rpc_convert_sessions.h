@@ -18,5 +18,13 @@ void write(const SessionCreated& in, pb::rpc::SessionCreated& out);
 void write(const EndSession& in, pb::rpc::EndSession& out);
 [[nodiscard]] bool read(const pb::rpc::Note& in, Note& out);
 void write(const Note& in, pb::rpc::Note& out);
+[[nodiscard]] bool read(const pb::rpc::SceneListRequest& in, SceneListRequest& out);
+void write(const SceneListRequest& in, pb::rpc::SceneListRequest& out);
+[[nodiscard]] bool read(const pb::rpc::SceneList& in, SceneList& out);
+void write(const SceneList& in, pb::rpc::SceneList& out);
+[[nodiscard]] bool read(const pb::rpc::NotesRequest& in, NotesRequest& out);
+void write(const NotesRequest& in, pb::rpc::NotesRequest& out);
+[[nodiscard]] bool read(const pb::rpc::NoteList& in, NoteList& out);
+void write(const NoteList& in, pb::rpc::NoteList& out);
 
 }  // namespace tandem::rpc

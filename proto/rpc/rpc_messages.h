@@ -8,8 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "common/base/axes.h"
 #include "common/base/secret.h"
+#include "proto/rpc/rpc_limits.h"
+#include "proto/rpc/rpc_notes.h"
 #include "proto/spec/access_role.h"
 #include "proto/spec/registry_spec.h"
 #include "proto/wire/wire_messages.h"
@@ -17,22 +18,6 @@
 /// Structs of the messages on the control connection (proto/schema/rpc.proto). proto/rpc/rpc_codec.h encodes and
 /// decodes them, and enforces every bound written here in both directions.
 namespace tandem::rpc {
-
-inline constexpr std::uint32_t kFrameVersion = 1;     ///< version of the frames
-inline constexpr std::uint32_t kProtocolVersion = 2;  ///< version of the whole protocol: handshake, frames, datagrams
-inline constexpr std::size_t kFrameMax = 65536;       ///< one frame without its length [bytes]
-inline constexpr std::size_t kTextMax = 480;          ///< texts for display [bytes of UTF-8 without control characters]
-inline constexpr double kLatencyMax = 1;              ///< of a device [s]
-inline constexpr std::size_t kNameMax = 32;           ///< names: A-Z a-z 0-9 _ -
-inline constexpr std::size_t kVersionsMax = 8;
-inline constexpr std::size_t kTicketMax = 512;  ///< more than a ticket has, so that a wrong length is a ticket error
-inline constexpr std::size_t kSessionCodeSize = 10;
-inline constexpr std::size_t kSessionsMax = 48, kListedSeatsMax = kSeatsMax;
-inline constexpr std::size_t kSceneTextMax = 49152;  ///< scene in a CreateSession [bytes]
-inline constexpr std::uint32_t kLifeMaxS = 86400;    ///< of a created session [s]
-inline constexpr std::size_t kNoteMax = 8192;        ///< JSON of a Note [bytes]
-
-using Id = std::array<std::byte, 16>;
 
 /// Device parameters that the server needs before it assigns a seat.
 struct DeviceFacts {
@@ -96,6 +81,7 @@ struct Welcome {
   Secret<32> resume_secret;
   std::uint32_t authority_version = 0;
   RateLimits limits;
+  std::string person{};  ///< name in the ticket; empty: not named
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
@@ -220,7 +206,8 @@ struct StatusSeat {
   std::string name;
   AccessRole role = AccessRole::kTrainee;
   bool taken = false, heard = false;
-  bool master = false;  ///< MASTER seat: the k-th of these is the k-th element of StatusTool::alpha
+  bool master = false;   ///< MASTER seat: the k-th of these is the k-th element of StatusTool::alpha
+  std::string person{};  ///< name in the ticket of the person who has it; empty: not named
   friend bool operator==(const StatusSeat&, const StatusSeat&) = default;
 };
 struct StatusTool {
@@ -238,10 +225,11 @@ struct StatusStop {
   StopKind kind = StopKind::kStop;
   std::string seat, workstation;  ///< names; at most one of them. Neither: the session itself
   AccessRole role = AccessRole::kObserver;
-  std::string why;     ///< reason given with the stop, at most kTextMax
-  double ago_s = 0;    ///< [s] 0 ... 1e9
-  std::string ends;    ///< roles that may end it, for display, at most kTextMax; empty: it is over
-  bool yours = false;  ///< the requesting client may end it
+  std::string why;       ///< reason given with the stop, at most kTextMax
+  double ago_s = 0;      ///< [s] 0 ... 1e9
+  std::string ends;      ///< roles that may end it, for display, at most kTextMax; empty: it is over
+  bool yours = false;    ///< the requesting client may end it
+  std::string person{};  ///< name in the ticket of that person; empty: not named
   friend bool operator==(const StatusStop&, const StatusStop&) = default;
 };
 /// Progress of a draining server.
@@ -275,12 +263,15 @@ struct Status {
   /// does not run.
   std::string held{};
   std::vector<StatusEvent> events{};  ///< at most kStatusEventsMax, newest last
+  std::uint32_t notes = 0;            ///< number of the newest note; 0: none, or the client may not read notes
   friend bool operator==(const Status&, const Status&) = default;
 };
 
-/// A workstation that gets a ticket for a seat.
+/// A person or workstation that gets a ticket.
 struct SeatHolder {
-  std::string seat, workstation;  ///< names
+  std::string seat, workstation;   ///< names; seat empty: a console
+  std::string person{};            ///< a name, or empty: the ticket names no person
+  AccessRole role = AccessRole{};  ///< of a console; with a seat it has no meaning
   friend bool operator==(const SeatHolder&, const SeatHolder&) = default;
 };
 struct CreateSession {
@@ -289,18 +280,20 @@ struct CreateSession {
   std::string scene_text{};           ///< at most kSceneTextMax
   bool tickets_only = false;          ///< no session code
   std::uint32_t life_s = 0;           ///< [s] 0 ... kLifeMaxS; 0: no limit
-  std::vector<SeatHolder> holders{};  ///< at most kSeatsMax, each seat once
+  std::vector<SeatHolder> holders{};  ///< at most kHoldersMax, each seat once
   friend bool operator==(const CreateSession&, const CreateSession&) = default;
 };
 struct SeatTicket {
-  std::string seat, workstation;  ///< names
+  std::string seat, workstation;  ///< names; seat empty: a console
   std::vector<std::byte> ticket;  ///< 1 ... kTicketMax
+  std::string person{};           ///< a name, or empty
+  AccessRole role = AccessRole::kTrainee;
   friend bool operator==(const SeatTicket&, const SeatTicket&) = default;
 };
 struct SessionCreated {
   ListedSession session;
   std::string code;                 ///< 10 characters of 0-9 A-Z, or empty
-  std::vector<SeatTicket> tickets;  ///< at most kSeatsMax
+  std::vector<SeatTicket> tickets;  ///< at most kHoldersMax
   friend bool operator==(const SessionCreated&, const SessionCreated&) = default;
 };
 struct EndSession {
@@ -308,24 +301,20 @@ struct EndSession {
   std::string why{};  ///< at most kTextMax
   friend bool operator==(const EndSession&, const EndSession&) = default;
 };
-/// Kind of a Note. The numbers are sent on the wire: append-only.
-enum class NoteKind : std::uint8_t { kMark = 1, kSheet = 2 };
-[[nodiscard]] constexpr const char* to_text(NoteKind kind) noexcept {
-  return kind == NoteKind::kMark ? "mark" : "sheet";
-}
-/// Mark on the timeline, or sheet of an assessment.
-struct Note {
-  Id session_id{};
-  NoteKind kind = NoteKind::kMark;
-  std::string
-      json;  ///< 1 ... kNoteMax bytes of UTF-8 without control characters; the server checks that it is an object
-  friend bool operator==(const Note&, const Note&) = default;
+struct SceneListRequest {
+  friend bool operator==(const SceneListRequest&, const SceneListRequest&) = default;
+};
+struct SceneList {
+  std::vector<std::string> scenes;  ///< names, at most kScenesMax, ascending
+  bool more = false;
+  friend bool operator==(const SceneList&, const SceneList&) = default;
 };
 
 /// The message of a frame, in the order of Kind.
 using Body = std::variant<Hello, Welcome, ErrorReply, Enroll, EnrollAck, SessionListRequest, SessionList, StopSession,
                           ResumeSession, PauseSession, SetAuthority, AuthorityReply, Drain, Ping, Pong, Ok,
-                          RemoveParticipant, StatusRequest, Status, CreateSession, SessionCreated, EndSession, Note>;
+                          RemoveParticipant, StatusRequest, Status, CreateSession, SessionCreated, EndSession, Note,
+                          SceneListRequest, SceneList, NotesRequest, NoteList>;
 
 /// Kind of the message in a frame. It is readable before the payload, so that roles are checked first. The number is
 /// the field's number in ControlFrame.
@@ -352,10 +341,14 @@ enum class Kind : std::uint8_t {
   kCreateSession,
   kSessionCreated,
   kEndSession,
-  kNote
+  kNote,
+  kSceneListRequest,
+  kSceneList,
+  kNotesRequest,
+  kNoteList
 };
 inline constexpr std::size_t kKinds = std::variant_size_v<Body>;
-static_assert(static_cast<std::size_t>(Kind::kNote) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
+static_assert(static_cast<std::size_t>(Kind::kNoteList) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
 
 struct Frame {
   std::uint32_t request = 0;

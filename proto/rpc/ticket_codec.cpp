@@ -41,6 +41,7 @@ std::vector<std::byte> encode(const TicketContent& content) {
   out.set_not_before(content.not_before);
   out.set_not_after(content.not_after);
   out.set_epoch_min(content.epoch_min);
+  out.set_person(content.person);
   return serialized(out);
 }
 
@@ -65,6 +66,7 @@ std::optional<TicketContent> decode_ticket_content(std::span<const std::byte> by
   out.not_before = in.not_before();
   out.not_after = in.not_after();
   out.epoch_min = in.epoch_min();
+  out.person = in.person();
   return if_canonical(std::move(out), bytes);
 }
 

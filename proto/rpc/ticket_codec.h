@@ -21,6 +21,7 @@ struct TicketContent {
   std::string seat;
   std::int64_t not_before = 0, not_after = 0;  ///< [s] since 1970, UTC
   std::uint64_t epoch_min = 0;
+  std::string person{};  ///< empty: not named
 
   friend bool operator==(const TicketContent&, const TicketContent&) = default;
 };

@@ -1,6 +1,7 @@
 #include "server/console/browser_frame.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -104,7 +105,8 @@ class Reader {
     if (!auth::from_hex(text(key, 32), id)) fail("\"" + std::string(key) + "\" must be 32 hexadecimal digits of hello");
     return id;
   }
-  /// Persons of a new session: each takes a seat with the key of a workstation. Persons without a seat get no ticket.
+  /// Persons of a new session: each joins with the key of a workstation, that of the person's name if none is given.
+  /// A person without a seat gets a ticket for a console of their role.
   std::vector<rpc::SeatHolder> people(const char* key) {
     std::vector<rpc::SeatHolder> holders;
     const auto found = object_.find(key);
@@ -118,12 +120,25 @@ class Reader {
         break;
       }
       Reader person(row);
-      person.only({"name", "role", "seat"});
-      rpc::SeatHolder holder{person.text("seat", rpc::kNameMax), person.text("name", rpc::kNameMax)};
+      person.only({"name", "role", "seat", "workstation"});
+      rpc::SeatHolder holder{
+          .seat = person.text("seat", rpc::kNameMax),
+          .workstation = person.text(row.contains("workstation") ? "workstation" : "name", rpc::kNameMax),
+          .person = person.text("name", rpc::kNameMax)};
+      const AccessRole role = person.role("role");
+      if (holder.seat.empty()) holder.role = role;
       if (!person.error().empty()) fail("in \"" + std::string(key) + "\": " + person.error());
-      if (!holder.seat.empty()) holders.push_back(std::move(holder));
+      holders.push_back(std::move(holder));
     }
     return holders;
+  }
+  AccessRole role(const char* key) {
+    std::string name = text(key, 16);
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto role = access_role_named(name);
+    if (!role)
+      fail("\"" + std::string(key) + "\" must be INSTRUCTOR, TRAINEE, EVALUATOR, OBSERVER, OPERATOR or RECORDER");
+    return role.value_or(AccessRole::kObserver);
   }
   bool truth(const char* key) {
     const auto found = object_.find(key);
@@ -172,7 +187,6 @@ rpc::Body order_of(Reader& in, const std::string& order, const rpc::Id& session)
     rpc::CreateSession create{.name = in.text("name", rpc::kNameMax), .scene = in.text("scene", rpc::kNameMax)};
     create.tickets_only = true;  // a code would let in more than the named persons
     create.holders = in.people("people");
-    if (create.holders.size() > kSeatsMax) in.fail("a session has at most " + std::to_string(kSeatsMax) + " seats");
     return create;
   }
   if (order == "end") {
@@ -212,7 +226,7 @@ std::expected<BrowserFrame, FrameError> parse_browser_frame(std::string_view tex
     Order order{id, order_of(in, in.text("order", 16), session)};
     if (in.error().empty()) {
       const rpc::Kind kind = rpc::kind_of({0, order.body});
-      if (!server::allowed(role, kind)) return refuse(server::forbidden_text(role, kind));
+      if (!server::allowed_without_seat(role, kind)) return refuse(server::forbidden_text_without_seat(role, kind));
     }
     parsed = std::move(order);
   } else if (type == "take") {
@@ -235,13 +249,15 @@ std::expected<BrowserFrame, FrameError> parse_browser_frame(std::string_view tex
     const std::uint64_t id = in.integer("id", kIdMax);
     const auto t = in.time("t");
     parsed = MarkFrame{id, t, in.text("text", kMarkMax)};
-    if (!server::allowed(role, rpc::Kind::kNote)) return refuse(server::forbidden_text(role, rpc::Kind::kNote));
+    if (!server::allowed_without_seat(role, rpc::Kind::kNote))
+      return refuse(server::forbidden_text_without_seat(role, rpc::Kind::kNote));
   } else if (type == "sheet") {
     in.only({"type", "id", "sheet", "of", "scores", "closed"});
     SheetFrame frame_of{in.integer("id", kIdMax), {in.text("sheet", 16), in.text("of", rpc::kNameMax)}};
     frame_of.sheet.scores = in.scores("scores");
     frame_of.sheet.closed = in.truth("closed");
-    if (!server::allowed(role, rpc::Kind::kNote)) return refuse(server::forbidden_text(role, rpc::Kind::kNote));
+    if (!server::allowed_without_seat(role, rpc::Kind::kNote))
+      return refuse(server::forbidden_text_without_seat(role, rpc::Kind::kNote));
     if (const auto good = check(frame_of.sheet); !good) in.fail(good.error());
     parsed = std::move(frame_of);
   } else {

@@ -1,70 +1,105 @@
 #include "server/console/evaluation_notes.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/base/sanitize.h"
 #include "server/console/json_text.h"
 
 namespace tandem::console {
+namespace {
 
-const EvaluationNotes::Sheet* EvaluationNotes::find(std::uint64_t person, const EvaluationSheet& like) const {
-  const auto found = std::ranges::find_if(sheets_, [&](const Sheet& row) {
-    return row.by.id == person && row.sheet.form == like.form && row.sheet.of == like.of;
-  });
-  return found == sheets_.end() ? nullptr : &*found;
+using nlohmann::json;
+
+constexpr std::size_t kShownMax = 1000;  // of a mark's text [bytes]
+
+std::string text_in(const json& note, const char* key) {
+  const auto found = note.find(key);
+  return found != note.end() && found->is_string() ? sanitize(found->get_ref<const std::string&>(), kShownMax) : "";
 }
 
-std::expected<void, std::string> EvaluationNotes::may_write(const Author& by, const EvaluationSheet& sheet) const {
-  const Sheet* const own = find(by.id, sheet);
-  if (own != nullptr && own->sheet.closed)
-    return std::unexpected("your sheet " + sheet.form + " about " + sheet.of + " is closed, which is final");
-  if (own == nullptr && sheets_.size() >= kSheetsMax)
-    return std::unexpected("this session has " + std::to_string(kSheetsMax) + " sheets already");
-  return {};
+std::optional<double> time_in(const json& note) {
+  const auto found = note.find("t");
+  return found != note.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
-void EvaluationNotes::add(Mark mark) {
-  if (marks_.size() >= kMarksMax) marks_.erase(marks_.begin());
-  marks_.push_back(std::move(mark));
-  ++version_;
-}
-
-void EvaluationNotes::put(const Author& by, EvaluationSheet sheet) {
-  if (const Sheet* const own = find(by.id, sheet); own != nullptr) {
-    sheets_[static_cast<std::size_t>(own - sheets_.data())].sheet = std::move(sheet);
-  } else {
-    sheets_.push_back({by, std::move(sheet)});
+/// A sheet of this program; nullopt: other JSON.
+std::optional<EvaluationSheet> sheet_in(const json& note) {
+  EvaluationSheet sheet{.form = text_in(note, "sheet"), .of = text_in(note, "of")};
+  const auto scores = note.find("scores"), closed = note.find("closed");
+  if (scores == note.end() || !scores->is_object() || closed == note.end() || !closed->is_boolean())
+    return std::nullopt;
+  sheet.closed = closed->get<bool>();
+  for (const auto& [item, points] : scores->items()) {
+    if (!points.is_number_integer()) return std::nullopt;
+    sheet.scores[item] = points.get<std::int64_t>();
   }
-  ++version_;
+  return check(sheet) ? std::optional(std::move(sheet)) : std::nullopt;
 }
 
-std::string EvaluationNotes::json_for(std::uint64_t person) const {
-  using nlohmann::json;
-  json marks = json::array(), sheets = json::array();
+/// Adds a row in the order of the numbers; false: it is there already.
+template <class Row>
+bool insert(std::vector<Row>& rows, Row row, std::size_t most) {
+  const auto place = std::ranges::lower_bound(rows, row.number, {}, &Row::number);
+  if (place != rows.end() && place->number == row.number) return false;
+  rows.insert(place, std::move(row));
+  if (rows.size() > most) rows.erase(rows.begin());
+  return true;
+}
+
+}  // namespace
+
+bool EvaluationNotes::put(const rpc::StoredNote& note) {
+  const json parsed = json::parse(note.json, nullptr, false);
+  if (!parsed.is_object()) return false;
+  Author by{note.person, !note.person.empty()};
+  if (!by.proved) by.name = text_in(parsed, "person");
+  if (by.name.empty()) by.name = note.workstation;
+  if (note.kind == rpc::NoteKind::kMark) {
+    std::string text = text_in(parsed, "text");
+    if (text.empty()) text = sanitize(note.json, kShownMax);  // of another program
+    insert(marks_, {note.number, std::move(by), time_in(parsed), std::move(text)}, kMarksMax);
+    return false;
+  }
+  auto sheet = sheet_in(parsed);
+  if (!sheet) return false;
+  const bool closes = note.yours && sheet->closed;
+  Sheet row{note.number, std::move(by), note.yours, std::move(*sheet)};
+  if (note.yours)
+    std::erase_if(sheets_, [&row](const Sheet& old) {
+      return old.yours && old.number < row.number && old.sheet.form == row.sheet.form && old.sheet.of == row.sheet.of;
+    });
+  return insert(sheets_, std::move(row), kSheetsMax) && closes;
+}
+
+std::string EvaluationNotes::message() const {
+  using Json = nlohmann::json;
+  Json marks = Json::array(), sheets = Json::array();
   for (const Mark& mark : marks_)
-    marks.push_back({{"t", mark.t_s ? json(*mark.t_s) : json()}, {"text", mark.text}, {"person", mark.by.name}});
-  for (const Sheet& row : sheets_) {
-    const Sheet* const own = find(person, row.sheet);
-    const bool visible = row.by.id == person || (row.sheet.closed && own != nullptr && own->sheet.closed);
-    if (!visible) continue;
+    marks.push_back({{"t", mark.t_s ? Json(*mark.t_s) : Json()},
+                     {"text", mark.text},
+                     {"person", mark.by.name},
+                     {"proved", mark.by.proved}});
+  for (const Sheet& row : sheets_)
     sheets.push_back({{"sheet", row.sheet.form},
                       {"of", row.sheet.of},
                       {"person", row.by.name},
+                      {"proved", row.by.proved},
+                      {"yours", row.yours},
                       {"scores", row.sheet.scores},
                       {"closed", row.sheet.closed}});
-  }
   return json_text({{"type", "notes"}, {"marks", std::move(marks)}, {"sheets", std::move(sheets)}});
 }
 
-std::string mark_json(const EvaluationNotes::Mark& mark) {
-  using nlohmann::json;
-  return json_text({{"t", mark.t_s ? json(*mark.t_s) : json()}, {"text", mark.text}, {"person", mark.by.name}});
+std::string mark_json(const std::string& person, std::optional<double> t_s, const std::string& text) {
+  return json_text({{"t", t_s ? json(*t_s) : json()}, {"text", text}, {"person", person}});
 }
 
-std::string sheet_json(const EvaluationNotes::Author& by, const EvaluationSheet& sheet) {
+std::string sheet_json(const std::string& person, const EvaluationSheet& sheet) {
   return json_text({{"sheet", sheet.form},
                     {"of", sheet.of},
-                    {"person", by.name},
+                    {"person", person},
                     {"scores", sheet.scores},
                     {"closed", sheet.closed}});
 }

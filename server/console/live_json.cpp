@@ -1,6 +1,5 @@
 #include "server/console/live_json.h"
 
-#include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -32,7 +31,7 @@ json may_of(AccessRole role, const PageOffers& offers) {
                                                       {"create", rpc::Kind::kCreateSession}};
   json may = json::array();
   for (const auto& [name, kind] : rights)
-    if (server::allowed(role, kind)) may.push_back(name);
+    if (server::allowed_without_seat(role, kind)) may.push_back(name);
   if (offers.seats) may.push_back("seat");
   if (offers.invite) may.push_back("invite");
   return may;
@@ -68,6 +67,8 @@ std::string hello_json(std::string_view person, AccessRole role, std::string_vie
                     {"protocol", 1},
                     {"release", release},
                     {"person", person},
+                    {"proved", offers.proved},
+                    {"scenes", offers.scenes},
                     {"role", upper(to_text(role))},
                     {"may", may_of(role, offers)},
                     {"play", offers.play.empty() ? json() : json(offers.play)},
@@ -89,9 +90,9 @@ std::string reply_json(std::optional<std::uint64_t> id, bool ok, std::string_vie
 std::string tickets_json(const rpc::SessionCreated& created) {
   json rows = json::array();
   for (const rpc::SeatTicket& ticket : created.tickets) {
-    const auto seat = std::ranges::find(created.session.seats, ticket.seat, &rpc::ListedSeat::name);
-    rows.push_back({{"person", ticket.workstation},
-                    {"role", seat == created.session.seats.end() ? json() : json(upper(to_text(seat->role)))},
+    rows.push_back({{"person", ticket.person.empty() ? ticket.workstation : ticket.person},
+                    {"workstation", ticket.workstation},
+                    {"role", upper(to_text(ticket.role))},
                     {"seat", ticket.seat},
                     {"ticket", auth::ticket_text(ticket.ticket)}});
   }

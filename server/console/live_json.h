@@ -16,9 +16,11 @@ namespace tandem::console {
 [[nodiscard]] const char* phase_text(rpc::SessionPhase phase) noexcept;
 /// Abilities of a page beyond those of the person's role.
 struct PageOffers {
-  bool seats = false;   ///< the gateway gives seats to browsers
-  bool invite = false;  ///< the person may ask for a URL for another browser
-  std::string play{};   ///< seat to take at once; empty: none
+  bool seats = false;                     ///< the gateway gives seats to browsers
+  bool invite = false;                    ///< the person may ask for a URL for another browser
+  std::string play{};                     ///< seat to take at once; empty: none
+  bool proved = false;                    ///< the person's name is that of a ticket
+  std::span<const std::string> scenes{};  ///< from which the person may create sessions
 };
 /// @param person    name for display
 /// @param release   version of the program

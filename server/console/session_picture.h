@@ -10,6 +10,8 @@
 #include "proto/rpc/rpc_messages.h"
 #include "proto/spec/scene_spec.h"
 #include "proto/wire/session_telemetry.h"
+#include "server/console/evaluation_notes.h"
+#include "server/console/tool_velocities.h"
 
 namespace tandem::console {
 
@@ -18,6 +20,7 @@ struct LiveValues {
   wire::SessionTelemetry telemetry;
   std::array<wire::WatchedLink, kSeatsMax> links{};
   std::array<wire::WatchedAuthority, kToolsMax> authorities{};
+  std::array<ToolVelocities::Velocity, kToolsMax> velocities = ToolVelocities::unknown();  ///< of the tools [m/s]
   Time arrived{};  ///< of the newest datagram, on the gateway's monotonic clock
 };
 
@@ -32,6 +35,9 @@ struct LivePicture {
   std::shared_ptr<const SceneSpec> scene;   ///< null: not known
   std::shared_ptr<const LiveValues> live;   ///< null: no datagrams arrive
   std::shared_ptr<const std::vector<rpc::ListedSession>> sessions;  ///< of the server; null: not known
+  std::shared_ptr<const std::vector<std::string>> scenes;  ///< for new sessions; null: not known, or not allowed
+  std::shared_ptr<const EvaluationNotes> notes;            ///< that this connection may read; null: none known
+  std::string person;                                      ///< name in the ticket of the connection; empty: not named
 };
 
 }  // namespace tandem::console

@@ -81,7 +81,13 @@ json transfer_of(const SceneSpec& scene, const wire::WatchedAuthority& authority
           {"ticks", authority.transfer_ticks}};
 }
 
-json live_seat(const SceneSpec& scene, const LiveValues& live, std::size_t i) {
+/// Name of the person at a seat, from the status; null if there is none or the ticket names none.
+json person_at(const rpc::Status& status, std::size_t i, bool taken) {
+  return taken && i < status.seats.size() && !status.seats[i].person.empty() ? json(status.seats[i].person) : json();
+}
+
+json live_seat(const SceneSpec& scene, const LivePicture& picture, std::size_t i) {
+  const LiveValues& live = *picture.live;
   const wire::WatchedSeatState& seat = live.telemetry.seats[i];
   const wire::WatchedLink& link = live.links[i];
   const bool heard = std::isfinite(link.margin_min_j);  // the counters came with it
@@ -92,7 +98,7 @@ json live_seat(const SceneSpec& scene, const LiveValues& live, std::size_t i) {
   }
   return {{"taken", seat.taken},
           {"heard", seat.heard},
-          {"person", nullptr},
+          {"person", person_at(picture.status, i, seat.taken)},
           {"engaged", seat.engaged},
           {"stopped", seat.stopped},
           {"gate", seat.taken ? json(page_word(seat.gate)) : json()},
@@ -118,7 +124,7 @@ json live_tool(const SceneSpec& scene, const LiveValues& live, std::size_t j) {
   const wire::WatchedToolState& tool = live.telemetry.tools[j];
   const wire::WatchedAuthority& authority = live.authorities[j];
   return {{"x", vector(tool.x)},
-          {"v", nullptr},
+          {"v", vector(live.velocities[j])},
           {"f", vector(tool.f)},
           {"depth_m", number(tool.depth)},
           {"touching", tool.touching},
@@ -128,14 +134,15 @@ json live_tool(const SceneSpec& scene, const LiveValues& live, std::size_t j) {
           {"transfer", transfer_of(scene, authority)}};
 }
 
-void add_live(const SceneSpec& scene, const LiveValues& live, json& state) {
+void add_live(const SceneSpec& scene, const LivePicture& picture, json& state) {
+  const LiveValues& live = *picture.live;
   const wire::SessionTelemetry& t = live.telemetry;
   state["tick"] = t.session_tick;
   state["t"] = number(t.session_tick / scene.tick_hz);
   state["phase"] = page_word(t.state);
   state["version"] = t.authority_version;
   state["shed"] = t.shed_level;
-  for (std::size_t i = 0; i < scene.seats.size(); ++i) state["seats"].push_back(live_seat(scene, live, i));
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) state["seats"].push_back(live_seat(scene, picture, i));
   for (std::size_t j = 0; j < scene.tools.size(); ++j) state["tools"].push_back(live_tool(scene, live, j));
 }
 
@@ -145,10 +152,11 @@ void add_status(const rpc::Status& status, json& state) {
   state["phase"] = phase_text(status.phase);
   state["version"] = status.authority_version;
   state["shed"] = status.shed;
-  for (const rpc::StatusSeat& seat : status.seats) {
-    json row{{"taken", seat.taken}, {"heard", seat.heard}};
-    for (const char* key : {"person", "engaged", "stopped", "gate", "x", "f", "alpha", "rtt_ms", "loss_percent",
-                            "gap_ms", "age_ms", "margin_j", "trips", "late"})
+  for (std::size_t i = 0; i < status.seats.size(); ++i) {
+    const rpc::StatusSeat& seat = status.seats[i];
+    json row{{"taken", seat.taken}, {"heard", seat.heard}, {"person", person_at(status, i, seat.taken)}};
+    for (const char* key : {"engaged", "stopped", "gate", "x", "f", "alpha", "rtt_ms", "loss_percent", "gap_ms",
+                            "age_ms", "margin_j", "trips", "late"})
       row[key] = nullptr;
     state["seats"].push_back(std::move(row));
   }
@@ -166,6 +174,7 @@ json stop_of(const std::optional<rpc::StatusStop>& stop) {
   return {{"number", stop->number},
           {"kind", kind < kKinds.size() ? kKinds[kind] : "FAULT"},
           {"by", !stop->seat.empty() ? stop->seat : stop->workstation},
+          {"person", stop->person.empty() ? json() : json(stop->person)},
           {"why", stop->why},
           {"yours", stop->yours}};
 }
@@ -223,7 +232,7 @@ std::string scene_json(const LivePicture& picture) {
 std::string state_members(const LivePicture& picture) {
   json state{{"held", picture.status.held}, {"seats", json::array()}, {"tools", json::array()}};
   if (picture.live && picture.scene) {
-    add_live(*picture.scene, *picture.live, state);
+    add_live(*picture.scene, picture, state);
   } else {
     add_status(picture.status, state);
   }

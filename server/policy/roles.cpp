@@ -33,7 +33,7 @@ struct Need {
   Grant least;
   const char* words;  ///< "... may not WORDS"
 };
-constexpr std::array<Need, 10> kNeeds{{
+constexpr std::array<Need, 12> kNeeds{{
     {rpc::Kind::kStopSession, Right::kStopSession, Grant::kYes, "stop the session"},
     {rpc::Kind::kPauseSession, Right::kStopSession, Grant::kPart, "pause the session"},
     {rpc::Kind::kResumeSession, Right::kEndPause, Grant::kPart, "resume the session"},
@@ -44,6 +44,8 @@ constexpr std::array<Need, 10> kNeeds{{
     {rpc::Kind::kCreateSession, Right::kManageServer, Grant::kYes, "create a session"},
     {rpc::Kind::kEndSession, Right::kManageServer, Grant::kYes, "end a session"},
     {rpc::Kind::kNote, Right::kScore, Grant::kYes, "write marks and sheets"},
+    {rpc::Kind::kSceneListRequest, Right::kManageServer, Grant::kYes, "list the scenes"},
+    {rpc::Kind::kNotesRequest, Right::kScore, Grant::kYes, "read marks and sheets"},
 }};
 
 const Need* need_of(rpc::Kind kind) noexcept {
@@ -109,9 +111,19 @@ std::string forbidden_text(std::optional<AccessRole> standing, rpc::Kind kind) {
   return "the role " + std::string(to_text(*standing)) + " may not " + need->words + "; permitted for: " + who;
 }
 
-bool may_join_console(AccessRole role) noexcept {
-  return role == AccessRole::kInstructor || role == AccessRole::kEvaluator || role == AccessRole::kOperator ||
-         role == AccessRole::kRecorder;
+bool may_join_console(AccessRole role) noexcept { return allowed(role, Right::kTelemetry) != Grant::kNo; }
+
+bool watches_only(AccessRole role) noexcept { return role == AccessRole::kTrainee || role == AccessRole::kObserver; }
+
+bool allowed_without_seat(AccessRole role, rpc::Kind kind) noexcept {
+  const Need* const need = need_of(kind);
+  return allowed(role, kind) && (!watches_only(role) || need == nullptr || need->right == Right::kTelemetry);
+}
+
+std::string forbidden_text_without_seat(AccessRole role, rpc::Kind kind) {
+  if (!allowed(role, kind) || allowed_without_seat(role, kind)) return forbidden_text(role, kind);
+  return "the role " + std::string(to_text(role)) + " may " + need_of(kind)->words +
+         " from a seat only; without a seat it watches the session";
 }
 
 }  // namespace tandem::server

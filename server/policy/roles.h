@@ -42,7 +42,13 @@ enum class Grant : std::uint8_t { kNo, kPart, kYes };
 /// Error text for a forbidden frame: the rejected action and the roles that may perform it.
 [[nodiscard]] std::string forbidden_text(std::optional<AccessRole> standing, rpc::Kind kind);
 
-/// Whether this role may join as a console, without a seat of the scene: roles that operate sessions.
+/// Whether this role may join as a console, without a seat of the scene: roles that may see something of the session
+/// (Right::kTelemetry).
 [[nodiscard]] bool may_join_console(AccessRole role) noexcept;
+/// Whether a console of this role only watches. The partial rights of trainees are about their own seat.
+[[nodiscard]] bool watches_only(AccessRole role) noexcept;
+/// The same as `allowed(role, kind)` for a joined client without a seat: trainees and observers only watch.
+[[nodiscard]] bool allowed_without_seat(AccessRole role, rpc::Kind kind) noexcept;
+[[nodiscard]] std::string forbidden_text_without_seat(AccessRole role, rpc::Kind kind);
 
 }  // namespace tandem::server

@@ -11,9 +11,9 @@
 namespace tandem::server {
 namespace {
 
-constexpr std::string_view kMagic = "TKS2";
+constexpr std::string_view kMagic = "TKS3";
 constexpr std::size_t kDigest = sizeof(Checkpoint::Hash);
-constexpr std::size_t kTextMaximum = 255;
+constexpr std::size_t kTextMaximum = 255, kPersonMaximum = 32;
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
 const char* cause(CheckpointError error) noexcept {
@@ -34,7 +34,8 @@ const char* cause(CheckpointError error) noexcept {
 
 std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept) {
   if (kept.name.empty() || kept.name.size() > kTextMaximum || kept.code.size() > kTextMaximum ||
-      kept.removed_workstations.size() > kRemovedWorkstationsMax)
+      kept.removed_workstations.size() > kRemovedWorkstationsMax || kept.persons.size() > kSeatsMax ||
+      std::ranges::any_of(kept.persons, [](const std::string& name) { return name.size() > kPersonMaximum; }))
     return {};
   std::vector<std::byte> out;
   const auto put = [&](std::span<const std::byte> bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); };
@@ -49,6 +50,8 @@ std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept) {
   text(kept.code);
   out.push_back(static_cast<std::byte>(kept.removed_workstations.size()));
   for (const auto& key : kept.removed_workstations) put(key);
+  out.push_back(static_cast<std::byte>(kept.persons.size()));
+  for (const std::string& name : kept.persons) text(name);
   std::array<std::byte, kCheckpointMax> checkpoint;
   put(std::span{checkpoint}.first(encode_checkpoint(kept.checkpoint, checkpoint)));
   const Checkpoint::Hash digest = transport::sha256(out);
@@ -86,6 +89,13 @@ std::expected<SessionSnapshot, std::string> decode_snapshot(std::span<const std:
   if (keys > kRemovedWorkstationsMax) return std::unexpected("it lists too many removed workstations");
   for (std::size_t i = 0; i < keys && whole; ++i)
     if (const auto key = take(32); whole) std::ranges::copy(key, kept.removed_workstations.emplace_back().begin());
+  const auto seats = take(1);
+  const std::size_t persons = seats.empty() ? 0 : std::to_integer<std::size_t>(seats[0]);
+  if (persons > kSeatsMax) return std::unexpected("it names too many persons");
+  for (std::size_t i = 0; i < persons && whole; ++i) {
+    kept.persons.push_back(text());
+    if (kept.persons.back().size() > kPersonMaximum) return std::unexpected("the name of a person in it is too long");
+  }
   if (!whole || kept.name.empty()) return std::unexpected("it is cut off");
   const auto checkpoint = decode_checkpoint(rest);
   if (!checkpoint) return std::unexpected(cause(checkpoint.error()));

@@ -26,6 +26,8 @@ struct SessionSnapshot {
   /// Fingerprints of removed workstations: the session's code does not admit them again. At most
   /// kRemovedWorkstationsMax.
   std::vector<std::array<std::byte, 32>> removed_workstations{};
+  /// Names of the persons at the seats, from their tickets, at most 32 bytes each; empty: not named. At most kSeatsMax.
+  std::vector<std::string> persons{};
 };
 
 /// Lifetime of a resume secret after its owner was lost, and of a snapshot after it was written (ARCHITECTURE.md,
@@ -36,10 +38,11 @@ inline constexpr Duration kResumeLife = std::chrono::seconds(kResumeLifeS);
 /// Maximum number of stored removed workstations. Once it is reached the session code admits no clients, and every
 /// join needs a ticket.
 inline constexpr std::size_t kRemovedWorkstationsMax = 128;
-inline constexpr std::size_t kSnapshotMax = kCheckpointMax + 1024 + 32 * kRemovedWorkstationsMax;  ///< [bytes]
+inline constexpr std::size_t kSnapshotMax =
+    kCheckpointMax + 1024 + 32 * kRemovedWorkstationsMax + 33 * kSeatsMax;  ///< [bytes]
 
-/// Writes magic, wall time, id, name, code, number of removed workstations (one byte), their fingerprints, checkpoint,
-/// then the SHA-256 of all that.
+/// Writes magic, wall time, id, name, code, number of removed workstations (one byte), their fingerprints, number of
+/// persons (one byte), their names, checkpoint, then the SHA-256 of all that.
 /// @return empty if the name is missing, or if a text or the list is too long
 [[nodiscard]] std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept);
 /// Parses any bytes. @return a snapshot with all numbers in range, or the reason for the rejection, as text for the

@@ -247,7 +247,16 @@ TEST(MultiClientControl, AdmitsAnOperatorByASingleUseTicketAndAuditsEveryCommand
   EXPECT_NE(recorder.err().find("the role recorder may not stop the session"), std::string::npos) << recorder.err();
   Process seatless =
       server({"ticket", "--session", "a", "--role", "trainee", "--workstation", "desk", "--state", fixture.state});
-  EXPECT_EQ(seatless.wait(), 2) << "a trainee needs a seat";
+  EXPECT_EQ(seatless.wait(), 0) << "a trainee without a seat may watch: " << seatless.err();
+  EXPECT_NE(seatless.err().find("tandem-client watch --server "), std::string::npos) << seatless.err();
+  Process watcher = control(fixture.address, {"--state", fixture.own, "--ticket", first_line(seatless.out()), "pause"});
+  EXPECT_EQ(watcher.wait(), 1);
+  EXPECT_NE(watcher.err().find("may pause the session from a seat only"), std::string::npos) << watcher.err();
+  Process nameless = server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--person",
+                             "ann b", "--state", fixture.state});
+  EXPECT_EQ(nameless.wait(), 2);
+  EXPECT_NE(nameless.err().find("--person: \"ann b\" must be 1 to 32 characters of A-Z a-z 0-9 _ -"), std::string::npos)
+      << nameless.err();
   Process seated = server({"ticket", "--session", "a", "--role", "operator", "--seat", "trainee", "--workstation",
                            "desk", "--state", fixture.state});
   EXPECT_EQ(seated.wait(), 2);

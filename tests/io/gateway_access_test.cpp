@@ -51,9 +51,10 @@ TEST(GatewayAccess, RefusesForeignHostsAndOrigins) {
   EXPECT_EQ(gateway.page().status(), 101U);
 }
 
-std::string console_ticket(const MultiClientFixture& fixture, const std::string& role) {
-  Process made =
-      server({"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state", fixture.state});
+std::string console_ticket(const MultiClientFixture& fixture, const std::string& role, Words more = {}) {
+  Words words{"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state", fixture.state};
+  words.insert(words.end(), more.begin(), more.end());
+  Process made = server(std::move(words));
   EXPECT_EQ(made.wait(), 0) << made.err();
   return first_line(made.out());
 }

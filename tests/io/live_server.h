@@ -93,12 +93,13 @@ class LiveServer {
     EXPECT_EQ(beside().registry().enroll_without_code({name, made.fingerprint().sha256, auth::wall_seconds()}), "");
     return made;
   }
-  [[nodiscard]] rpc::Credential ticket(const auth::Identity& workstation, AccessRole role,
-                                       const std::string& seat = {}) const {
+  [[nodiscard]] rpc::Credential ticket(const auth::Identity& workstation, AccessRole role, const std::string& seat = {},
+                                       const std::string& person = {}) const {
     auth::Ticket t;
     auth::fill_random(t.ticket_id);
     t.session_id = kId;
     t.seat = seat;
+    t.person = person;
     t.role = role;
     t.workstation = workstation.fingerprint();
     t.not_before = auth::wall_seconds() - 1;
@@ -191,10 +192,10 @@ struct JoinedClient {
 
 /// Joins by a ticket.
 inline JoinedClient joined(const LiveServer& live_server, const std::string& name, AccessRole role,
-                           const std::string& seat = {}) {
+                           const std::string& seat = {}, const std::string& person = {}) {
   auth::Identity key = live_server.enrolled(name);
   auto connection = live_server.connect(key);
-  auto welcome = connection.ask(LiveServer::hello(live_server.ticket(key, role, seat), seat), kTimeout);
+  auto welcome = connection.ask(LiveServer::hello(live_server.ticket(key, role, seat, person), seat), kTimeout);
   return {std::move(key), std::move(connection), std::move(welcome)};
 }
 

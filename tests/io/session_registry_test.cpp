@@ -22,7 +22,9 @@ std::vector<rpc::Body> every_command() {
           rpc::Drain{0},
           rpc::CreateSession{.name = "exam", .scene = "contact"},
           rpc::EndSession{kId, "why"},
-          rpc::Note{kId, rpc::NoteKind::kMark, "{}"}};
+          rpc::Note{kId, rpc::NoteKind::kMark, "{}"},
+          rpc::SceneListRequest{},
+          rpc::NotesRequest{kId, 0}};
 }
 
 /// Polls until the condition holds; fails the test at the time limit instead of hanging it.
@@ -103,7 +105,29 @@ TEST(Consoles, NeedASingleUseTicketForTheirSessionAndWorkstation) {
   EXPECT_NE(text_of(ask(raised)).find("changed"), std::string::npos) << "a role raised by an edit";
   auto lowered = std::get<rpc::TicketCredential>(live_server.ticket(key, AccessRole::kRecorder));
   lowered.bytes = auth::test::with_role(lowered.bytes, AccessRole::kTrainee);
-  EXPECT_EQ(reason_of(ask(lowered)), ErrorCode::kNotAllowed) << "a trainee needs a seat";
+  EXPECT_NE(text_of(ask(lowered)).find("changed"), std::string::npos) << "a role changed by an edit";
+}
+
+// A trainee or observer without a seat sees the status and gives no command, although a trainee's seat may pause.
+TEST(Consoles, LetTraineesAndObserversWithoutASeatOnlyWatch) {
+  LiveServer live_server;
+  for (const AccessRole role : {AccessRole::kTrainee, AccessRole::kObserver}) {
+    JoinedClient watcher = joined(live_server, std::string(to_text(role)), role, "", "ted");
+    ASSERT_TRUE(watcher.welcomed()) << text_of(watcher.welcome);
+    EXPECT_EQ(watcher.in().role, role);
+    EXPECT_EQ(watcher.in().person, "ted");
+    const rpc::Status before = status_of(watcher);
+    for (const rpc::Body& command : every_command())
+      EXPECT_EQ(reason_of(watcher.ask(command)), ErrorCode::kNotAllowed) << to_text(role) << ": " << command.index();
+    EXPECT_TRUE(std::holds_alternative<rpc::SessionList>(*watcher.ask(rpc::SessionListRequest{})));
+    rpc::Status after = status_of(watcher);
+    after.time_s = before.time_s;
+    EXPECT_EQ(after, before);
+  }
+  EXPECT_EQ(live_server.count(ControlEvent::kForbidden), 2 * every_command().size());
+  JoinedClient seated = joined(live_server, "desk", AccessRole::kTrainee, "trainee");
+  ASSERT_TRUE(seated.welcomed()) << text_of(seated.welcome);
+  EXPECT_TRUE(done(seated.ask(rpc::PauseSession{kId}))) << "from the seat";
 }
 
 TEST(Consoles, CommandOnlyTheirOwnSession) {

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+#include <vector>
+
 #include "common/io/udp_socket.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
@@ -61,6 +65,50 @@ TEST(ShardRequests, AreIdleAfterTheLastRequestOfASession) {
   rig.run_shard();
   EXPECT_EQ(done, 2);
   EXPECT_TRUE(idle);
+}
+
+TEST(ShardRequests, WaitForAPlaceIfTheyMustNotBeLost) {
+  Rig rig;
+  LiveSession served{rig.scene, *make_local_slaves(rig.scene, Time{}), 1, rig.records};
+  ASSERT_TRUE(rig.shard.add_session(served));
+  int lost = 0;
+  for (int posted = 0; lost == 0 && posted < 10000; ++posted) rig.post([&lost](ShardRequest&) { ++lost; });
+  ASSERT_EQ(lost, 1) << "the queue is full";
+  std::vector<int> done;
+  for (int i = 0; i < 2; ++i)
+    rig.requests.post_when_possible(
+        rig.shard, {.what = ShardRequest::What::kEndSession, .session = &served, .done = [&done, i](ShardRequest& r) {
+                      EXPECT_EQ(r.result, JoinResult::kAccepted);
+                      done.push_back(i);
+                    }});
+  EXPECT_TRUE(done.empty());
+  std::thread ticking([&rig] { rig.shard.run(); });
+  for (int i = 0; i < 3000 && done.size() < 2; ++i) rig.context.run_one_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(done, (std::vector<int>{0, 1}));
+  rig.shard.stop();
+  ticking.join();
+}
+
+TEST(ShardRequests, CompleteAllThatWaitForAPlaceAtTheEnd) {
+  Rig rig;
+  int lost = 0;
+  for (int posted = 0; lost == 0 && posted < 10000; ++posted) rig.post([&lost](ShardRequest&) { ++lost; });
+  std::size_t over = 0;
+  const auto post = [&rig, &over] {
+    rig.requests.post_when_possible(
+        rig.shard, {.what = ShardRequest::What::kEndSession, .session = &rig.session, .done = [&over](ShardRequest& r) {
+                      EXPECT_EQ(r.result, JoinResult::kSessionOver);
+                      ++over;
+                    }});
+  };
+  for (std::size_t i = 0; i < ShardRequests::kRetriedMax; ++i) post();
+  EXPECT_EQ(over, 0U);
+  post();
+  EXPECT_EQ(over, 1U) << "their number is bounded";
+  rig.requests.stop_watching();
+  EXPECT_EQ(over, ShardRequests::kRetriedMax + 1);
+  lost = 0;
+  rig.run_shard();
 }
 
 TEST(ShardRequests, CompleteAtOnceWhenTheQueueIsFull) {

@@ -5,8 +5,10 @@
 #include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
 #include "common/base/command_hints.h"
+#include "common/base/sanitize.h"
 #include "common/io/command_line.h"
 #include "common/io/reachable_address.h"
+#include "proto/rpc/rpc_texts.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
 #include "server/policy/roles.h"
@@ -15,7 +17,7 @@ namespace tandem::server {
 namespace {
 
 struct TicketArguments {
-  std::string session, seat, workstation, role, state, hours = "4", force = "100";
+  std::string session, seat, workstation, person, role, state, hours = "4", force = "100";
 };
 
 /// Session of the running server that the argument names by id, code or name.
@@ -53,17 +55,14 @@ std::optional<AccessRole> find_role(const TicketArguments& arguments, const Open
                  "\" must be instructor, trainee, evaluator, observer, operator or recorder");
   }
   const bool sits = !arguments.seat.empty();
-  if (role && (sits ? *role == AccessRole::kOperator || *role == AccessRole::kRecorder : !may_join_console(*role))) {
-    errors.add(!sits ? "--seat is required: the role " + std::string(to_text(*role)) +
-                           " needs one; without a seat: instructor, evaluator, operator, recorder"
-                     : "--seat: the role " + std::string(to_text(*role)) + " has none");
+  if (role && sits && (*role == AccessRole::kOperator || *role == AccessRole::kRecorder)) {
+    errors.add("--seat: the role " + std::string(to_text(*role)) + " has none");
     return role;
   }
   if (arguments.seat.empty() || session.seats.empty()) {
     if (arguments.role.empty())
-      errors.add(arguments.seat.empty()
-                     ? "--seat is required, or a --role that needs none: operator, recorder, instructor, evaluator"
-                     : "--role is required: the session's seats are not known here");
+      errors.add(arguments.seat.empty() ? "--seat is required, or a --role for a console without a seat"
+                                        : "--role is required: the session's seats are not known here");
     return role;
   }
   const auto seat = std::ranges::find(session.seats, arguments.seat, &OpenSeat::name);
@@ -99,6 +98,8 @@ int ticket_command(const TicketArguments& arguments) {
   } else {
     errors.add(session.error());
   }
+  if (!arguments.person.empty() && !rpc::is_name(arguments.person))
+    errors.add("--person: \"" + sanitize(arguments.person, 64) + "\" must be 1 to 32 characters of A-Z a-z 0-9 _ -");
   if (!errors.empty() || !role) return print_usage_errors("ticket", errors);
 
   const std::int64_t now = auth::wall_seconds();
@@ -110,14 +111,17 @@ int ticket_command(const TicketArguments& arguments) {
                             .force_scale = static_cast<std::uint16_t>(std::lround(force_percent * 10.0)),
                             .not_before = now,
                             .not_after = now + static_cast<std::int64_t>(std::stod(hours) * 3600.0),
-                            .epoch_min = session->epoch};
+                            .epoch_min = session->epoch,
+                            .person = arguments.person};
   const auto bytes = auth::sign_ticket(ticket, state->ticket_key());
   if (!bytes) return print_usage_error("ticket", "the ticket cannot be made: " + bytes.error());
   record_command("ticket", *state, now, "ticket", workstation->name,
-                 auth::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
+                 auth::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)) +
+                     (ticket.person.empty() ? "" : " for " + ticket.person));
   std::printf("%s\n", auth::ticket_text(*bytes).c_str());
   const std::string address = *serving ? shell_quote(io::reachable_address((*serving)->address)) : "HOST:PORT";
-  const std::string what = arguments.seat.empty()
+  const std::string what = arguments.seat.empty() && watches_only(*role) ? "watch --server " + address
+                           : arguments.seat.empty()
                                ? "control --server " + address
                                : "join --server " + address + " --seat " + arguments.seat + " --device sim";
   std::fprintf(stderr,
@@ -142,11 +146,15 @@ void add_ticket_command(const io::Command& root) {
       .required();
   command
       .add_option("--seat", arguments.seat,
-                  "the seat's name; none for an operator, a recorder, or an instructor at a console")
+                  "the seat's name; none for a console. A trainee or observer without a seat only watches")
       .value_name("SEAT");
   command.add_option("--workstation", arguments.workstation, "required: the only workstation that may use it")
       .value_name("NAME")
       .required();
+  command
+      .add_option("--person", arguments.person,
+                  "name of the person who gets it, for the audit log, notes and screens: A-Z a-z 0-9 _ -, at most 32")
+      .value_name("NAME");
   command
       .add_option("--role", arguments.role,
                   "instructor, trainee, evaluator, observer, operator, recorder; default: the seat's")
@@ -161,7 +169,7 @@ void add_ticket_command(const io::Command& root) {
       "role of a seat, are known while the server runs.\n"
       "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments.\n\n"
       "Examples\n"
-      "  tandem-server ticket --session contact --seat trainee --workstation touch-07\n"
+      "  tandem-server ticket --session contact --seat trainee --workstation touch-07 --person ann\n"
       "  tandem-server ticket --session contact --role operator --workstation office     # for `tandem-client "
       "control`");
 }

@@ -12,6 +12,9 @@
 #include "common/io/socket_address.h"
 
 namespace tandem::server {
+
+std::string by_person(const std::string& name) { return name.empty() ? name : "; by " + name; }
+
 namespace {
 
 /// Source of a line for the throttle: the workstation if known, otherwise the IPv4 address or the IPv6 /64 network.
@@ -41,7 +44,8 @@ bool AuditWriter::record(const ControlEventRecord& news) {
       if (!throttle_.admit(source_of(news), io::monotonic_now())) return false;
       [[fallthrough]];
     case ControlEvent::kWelcomed:
-      trust_.audit(auth::wall_seconds(), to_text(news.event), news.workstation, news.address + " " + news.detail);
+      trust_.audit(auth::wall_seconds(), to_text(news.event), news.workstation,
+                   news.address + " " + news.detail + by_person(news.person));
       return true;
     // Events that decide about no workstation are only counted; the keystore logs enrolments itself.
     default:
@@ -78,11 +82,13 @@ void AuditWriter::close() {
   trust_.retry_audit(auth::wall_seconds());
 }
 
-void AuditWriter::post(std::string_view event, std::string session, std::string detail) {
+void AuditWriter::post(std::string_view event, std::string session, std::string detail,
+                       std::function<std::string()> author) {
   if (!trust_.on_disk()) return;
-  asio::post(context_, [this, event, session = std::move(session), detail = std::move(detail)] {
-    trust_.audit(auth::wall_seconds(), event, session, detail);
-  });
+  asio::post(
+      context_, [this, event, session = std::move(session), detail = std::move(detail), author = std::move(author)] {
+        trust_.audit(auth::wall_seconds(), event, session, detail + by_person(author ? author() : std::string{}));
+      });
 }
 
 AuditState AuditWriter::state() const {

@@ -12,6 +12,9 @@
 
 namespace tandem::server {
 
+/// Returns the end of an audit line's detail that names the person behind it; empty without a name.
+[[nodiscard]] std::string by_person(const std::string& name);
+
 /// State of the audit log.
 struct AuditState {
   std::string_view trouble{};  ///< current write error; empty: none
@@ -34,7 +37,8 @@ class AuditWriter {
   /// Writes a join or a rejection. @return false if the source has too many such lines
   [[nodiscard]] bool record(const ControlEventRecord& news);
   /// Appends an event of a session. Thread-safe, does not wait.
-  void post(std::string_view event, std::string session, std::string detail);
+  /// @param author  returns the name of the person behind it, on the control plane's thread; empty: not named
+  void post(std::string_view event, std::string session, std::string detail, std::function<std::string()> author = {});
   /// Writes pending lines, and reports when the log fails and when it recovers. Call it once per second.
   void service();
   /// Writes pending lines before the server ends.

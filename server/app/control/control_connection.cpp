@@ -36,7 +36,8 @@ ControlConnection::ControlConnection(ControlServices& services, auth::PendingSlo
       on_change_(std::move(on_change)) {}
 
 void ControlConnection::record(ControlEvent event, std::string detail) const {
-  services_.events.record(event, address_, workstation_ ? workstation_->name : "", std::move(detail));
+  services_.events.record(event, address_, workstation_ ? workstation_->name : "", std::move(detail),
+                          welcome_ ? welcome_->person : "");
 }
 
 void ControlConnection::start(std::chrono::milliseconds deadline) {
@@ -111,8 +112,9 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
     return refuse(ErrorCode::kTooFast, "too many requests; send them more slowly", pending_, 1);
   }
   const auto role = welcome_ ? std::optional(welcome_->role) : std::nullopt;
-  if (!allowed(role, head->kind)) {
-    std::string why = forbidden_text(role, head->kind);
+  const bool seatless = welcome_ && welcome_->seat.empty();
+  if (seatless ? !allowed_without_seat(*role, head->kind) : !allowed(role, head->kind)) {
+    std::string why = seatless ? forbidden_text_without_seat(*role, head->kind) : forbidden_text(role, head->kind);
     record(ControlEvent::kForbidden, forbidden_events_.take(now) ? why : "");
     return refuse(ErrorCode::kNotAllowed, std::move(why), pending_);
   }
@@ -225,8 +227,8 @@ void ControlConnection::on_join_reply(const std::shared_ptr<JoinRequest>& reques
                   true);
   }
   services_.join_handler.on_joined(*request, welcome, *secrets);
-  record(ControlEvent::kWelcomed, welcome.seat);
   welcome_ = welcome;
+  record(ControlEvent::kWelcomed, welcome.seat);
   accepted();
   on_change_(*this, ConnectionChange::kJoined);
   answer(std::move(welcome));

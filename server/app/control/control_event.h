@@ -42,6 +42,7 @@ inline constexpr std::size_t kControlEvents = 19;
 struct ControlEventRecord {
   ControlEvent event = ControlEvent::kAccepted;
   std::string address, workstation, detail;
+  std::string person{};  ///< name in the ticket; empty: not named
 };
 
 /// Counters of the events, and their receiver. One thread records, any thread reads the counters.
@@ -50,9 +51,10 @@ class ControlEvents {
   explicit ControlEvents(std::function<void(const ControlEventRecord&)> on_event = {})
       : on_event_(std::move(on_event)) {}
 
-  void record(ControlEvent event, std::string address, std::string workstation = {}, std::string detail = {}) {
+  void record(ControlEvent event, std::string address, std::string workstation = {}, std::string detail = {},
+              std::string person = {}) {
     counts_[static_cast<std::size_t>(event)].fetch_add(1, std::memory_order_relaxed);
-    if (on_event_) on_event_({event, std::move(address), std::move(workstation), std::move(detail)});
+    if (on_event_) on_event_({event, std::move(address), std::move(workstation), std::move(detail), std::move(person)});
   }
   /// Number of events so far.
   [[nodiscard]] std::uint64_t count(ControlEvent event) const noexcept {

@@ -2,8 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "server/app/control/session_commands.h"
+#include "server/app/control/session_notes.h"
 
 namespace tandem::server {
 
@@ -17,8 +18,12 @@ class NoteLog {
   explicit NoteLog(std::string folder) : folder_(std::move(folder)) {}
   /// Appends a note as one line. @return why it could not be stored; empty: it is stored, or there is no folder
   [[nodiscard]] std::string append(const SessionNote& note, std::int64_t wall_s) const;
+  /// Notes of a session that an earlier run of the server stored, oldest first. Lines that are no note are skipped.
+  [[nodiscard]] std::vector<AuthoredNote> load(const std::string& session, const rpc::Id& id) const;
 
  private:
+  [[nodiscard]] std::string path_of(const std::string& session, const rpc::Id& id) const;
+
   std::string folder_;
 };
 

@@ -6,6 +6,7 @@
 #include "common/base/format.h"
 #include "common/io/log.h"
 #include "server/app/control/session_commands.h"
+#include "server/policy/roles.h"
 
 namespace tandem::server {
 namespace {
@@ -28,12 +29,21 @@ std::optional<ErrorReply> SessionCommands::holder_problem(const rpc::CreateSessi
   if (!workstations)
     return ErrorReply{ErrorCode::kInternal,
                       "the server cannot read its registry of workstations; its log has the cause", 0};
-  for (const rpc::SeatHolder& holder : wanted.holders)
+  for (const rpc::SeatHolder& holder : wanted.holders) {
+    const std::string whose = !holder.seat.empty()     ? "seat " + holder.seat
+                              : !holder.person.empty() ? holder.person
+                                                       : "console at " + holder.workstation;
     if (auth::find_workstation(*workstations, holder.workstation) == nullptr)
       return ErrorReply{ErrorCode::kNotEnrolled,
-                        "seat " + holder.seat + ": no workstation " + holder.workstation +
+                        whose + ": no workstation " + holder.workstation +
                             " is enrolled here; enrol it with `tandem-server enroll " + holder.workstation + "`",
                         0};
+    if (holder.seat.empty() && (holder.role == AccessRole::kOperator || !may_join_console(holder.role)))
+      return ErrorReply{ErrorCode::kNotAllowed,
+                        whose + ": no ticket for a console has the role " + std::string(to_text(holder.role)) +
+                            " here; an operator's is made on the server's computer, by `tandem-server ticket`",
+                        0};
+  }
   return std::nullopt;
 }
 
@@ -42,7 +52,10 @@ void SessionCommands::order(rpc::Body command, const std::string& who, const std
     return answer(ErrorReply{ErrorCode::kNotAllowed, "this server creates and ends no sessions on request", 0});
   SessionOrder order{.who = who};
   std::function<void()> announce = [] {};  // once the order is accepted
-  if (auto* const create = std::get_if<rpc::CreateSession>(&command)) {
+  if (std::holds_alternative<rpc::SceneListRequest>(command)) {
+    order.body = rpc::SceneListRequest{};
+    order.answer = answer;
+  } else if (auto* const create = std::get_if<rpc::CreateSession>(&command)) {
     if (registry_.drain().active())
       return answer(ErrorReply{ErrorCode::kDraining, "this server is draining and creates no sessions", 10});
     if (auto refused = holder_problem(*create)) return answer(std::move(*refused));
@@ -95,21 +108,24 @@ void SessionCommands::complete(rpc::SessionCreated& created, const rpc::CreateSe
   for (const rpc::SeatHolder& holder : wanted.holders) {
     const WorkstationRow* const workstation = auth::find_workstation(*workstations, holder.workstation);
     const auto seat = std::ranges::find(created.session.seats, holder.seat, &rpc::ListedSeat::name);
-    if (workstation == nullptr || seat == created.session.seats.end()) continue;
+    if (workstation == nullptr || (!holder.seat.empty() && seat == created.session.seats.end())) continue;
+    const AccessRole role = holder.seat.empty() ? holder.role : seat->role;
     const auth::Ticket ticket{.ticket_id = auth::random_bytes<auth::Id16>(),
                               .session_id = created.session.id,
                               .seat = holder.seat,
-                              .role = seat->role,
+                              .role = role,
                               .workstation = {workstation->spki},
                               .force_scale = auth::Ticket::kFullForce,
                               .not_before = now,
                               .not_after = now + life,
-                              .epoch_min = entry->registration.epoch};
+                              .epoch_min = entry->registration.epoch,
+                              .person = holder.person};
     const auto bytes = auth::sign_ticket(ticket, audit_.ticket_key());
     if (!bytes) continue;  // impossible for checked names
-    created.tickets.push_back({holder.seat, holder.workstation, {bytes->begin(), bytes->end()}});
+    created.tickets.push_back({holder.seat, holder.workstation, {bytes->begin(), bytes->end()}, holder.person, role});
     audit_.audit(now, "ticket", holder.workstation,
-                 auth::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
+                 auth::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)) +
+                     (ticket.person.empty() ? "" : " for " + ticket.person) + "; by " + who);
   }
 }
 

@@ -13,11 +13,12 @@ constexpr Duration kReservedAfterRestart = std::chrono::seconds(2);
 
 }  // namespace
 
-void SeatReservation::restore(const Checkpoint::Seat& seat, Time resume_until, Time now) noexcept {
+void SeatReservation::restore(const Checkpoint::Seat& seat, Time resume_until, Time now, std::string person) noexcept {
   latest_ = seat.resume;
   resumable_ = seat.resume != Hash{};
   force_scale_ = seat.force_scale;
   resume_until_ = resume_until;
+  person_ = std::move(person);
   if (seat.taken && resumable_) reserved_until_ = now + kReservedAfterRestart;
 }
 
@@ -40,10 +41,13 @@ void SeatReservation::offer(ResumeMatch match, bool ever_heard, double scale,
   next_previous_ = match == ResumeMatch::kNone ? Hash{} : ever_heard || resume_until_ ? latest_ : previous_;
 }
 
-void SeatReservation::admit(const WorkstationRow& owner, std::uint32_t cid, const Hash& secret) {
+void SeatReservation::admit(const WorkstationRow& owner, std::uint32_t cid, const Hash& secret, std::string person,
+                            Time now) {
   ticket_.reset();  // it is used
   owner_ = owner;
   cid_ = cid;
+  previous_person_ = std::exchange(person_, std::move(person));
+  previous_since_ = std::exchange(since_, now);
   previous_ = next_previous_;
   latest_ = secret;
   resumable_ = true;

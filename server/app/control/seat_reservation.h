@@ -25,7 +25,8 @@ class SeatReservation {
 
   /// Restores the seat after a restart of the server. If it was taken, it is reserved for its owner for 2 s from `now`
   /// on.
-  void restore(const Checkpoint::Seat& seat, Time resume_until, Time now) noexcept;
+  /// @param person  name of the owner; empty: not named
+  void restore(const Checkpoint::Seat& seat, Time resume_until, Time now, std::string person = {}) noexcept;
 
   /// Which of the owner's secrets this is.
   /// @param workstation  key to which the secret is bound
@@ -47,7 +48,8 @@ class SeatReservation {
   /// The client owns the seat from now on.
   /// @param cid     connection id of its datagrams
   /// @param secret  resume_hash of its new resume secret
-  void admit(const WorkstationRow& owner, std::uint32_t cid, const Hash& secret);
+  /// @param person  name in the ticket; empty: not named
+  void admit(const WorkstationRow& owner, std::uint32_t cid, const Hash& secret, std::string person, Time now);
   /// @return the redeemed ticket, if the join ends before `admit`
   std::optional<auth::Id16> end_join() noexcept;
 
@@ -57,6 +59,12 @@ class SeatReservation {
   [[nodiscard]] const std::optional<WorkstationRow>& owner() const noexcept { return owner_; }
   /// Connection id of the current or last owner.
   [[nodiscard]] std::uint32_t cid() const noexcept { return cid_; }
+  /// Name of the current or last owner, from the ticket; empty: not named.
+  [[nodiscard]] const std::string& person() const noexcept { return person_; }
+  /// Name of the owner at a time; empty: not named, or earlier than the last two owners.
+  [[nodiscard]] std::string person_at(Time t) const {
+    return t >= since_ ? person_ : t >= previous_since_ ? previous_person_ : std::string{};
+  }
   /// Whether this connection owns the seat.
   [[nodiscard]] bool owned_by(std::uint32_t cid) const noexcept { return cid_ == cid && owner_; }
 
@@ -81,7 +89,9 @@ class SeatReservation {
   /// After a restart, until the owner is back. Otherwise the session knows for how long the owner is silent.
   std::optional<Time> resume_until_;
   Time reserved_until_{};
-  std::uint32_t lost_cid_ = 0;  ///< connection from which the seat was taken away last
+  std::string person_, previous_person_;
+  Time since_{}, previous_since_{};  ///< start of the time of `person_`, of `previous_person_`
+  std::uint32_t lost_cid_ = 0;       ///< connection from which the seat was taken away last
   std::string lost_why_;
 };
 

@@ -7,9 +7,12 @@
 #include "common/base/sanitize.h"
 #include "common/io/clock.h"
 #include "common/io/log.h"
+#include "server/app/control/audit_writer.h"
 #include "server/app/control/command_text.h"
 #include "server/app/control/note_check.h"
+#include "server/app/control/session_notes.h"
 #include "server/app/monitor/session_status.h"
+#include "server/policy/roles.h"
 #include "server/session/connection_id.h"
 #include "server/session/stop_text.h"
 
@@ -42,13 +45,15 @@ SessionCommands::SessionCommands(SessionRegistry& registry, auth::ServerKeystore
 
 void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                               std::function<void(rpc::Body)> answer) {
-  const std::string who = workstation.name + " (" + std::string(to_text(joined.role)) +
-                          (joined.seat.empty() ? "" : ", seat " + joined.seat) + ")";
+  const std::string who = (joined.person.empty() ? "" : joined.person + " at ") + workstation.name + " (" +
+                          std::string(to_text(joined.role)) + (joined.seat.empty() ? "" : ", seat " + joined.seat) +
+                          ")";
   if (const auto* request = std::get_if<rpc::Drain>(&command)) {
     drain(request->grace_s, who);
     return answer(rpc::Ok{});
   }
-  if (std::holds_alternative<rpc::CreateSession>(command) || std::holds_alternative<rpc::EndSession>(command))
+  if (std::holds_alternative<rpc::CreateSession>(command) || std::holds_alternative<rpc::EndSession>(command) ||
+      std::holds_alternative<rpc::SceneListRequest>(command))
     return order(std::move(command), who, answer);
   const rpc::Id* const id = session_of(command);
   if (id == nullptr || *id != joined.session_id)
@@ -58,6 +63,8 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
   SessionEntry* const entry = registry_.find(*id);
   const ErrorReply over{ErrorCode::kSessionOver, "this session is over", 0};
   if (entry == nullptr) return answer(over);
+  if (const auto* const list = std::get_if<rpc::NotesRequest>(&command))
+    return answer(entry->notes.list(SessionNotes::author_of(joined, audit_.on_disk()), list->after));
   if (const auto* const note = std::get_if<rpc::Note>(&command))
     if (std::string problem = note_problem(note->json); !problem.empty())
       return answer(ErrorReply{ErrorCode::kBadFrame, std::move(problem), 0});
@@ -78,10 +85,12 @@ rpc::Body SessionCommands::conclude(SessionEntry& entry, const rpc::Welcome& joi
   const std::string why = why_in(command);
   const bool done = outcome.result == Result::kDone;
   if (done && (std::holds_alternative<rpc::StopSession>(command) || std::holds_alternative<rpc::PauseSession>(command)))
-    entry.notices.set_stop(outcome.stops, workstation, why);
+    entry.notices.set_stop(outcome.stops, workstation, joined.person, why);
   if (const auto* resume = std::get_if<rpc::ResumeSession>(&command); done && resume != nullptr)
     entry.notices.set_resume(resume->stop, who);
-  entry.notices.update(outcome.stop_latch, entry.scene());
+  const std::uint8_t ended_by = outcome.stop_latch.ended().by;
+  entry.notices.update(outcome.stop_latch, entry.scene(),
+                       ended_by < entry.seats.size() ? entry.seats[ended_by].person() : std::string{});
   if (const auto* remove = std::get_if<rpc::RemoveParticipant>(&command); done && remove != nullptr) {
     const std::string by = who + (why.empty() ? "" : ": " + why);
     entry.notices.add(remove->seat + " is REMOVED by " + who + ", the hand is released within 0.2 s" +
@@ -89,13 +98,8 @@ rpc::Body SessionCommands::conclude(SessionEntry& entry, const rpc::Welcome& joi
     if (const auto owner = entry.seats[outcome.target_seat].remove_owner("removed by " + by))
       entry.removed.add(owner->spki);
   }
-  if (const auto* note = std::get_if<rpc::Note>(&command); done && note != nullptr && on_note_)
-    if (const std::string problem = on_note_({joined.session_id, joined.session_name, workstation, joined.seat,
-                                              joined.role, outcome.tick, outcome.time, note->kind, note->json});
-        !problem.empty()) {
-      io::log_event(io::Level::kError, {.event = "error", .session = joined.session_name, .text = problem});
-      return ErrorReply{ErrorCode::kInternal, "the server cannot store the note; its log has the cause", 0};
-    }
+  if (const auto* note = std::get_if<rpc::Note>(&command); done && note != nullptr)
+    if (auto refused = store(entry, joined, workstation, *note, outcome)) return std::move(*refused);
   if (std::holds_alternative<rpc::StatusRequest>(command) && done) return status_of(entry, joined, outcome);
   if (!std::holds_alternative<rpc::StatusRequest>(command)) record(entry, who, executed.command, outcome);
   rpc::Body reply = command_reply(command, joined.role, outcome, entry.session().seat_catalogue());
@@ -105,6 +109,26 @@ rpc::Body SessionCommands::conclude(SessionEntry& entry, const rpc::Welcome& joi
     if (!lost.empty()) error.text = truncate_utf8(error.text + " (" + lost + ")", rpc::kTextMax);
   }
   return reply;
+}
+
+std::optional<ErrorReply> SessionCommands::store(SessionEntry& entry, const rpc::Welcome& joined,
+                                                 const std::string& workstation, const rpc::Note& note,
+                                                 const CommandOutcome& outcome) {
+  const SessionNote stored{joined.session_id, joined.session_name,
+                           workstation,       joined.seat,
+                           joined.person,     SessionNotes::author_of(joined, audit_.on_disk()),
+                           joined.role,       outcome.tick,
+                           outcome.time,      note.kind,
+                           note.json};
+  AuthoredNote kept = authored(stored);
+  if (std::string problem = entry.notes.problem(kept); !problem.empty())
+    return ErrorReply{ErrorCode::kNotAllowed, std::move(problem), 0};
+  if (const std::string problem = on_note_ ? on_note_(stored) : std::string{}; !problem.empty()) {
+    io::log_event(io::Level::kError, {.event = "error", .session = joined.session_name, .text = problem});
+    return ErrorReply{ErrorCode::kInternal, "the server cannot store the note; its log has the cause", 0};
+  }
+  entry.notes.add(std::move(kept));
+  return std::nullopt;
 }
 
 void SessionCommands::record(SessionEntry& entry, const std::string& who, const SessionCommand& command,
@@ -141,14 +165,20 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
   if (drain.active()) status.drain = registry_.drain_progress();
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     status.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), outcome.seats[i].taken,
-                            outcome.seats[i].heard, i < outcome.masters});
+                            outcome.seats[i].heard, i < outcome.masters,
+                            outcome.seats[i].taken ? entry.seats[i].person() : std::string{}});
   for (std::size_t j = 0; j < outcome.tools; ++j)
     status.tools.push_back(
         {scene.tools[j].name, {outcome.alpha[j].begin(), outcome.alpha[j].begin() + outcome.masters}});
   if (outcome.state == wire::SessionState::kHeld)
     status.held = truncate_utf8(held_reason_text(entry.session().status(), scene), rpc::kTextMax);
   if (status.stop)
-    status.stop->yours = outcome.stop_latch.may_be_ended_by(joined.role, seat_of(joined), outcome.connected_seats);
+    status.stop->yours = (!joined.seat.empty() || !watches_only(joined.role)) &&
+                         outcome.stop_latch.may_be_ended_by(joined.role, seat_of(joined), outcome.connected_seats);
+  // The session knows the seat of a stop by key or datagram; the person is the one who had it then.
+  if (const std::uint8_t by = outcome.stop_latch.latest().by; status.stop && by < entry.seats.size())
+    status.stop->person = entry.seats[by].person_at(io::monotonic_now() - from_seconds(outcome.stop_age));
+  if (allowed(joined.role, Right::kScore) == Grant::kYes) status.notes = entry.notes.newest();
   entry.notices.complete(status);
   return status;
 }
@@ -203,7 +233,7 @@ void SessionCommands::release_seat(SessionEntry& entry, std::size_t seat) {
       const std::uint32_t tick = executed.outcome.tick;
       io::log_event(io::Level::kWarn, {.event = "revoked_seat", .session = session, .seat = name, .tick = tick});
       audit_.audit(auth::wall_seconds(), "revoked_seat", reservation.owner()->name,
-                   session + " " + name + format(" tick %u", tick));
+                   session + " " + name + format(" tick %u", tick) + by_person(reservation.person()));
     }
     reservation.release();
   };

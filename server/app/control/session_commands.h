@@ -12,21 +12,10 @@
 
 namespace tandem::server {
 
-/// A mark or sheet that a participant wrote, with its author and time. Recordings will store it.
-struct SessionNote {
-  rpc::Id session_id{};
-  std::string session, workstation, seat;  ///< names; seat empty: a console
-  AccessRole role = AccessRole::kObserver;
-  std::uint32_t tick = 0;
-  double time_s = 0;  ///< session clock [s]
-  rpc::NoteKind kind = rpc::NoteKind::kMark;
-  std::string json;
-};
-
-/// Executes the commands of joined control connections: drain here, orders about whole sessions on the thread that
-/// takes them from SessionOrders, all others on the session's shard. It replies to
-/// the client, and reports each executed or forbidden command to the other participants, the audit log, the log and the
-/// operator of the server. All members run on the control plane's thread.
+/// Executes the commands of joined control connections: drain and lists of notes here, orders about whole sessions on
+/// the thread that takes them from SessionOrders, all others on the session's shard. It replies to the client, and
+/// reports each executed or forbidden command to the other participants, the audit log, the log and the operator of the
+/// server. All members run on the control plane's thread.
 class SessionCommands {
  public:
   /// @param audit       writes the audit log
@@ -49,11 +38,15 @@ class SessionCommands {
   void disconnect_revoked();
 
  private:
-  /// Queues an order to create or end a session.
+  /// Queues an order about sessions or scenes.
   void order(rpc::Body command, const std::string& who, const std::function<void(rpc::Body)>& answer);
   /// Adds the tickets of the named workstations to the reply of a created session, and audits both.
   void complete(rpc::SessionCreated& created, const rpc::CreateSession& wanted, const std::string& who);
   [[nodiscard]] std::optional<rpc::ErrorReply> holder_problem(const rpc::CreateSession& wanted) const;
+  /// Stores a note that the session has accepted. @return why it is rejected
+  [[nodiscard]] std::optional<rpc::ErrorReply> store(SessionEntry& entry, const rpc::Welcome& joined,
+                                                     const std::string& workstation, const rpc::Note& note,
+                                                     const CommandOutcome& outcome);
   /// Replies to an executed command.
   /// @param who   workstation, role and seat of the client
   [[nodiscard]] rpc::Body conclude(SessionEntry& entry, const rpc::Welcome& joined, const std::string& workstation,

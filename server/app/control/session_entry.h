@@ -10,6 +10,7 @@
 #include "server/app/control/console_tickets.h"
 #include "server/app/control/removed_workstations.h"
 #include "server/app/control/seat_reservation.h"
+#include "server/app/control/session_notes.h"
 #include "server/app/control/slot_reservations.h"
 #include "server/app/control/status_notices.h"
 #include "server/app/process/live_session.h"
@@ -30,6 +31,9 @@ struct SessionRegistration {
   /// Receives the full list of removed workstations whenever one is added; null: the list is not stored.
   std::function<void(const std::vector<RemovedWorkstations::Key>&)> on_removed{};
   Time resume_until{};  ///< former participants can resume until then; only with `snapshot`
+  /// Receives the names of the persons at all seats whenever a client takes one; null: they are not stored.
+  std::function<void(std::vector<std::string>)> on_persons{};
+  std::vector<AuthoredNote> notes{};  ///< marks and sheets of an earlier run of the server, oldest first
 };
 
 /// A registered session, and what the control plane alone knows about its clients.
@@ -42,13 +46,22 @@ struct SessionEntry {
         RemovedWorkstations(from == nullptr ? std::vector<RemovedWorkstations::Key>{} : from->removed_workstations,
                             registration.on_removed);
     for (std::size_t i = 0; from != nullptr && i < seats.size(); ++i)
-      seats[i].restore(from->checkpoint.seats[i], registration.resume_until, now);
+      seats[i].restore(from->checkpoint.seats[i], registration.resume_until, now,
+                       i < from->persons.size() ? from->persons[i] : std::string{});
+    for (AuthoredNote& note : std::exchange(registration.notes, {})) notes.add(std::move(note));
   }
 
   [[nodiscard]] LiveSession& session() const noexcept { return *registration.session; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return registration.session->scene(); }
   /// Neither removed nor over.
   [[nodiscard]] bool open() const noexcept { return !closing && !registration.session->over(); }
+  /// Stores the names of the persons at the seats.
+  void keep_persons() const {
+    if (!registration.on_persons) return;
+    std::vector<std::string> names;
+    for (const SeatReservation& seat : seats) names.push_back(seat.person());
+    registration.on_persons(std::move(names));
+  }
 
   SessionRegistration registration;
   bool closing = false;                ///< the session is over and being removed: it gets no more requests
@@ -58,6 +71,7 @@ struct SessionEntry {
   ConsoleTickets consoles;
   RemovedWorkstations removed;
   StatusNotices notices;
+  SessionNotes notes;
   TokenBucket forbidden_events{1, 5};  ///< audit events of forbidden commands
 };
 

@@ -10,6 +10,7 @@
 #include "common/io/log.h"
 #include "proto/text/scene_bytes.h"
 #include "proto/text/seat_setup.h"
+#include "server/app/control/audit_writer.h"
 #include "server/app/control/slot_join.h"
 #include "server/policy/roles.h"
 #include "server/session/connection_id.h"
@@ -37,7 +38,7 @@ std::string ticket_command(const SessionEntry& entry, const std::string& what, c
 
 /// A Welcome with fresh connection id and resume secret.
 rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes,
-                          const std::string& seat = {}, std::vector<std::byte> setup = {}) {
+                          const std::string& seat = {}, std::vector<std::byte> setup = {}, std::string person = {}) {
   const SessionRegistration& session = entry.registration;
   const auto drawn = auth::random_bytes<std::array<std::byte, 2>>();
   const bool aes = has_aes && transport::fastest_cipher() == transport::Cipher::kAes256Gcm;
@@ -53,7 +54,8 @@ rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessR
           .setup = std::move(setup),
           .udp_port = session.shard->address().port(),
           .resume_secret = Secret<32>{auth::random_bytes<std::array<std::byte, 32>>()},
-          .limits = {}};
+          .limits = {},
+          .person = std::move(person)};
 }
 
 std::vector<std::byte> encoded(const SeatSetup& setup) {
@@ -157,14 +159,16 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
     return nothing_to_resume();
   const SeatSpec& seat = entry.scene().seats[asked.seat];
   const AccessRole role = access_role(seat.role);
-  // A ticket can only lower the force. A resume has no ticket and keeps the stored scale.
+  // A ticket can only lower the force. A resume has no ticket and keeps the stored scale and name.
   double force_scale = asked.same_owner ? reservation.force_scale() : 1;
+  std::string person = asked.same_owner ? reservation.person() : std::string{};
   std::optional<auth::Id16> used;
   if (const auto* ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential)) {
     const auto redeemed = redeem(entry, request, *ticket, role);
     if (!redeemed) return redeemed.error();
     force_scale = static_cast<double>(redeemed->force_scale) / auth::Ticket::kFullForce;
     used = redeemed->ticket_id;
+    person = redeemed->person;
   } else if (const auto* code = std::get_if<rpc::CodeCredential>(&request.hello.credential)) {
     if (auto refused = check_code(entry, request, code->code, role)) return std::move(*refused);
   } else if (!asked.same_owner) {
@@ -177,7 +181,7 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
   SeatSetup own = entry.session().seat_catalogue().setup_for(asked.seat, request.hello.device);
   own.gate.force_max *= force_scale;
   return make_welcome(entry, static_cast<std::uint8_t>(asked.seat + 1), role, request.hello.has_aes, seat.name,
-                      encoded(own));
+                      encoded(own), std::move(person));
 }
 
 std::optional<ErrorReply> SessionJoins::check_code(const SessionEntry& entry, const JoinRequest& request,
@@ -211,11 +215,12 @@ std::expected<auth::Ticket, ErrorReply> SessionJoins::redeem(const SessionEntry&
   return std::unexpected(ticket_error_reply(redeemed.error()));
 }
 
-void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry) {
+void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry,
+                                  const std::string& person) {
   if (!ticket) return;
   const std::string problem = trust_.tickets().restore(*ticket);
   trust_.audit(auth::wall_seconds(), "ticket_unused", entry.registration.name,
-               auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem));
+               auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem) + by_person(person));
 }
 
 // ---- Consoles and link tests ----
@@ -233,7 +238,7 @@ void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
   if (role && !may_join_console(*role))
     return answer(ErrorReply{ErrorCode::kNotAllowed,
                              "the role " + std::string(to_text(*role)) +
-                                 " needs a seat; a console has the role instructor, evaluator, operator or recorder",
+                                 " may see nothing of a session without a seat; ask for a ticket with one",
                              0});
   if (!request.hello.watch) return answer(admit_console(entry, request, *ticket, kConsolePlace));
   reserve_slot(
@@ -258,7 +263,8 @@ JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& re
   }
   const auto redeemed = redeem(entry, request, ticket, std::nullopt);
   if (!redeemed) return redeemed.error();
-  rpc::Welcome w = make_welcome(entry, place, redeemed->role, request.hello.has_aes, "", std::move(scene));
+  rpc::Welcome w =
+      make_welcome(entry, place, redeemed->role, request.hello.has_aes, "", std::move(scene), redeemed->person);
   entry.consoles.add(w.resume_secret, redeemed->ticket_id);
   return w;
 }
@@ -282,9 +288,10 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
   if (is_console(welcome)) {
-    io::log_event(io::Level::kInfo, {.event = "console-joined",
-                                     .session = welcome.session_name,
-                                     .text = request.address + " " + std::string(to_text(welcome.role))});
+    io::log_event(io::Level::kInfo,
+                  {.event = "console-joined",
+                   .session = welcome.session_name,
+                   .text = request.address + " " + std::string(to_text(welcome.role)) + by_person(welcome.person)});
     if (!is_watcher(welcome)) return;
   }
   const auto log = [&welcome](const char* event, std::string text) {
@@ -324,7 +331,8 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
     const std::size_t seat = seat_index(welcome);
     SeatReservation& reservation = entry->seats[seat];
     const auto secret = resume_hash(welcome.resume_secret.bytes, resume_binding(trust_, request.workstation));
-    reservation.admit(request.workstation, welcome.server_cid, secret);
+    reservation.admit(request.workstation, welcome.server_cid, secret, welcome.person, io::monotonic_now());
+    entry->keep_persons();
     joins = {.what = ShardRequest::What::kAdmit,
              .seat = seat,
              .same_owner = true,  // the query succeeded, and the seat has been reserved since
@@ -335,17 +343,19 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
     if (std::string softer = catalogue.softened_spring_text(seat, request.hello.device); !softer.empty())
       log("stiffness_reduced", std::move(softer));
   }
-  if (!is_watcher(welcome)) log(request.hello.link_test ? "link-test-joined" : "seat-joined", request.address);
+  if (!is_watcher(welcome))
+    log(request.hello.link_test ? "link-test-joined" : "seat-joined", request.address + by_person(welcome.person));
   registry_.post(*entry, std::move(joins));
 }
 
 void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
-  if (!welcome.seat.empty()) return restore_ticket(entry->seats[seat_index(welcome)].end_join(), *entry);
+  if (!welcome.seat.empty())
+    return restore_ticket(entry->seats[seat_index(welcome)].end_join(), *entry, welcome.person);
   if (!is_console(welcome)) return entry->link_tests.cancel_join();
   if (is_watcher(welcome)) entry->watchers.cancel_join();
-  restore_ticket(entry->consoles.take(welcome.resume_secret), *entry);
+  restore_ticket(entry->consoles.take(welcome.resume_secret), *entry, welcome.person);
 }
 
 rpc::SessionList SessionJoins::list() { return registry_.list(); }
@@ -374,13 +384,14 @@ void SessionJoins::stop_watching(SessionEntry& entry, const rpc::Welcome& joined
                          .cid = joined.server_cid});
 }
 
-/// Recorders only query status, so their ticket counts as used.
+/// Recorders, and trainees and observers without a seat, only query status, so their ticket counts as used.
 void SessionJoins::on_disconnected(const rpc::Welcome& joined, bool in_vain) {
   SessionEntry* const entry = registry_.find(joined.session_id);
   if (entry == nullptr || !is_console(joined)) return;
   stop_watching(*entry, joined);
   const auto ticket = entry->consoles.take(joined.resume_secret);
-  if (in_vain && allowed(joined.role, Right::kStopSession) != Grant::kNo) restore_ticket(ticket, *entry);
+  const bool commands = allowed(joined.role, Right::kStopSession) != Grant::kNo && !watches_only(joined.role);
+  if (in_vain && commands) restore_ticket(ticket, *entry, joined.person);
 }
 
 }  // namespace tandem::server

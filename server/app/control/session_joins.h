@@ -51,7 +51,8 @@ class SessionJoins final : public JoinHandler {
                                                                     const rpc::TicketCredential& ticket,
                                                                     std::optional<AccessRole> role);
   void stop_watching(SessionEntry& entry, const rpc::Welcome& joined);
-  void restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry);
+  /// @param person  name in the ticket, for the audit log
+  void restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry, const std::string& person);
   /// Error reply if the shard or the machine is too busy for a new join; nullopt if not.
   [[nodiscard]] std::optional<rpc::ErrorReply> overload_reply(const SessionEntry& entry) const;
 

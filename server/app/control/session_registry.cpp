@@ -45,7 +45,7 @@ void SessionRegistry::add_running(SessionRegistration opening, std::function<voi
   add(std::move(opening));
   ShardRequest request{.what = ShardRequest::What::kAddSession};
   request.done = [done = std::move(done)](const ShardRequest& added) { done(added.result == JoinResult::kAccepted); };
-  post(entries_.back(), std::move(request));
+  post_when_possible(entries_.back(), std::move(request));
 }
 
 void SessionRegistry::remove(const rpc::Id& id, std::function<void()> gone) {
@@ -59,7 +59,13 @@ void SessionRegistry::remove(const rpc::Id& id, std::function<void()> gone) {
 }
 
 void SessionRegistry::end(const rpc::Id& id) {
-  if (SessionEntry* const found = find(id); found != nullptr) post(*found, {.what = ShardRequest::What::kEndSession});
+  if (SessionEntry* const found = find(id); found != nullptr)
+    post_when_possible(*found, {.what = ShardRequest::What::kEndSession});
+}
+
+void SessionRegistry::post_when_possible(const SessionEntry& entry, ShardRequest request) {
+  request.session = entry.registration.session;
+  requests_.post_when_possible(*entry.registration.shard, std::move(request));
 }
 
 void SessionRegistry::post(const SessionEntry& entry, ShardRequest request) {

@@ -26,7 +26,7 @@ class SessionRegistry {
   void add_running(SessionRegistration opening, std::function<void(bool)> done = [](bool) {});
   /// Removes a session that is over; it gets no more requests. `gone` is called when nothing refers to it any more.
   void remove(const rpc::Id& id, std::function<void()> gone);
-  /// Releases all hands of a session and ends it.
+  /// Releases all hands of a session and ends it. A full queue of its shard delays this.
   void end(const rpc::Id& id);
   /// Posts a request to the shard of a session.
   void post(const SessionEntry& entry, ShardRequest request);
@@ -55,6 +55,9 @@ class SessionRegistry {
   [[nodiscard]] rpc::StatusDrain drain_progress() const;
 
  private:
+  /// Posts a request that must not be lost.
+  void post_when_possible(const SessionEntry& entry, ShardRequest request);
+
   ShardRequests requests_;
   DrainSchedule drain_;
   std::list<SessionEntry> entries_;

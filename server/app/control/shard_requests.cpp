@@ -34,6 +34,35 @@ void ShardRequests::post(Shard& shard, ShardRequest request) {
   complete(kept);
 }
 
+void ShardRequests::post_when_possible(Shard& shard, ShardRequest request) {
+  ShardRequest& kept = requests_.emplace_back(std::move(request));
+  if (retried_.empty() && shard.post(kept)) return;
+  if (retried_.size() >= kRetriedMax) {
+    kept.result = JoinResult::kSessionOver;
+    return complete(kept);
+  }
+  retried_.push_back({&shard, &kept});
+  if (retried_.size() == 1) retry();
+}
+
+void ShardRequests::retry() {
+  retry_timer_.expires_after(kRetry);
+  retry_timer_.async_wait([this](asio::error_code error) {
+    if (error) return;
+    std::erase_if(retried_, [](const Retried& r) { return r.shard->post(*r.request); });
+    if (!retried_.empty()) retry();
+  });
+}
+
+void ShardRequests::stop_watching() {
+  watched_.clear();
+  retry_timer_.cancel();
+  for (const Retried& r : std::exchange(retried_, {})) {
+    r.request->result = JoinResult::kSessionOver;
+    complete(*r.request);
+  }
+}
+
 void ShardRequests::complete(ShardRequest& request) {
   request.done(request);
   const LiveSession& session = *request.session;

@@ -2,6 +2,10 @@
 
 #include <asio/io_context.hpp>
 #include <asio/posix/stream_descriptor.hpp>
+#include <asio/steady_timer.hpp>
+#include <chrono>
+#include <cstddef>
+#include <deque>
 #include <functional>
 #include <list>
 #include <vector>
@@ -14,18 +18,25 @@ namespace tandem::server {
 /// executes it. All members run on the control plane's thread.
 class ShardRequests {
  public:
-  explicit ShardRequests(asio::io_context& context) : context_(context) {}
+  static constexpr std::size_t kRetriedMax = 2 * Shard::kSessionsMax;  ///< one start and one end per session
+  static constexpr std::chrono::milliseconds kRetry{2};
+
+  explicit ShardRequests(asio::io_context& context) : context_(context), retry_timer_(context) {}
 
   /// Waits for completed requests of the shard.
   void watch(Shard& shard);
   /// Stops waiting for all shards, so that the context can end.
-  void stop_watching() { watched_.clear(); }
+  void stop_watching();
   /// The watched shards.
   [[nodiscard]] std::vector<const Shard*> shards() const;
 
   /// Posts a request. Its `done` is called after a shard has executed it, or now, with JoinResult::kSessionOver, if the
   /// queue of the shard is full.
   void post(Shard& shard, ShardRequest request);
+  /// The same for a request that must not be lost: while the queue is full, it is posted again every kRetry. At most
+  /// kRetriedMax such requests wait; one more is completed now with JoinResult::kSessionOver, as all are by
+  /// `stop_watching`.
+  void post_when_possible(Shard& shard, ShardRequest request);
   /// Calls `then` once no request of the session is in progress.
   void when_idle(const LiveSession& session, std::function<void()> then);
 
@@ -38,7 +49,12 @@ class ShardRequests {
     const LiveSession* session;
     std::function<void()> then;
   };
+  struct Retried {
+    Shard* shard;
+    ShardRequest* request;
+  };
   void await_completions(Watched& watched);
+  void retry();
   void complete(ShardRequest& request);
   [[nodiscard]] bool idle(const LiveSession& session) const;
 
@@ -46,6 +62,8 @@ class ShardRequests {
   std::list<Watched> watched_;
   std::list<ShardRequest> requests_;  ///< in progress
   std::list<Waiting> waiting_;
+  std::deque<Retried> retried_;  ///< requests of `requests_` that wait for a place, in their order
+  asio::steady_timer retry_timer_;
 };
 
 }  // namespace tandem::server

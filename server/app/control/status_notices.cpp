@@ -12,9 +12,10 @@ void StatusNotices::add(std::string_view text) {
   events_.push_back({++count_, truncate_utf8(text, rpc::kTextMax)});
 }
 
-void StatusNotices::set_stop(std::uint32_t number, std::string workstation, std::string why) {
+void StatusNotices::set_stop(std::uint32_t number, std::string workstation, std::string person, std::string why) {
   stop_ = number;
   stop_workstation_ = std::move(workstation);
+  stop_person_ = std::move(person);
   stop_why_ = std::move(why);
 }
 
@@ -23,11 +24,12 @@ void StatusNotices::set_resume(std::uint32_t number, std::string who) {
   resumer_ = std::move(who);
 }
 
-void StatusNotices::update(const StopLatch& latch, const SceneSpec& scene) {
+void StatusNotices::update(const StopLatch& latch, const SceneSpec& scene, const std::string& person) {
   const StopLatch::Ended& ended = latch.ended();
   if (ended.number == 0 || ended.number == std::exchange(resume_reported_, ended.number)) return;
   std::string who = ended.by < scene.seats.size()
-                        ? scene.seats[ended.by].name + " (" + std::string(to_text(ended.role)) + ")"
+                        ? (person.empty() ? "" : person + " at ") + scene.seats[ended.by].name + " (" +
+                              std::string(to_text(ended.role)) + ")"
                         : "a console";
   if (resumed_ == ended.number) who = resumer_;
   add(format("stop %u is over: RESUMED by ", ended.number) + who +
@@ -37,8 +39,9 @@ void StatusNotices::update(const StopLatch& latch, const SceneSpec& scene) {
 void StatusNotices::complete(rpc::Status& status) const {
   status.events = events_;
   if (!status.stop || status.stop->number != stop_) return;
-  if (status.stop->seat.empty() && status.stop->kind != rpc::StopKind::kFault)
-    status.stop->workstation = stop_workstation_;
+  const bool fault = status.stop->kind == rpc::StopKind::kFault;
+  if (status.stop->seat.empty() && !fault) status.stop->workstation = stop_workstation_;
+  if (!fault) status.stop->person = stop_person_;
   status.stop->why = stop_why_;
 }
 

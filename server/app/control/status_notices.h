@@ -17,14 +17,15 @@ class StatusNotices {
  public:
   /// Adds an event, numbered from 1. Only the newest rpc::kStatusEventsMax are kept, each cut to rpc::kTextMax bytes.
   void add(std::string_view text);
-  /// A control connection stopped or paused the session.
-  void set_stop(std::uint32_t number, std::string workstation, std::string why);
+  /// A control connection stopped or paused the session. @param person  name in its ticket; empty: not named
+  void set_stop(std::uint32_t number, std::string workstation, std::string person, std::string why);
   /// A control connection ended this stop. @param who its workstation, role and seat
   void set_resume(std::uint32_t number, std::string who);
   /// Adds an event for a stop that ended since the last call. A key at a seat may have ended it, which only the
   /// session's stop latch records.
-  void update(const StopLatch& latch, const SceneSpec& scene);
-  /// Adds events, workstation and reason to a status.
+  /// @param person  name of the person at the seat that ended it; empty: not named
+  void update(const StopLatch& latch, const SceneSpec& scene, const std::string& person = {});
+  /// Adds events, workstation, person and reason to a status.
   void complete(rpc::Status& status) const;
 
  private:
@@ -34,7 +35,7 @@ class StatusNotices {
   std::uint32_t resumed_ = 0;          ///< number of the stop that `resumer_` ended
   std::string resumer_;
   std::uint32_t stop_ = 0;  ///< number of the newest stop by a control connection
-  std::string stop_workstation_, stop_why_;
+  std::string stop_workstation_, stop_person_, stop_why_;
 };
 
 }  // namespace tandem::server

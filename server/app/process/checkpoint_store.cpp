@@ -86,6 +86,15 @@ void CheckpointStore::set_removed(const std::string& name, const std::vector<std
   wake_.signal();
 }
 
+void CheckpointStore::set_persons(const std::string& name, const std::vector<std::string>& persons) {
+  {
+    const std::lock_guard lock{lock_};
+    for (const auto& entry : entries_)
+      if (entry->snapshot.name == name && !entry->over) entry->persons = persons;
+  }
+  wake_.signal();
+}
+
 void CheckpointStore::remove(const std::string& name) {
   {
     const std::lock_guard lock{lock_};
@@ -139,6 +148,10 @@ void CheckpointStore::service_entry(Entry& entry) {
     const std::lock_guard lock{lock_};
     if (auto newer = std::exchange(entry.removed_workstations, std::nullopt)) {
       entry.snapshot.removed_workstations = std::move(*newer);
+      others = true;
+    }
+    if (auto newer = std::exchange(entry.persons, std::nullopt)) {
+      entry.snapshot.persons = std::move(*newer);
       others = true;
     }
   }

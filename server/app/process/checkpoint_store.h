@@ -48,6 +48,8 @@ class CheckpointStore {
   [[nodiscard]] std::shared_ptr<CheckpointMailbox> add(SessionSnapshot kept);
   /// Sets the removed workstations of a session; the next write stores them. Thread-safe.
   void set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys);
+  /// Sets the names of the persons at the seats of a session; the next write stores them. Thread-safe.
+  void set_persons(const std::string& name, const std::vector<std::string>& persons);
   /// Deletes the file of a session that has ended.
   void remove(const std::string& name);
   /// Writes the newest checkpoints and ends the thread. Files remain.
@@ -64,7 +66,8 @@ class CheckpointStore {
     std::atomic<bool> over{false};
     /// Newer than `snapshot`'s; guarded by the store's `lock_`.
     std::optional<std::vector<std::array<std::byte, 32>>> removed_workstations{};
-    std::vector<std::byte> written{};  ///< bytes of the checkpoint as last written
+    std::optional<std::vector<std::string>> persons{};  ///< the same
+    std::vector<std::byte> written{};                   ///< bytes of the checkpoint as last written
     bool failing = false, gone = false;
   };
 

@@ -15,6 +15,8 @@ using rpc::ErrorReply;
 void SessionTable::execute(SessionOrder order) {
   if (const auto* const wanted = std::get_if<rpc::CreateSession>(&order.body)) {
     reply(order, create_session(*wanted));
+  } else if (std::holds_alternative<rpc::SceneListRequest>(order.body)) {
+    reply(order, list_scenes(options_.scenes));
   } else {
     end_session(std::move(order));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 #include "common/auth/enrolment.h"
@@ -9,6 +10,7 @@
 #include "common/base/sanitize.h"
 #include "common/base/suggestions.h"
 #include "proto/io/scene_file.h"
+#include "proto/rpc/rpc_texts.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
 
@@ -63,7 +65,7 @@ std::expected<SessionOptions, ErrorReply> created_session_options(const rpc::Cre
                                     : named_scene(wanted.scene, scenes);
   if (!scene) return std::unexpected(ErrorReply{ErrorCode::kBadFrame, reply_text(scene.error()), 0});
   for (const rpc::SeatHolder& holder : wanted.holders)
-    if (std::ranges::find(scene->seats, holder.seat, &SeatSpec::name) == scene->seats.end()) {
+    if (!holder.seat.empty() && std::ranges::find(scene->seats, holder.seat, &SeatSpec::name) == scene->seats.end()) {
       std::string names;
       for (const SeatSpec& seat : scene->seats) names += (names.empty() ? "" : ", ") + seat.name;
       return std::unexpected(
@@ -72,6 +74,33 @@ std::expected<SessionOptions, ErrorReply> created_session_options(const rpc::Cre
   SessionOptions options{.name = wanted.name, .tickets_only = wanted.tickets_only};
   options.scene = std::move(*scene);
   return options;
+}
+
+rpc::SceneList list_scenes(const std::string& scenes) {
+  constexpr std::size_t kEntriesMax = 4096;
+  std::set<std::string> names;
+  for (const auto& shipped : shipped_scenes()) names.emplace(shipped.name);
+  rpc::SceneList list;
+  std::error_code error;
+  if (!scenes.empty()) {
+    std::size_t read = 0;
+    for (std::filesystem::directory_iterator file(scenes, error), end; !error && file != end; file.increment(error)) {
+      list.more = ++read > kEntriesMax;
+      if (list.more) break;
+      const std::filesystem::path path = file->path().filename();
+      std::error_code ignored;
+      if (path.extension() == ".textproto" && rpc::is_name(path.stem().string()) && file->is_regular_file(ignored))
+        names.insert(path.stem().string());
+    }
+  }
+  for (const std::string& name : names) {
+    if (list.scenes.size() == rpc::kScenesMax) {
+      list.more = true;
+      break;
+    }
+    list.scenes.push_back(name);
+  }
+  return list;
 }
 
 }  // namespace tandem::server

@@ -20,6 +20,11 @@ inline constexpr std::size_t kCreatedSessionsDefault = 16;
 [[nodiscard]] std::expected<SessionOptions, rpc::ErrorReply> created_session_options(const rpc::CreateSession& wanted,
                                                                                      const std::string& scenes);
 
+/// Names of the scenes from which an operator may create sessions: the shipped ones, and the files NAME.textproto of a
+/// folder, of which at most 4096 entries are read. A folder that cannot be read has none.
+/// @param scenes  folder of further scenes; empty: shipped scenes only
+[[nodiscard]] rpc::SceneList list_scenes(const std::string& scenes);
+
 /// Mistakes as one text for a reply: as many as fit into rpc::kTextMax, and the number of the others.
 [[nodiscard]] std::string reply_text(const InputErrors& errors);
 

@@ -6,6 +6,8 @@
 
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/exit_code.h"
+#include "server/app/control/note_log.h"
 #include "server/app/monitor/startup_banner.h"
 #include "server/report/audit_text.h"
 #include "server/report/report_summary.h"
@@ -61,7 +63,8 @@ std::expected<std::unique_ptr<SessionInstance>, int> SessionTable::open_session(
              options.name,
              session.code(),
              0,
-             snapshot != nullptr ? snapshot->removed_workstations : decltype(snapshot->removed_workstations){}}),
+             snapshot != nullptr ? snapshot->removed_workstations : decltype(snapshot->removed_workstations){},
+             snapshot != nullptr ? snapshot->persons : decltype(snapshot->persons){}}),
         session.epoch());
   return std::move(*made);
 }
@@ -101,10 +104,16 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
                            session.snapshot(),
                            {},
                            session.snapshot() != nullptr ? session.resume_until() : Time{}};
-  if (checkpoints_ != nullptr && !session.created())
+  if (checkpoints_ != nullptr && !session.created()) {
     made.on_removed = [store = checkpoints_, name = session.options().name](const auto& keys) {
       store->set_removed(name, keys);
     };
+    made.on_persons = [store = checkpoints_, name = session.options().name](const auto& persons) {
+      store->set_persons(name, persons);
+    };
+  }
+  if (session.snapshot() != nullptr)
+    made.notes = NoteLog(options_.control.notes).load(session.options().name, session.id());
   return made;
 }
 
@@ -170,10 +179,16 @@ void SessionTable::report(const SessionInstance& session, const SessionStatus& s
 }
 
 /// Joins, leaves, authority changes, stops and resumes. Commands of consoles are logged with names by SessionCommands.
+/// The control thread adds the name of the person who had the seat at that time.
 void SessionTable::write_audit_events(SessionInstance& session) {
-  while (const auto e = session.live_session().audit().take())
-    if (e->seat != AuditEvent::kControlPlane || e->party != AuditEvent::kNoSeat)
-      control_.audit().post(to_text(e->what), session.options().name, audit_text(*e, session.options().scene));
+  while (const auto e = session.live_session().audit().take()) {
+    if (e->seat == AuditEvent::kControlPlane && e->party == AuditEvent::kNoSeat) continue;
+    const auto author = [&registry = control_.registry(), id = session.id(), seat = e->seat, at = e->at] {
+      const SessionEntry* const entry = std::as_const(registry).find(id);
+      return entry != nullptr && seat < entry->seats.size() ? entry->seats[seat].person_at(at) : std::string{};
+    };
+    control_.audit().post(to_text(e->what), session.options().name, audit_text(*e, session.options().scene), author);
+  }
 }
 
 void SessionTable::drain() {
@@ -192,12 +207,12 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   SessionInstance& session = *place;
   const std::string& name = session.options().name;
   const auth::Id16 id = session.id();
+  write_audit_events(session);  // before the names of its persons are gone
   // During a drain the shards end too and complete no requests. The session then stays registered until the control
   // server stops.
   if (!draining_)
     control_.change([&](SessionRegistry& registry, const auto& done) { registry.remove(session.id(), done); });
   if (checkpoints_ != nullptr && !session.created() && !(draining_ && will_resume())) checkpoints_->remove(name);
-  write_audit_events(session);
   const auto slot = session.live_session().slot();
   const SessionInstance::Verdict verdict = session.finish();
   if (!options_.quiet && !io::logs_json()) summarize(verdict.report, session);
@@ -216,10 +231,19 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
     return false;
   }
   place = std::move(*next);
+  bool served = false;
   control_.change([&](SessionRegistry& registry, const auto& done) {
-    registry.add_running(registration_of(*place));
-    done();
+    registry.add_running(registration_of(*place), [&served, done](bool accepted) {
+      served = accepted;
+      done();
+    });
   });
+  if (!served) {
+    output_.error("session " + name + " cannot start again: its thread takes no sessions; restart the server");
+    control_.change([&](SessionRegistry& registry, const auto& done) { registry.remove(place->id(), done); });
+    exit_code_ = std::max(exit_code_, io::kExitTrouble);
+    return false;
+  }
   announce(*place);
   return true;
 }

@@ -14,11 +14,12 @@ using namespace std::chrono_literals;
 constexpr Duration kSilence = 3s;        // until the page hears that no datagrams arrive
 constexpr Duration kLeastPeriod = 14ms;  // a recorder's connection gets every tick, which no screen needs
 
-std::shared_ptr<const LiveValues> values_of(const client::TelemetryFeed& feed, Time now) {
+std::shared_ptr<const LiveValues> values_of(const client::TelemetryFeed& feed, Time now, ToolVelocities& velocities) {
   const client::SessionWatch& watch = feed.watch();
   auto values = std::make_shared<LiveValues>();
   values->telemetry = *watch.newest();
   values->arrived = now;
+  values->velocities = velocities.update(values->telemetry, feed.scene().tick_hz);
   for (std::size_t i = 0; i < feed.scene().seats.size(); ++i) values->links[i] = watch.link_of(i);
   for (std::size_t j = 0; j < feed.scene().tools.size(); ++j) values->authorities[j] = watch.authority_over(j);
   return values;
@@ -48,6 +49,7 @@ FeedThread::~FeedThread() {
 
 void FeedThread::work() {
   Time published{};
+  ToolVelocities velocities;
   bool pending = false, silent = false;
   while (true) {
     pollfd files[] = {{feed_.fd(), POLLIN, 0}, {over_.get(), POLLIN, 0}};
@@ -60,7 +62,7 @@ void FeedThread::work() {
     if (pending && now - published >= kLeastPeriod) {
       published = now;
       pending = silent = false;
-      sink_(values_of(feed_, now), {});
+      sink_(values_of(feed_, now, velocities), {});
     } else if (!silent && feed_.watch().silence(now) > kSilence) {
       silent = true;
       sink_(nullptr,

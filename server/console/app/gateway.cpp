@@ -29,7 +29,8 @@ Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr
   if (!own) return;
   const bool watch = own->feed.has_value() || !own->warning.empty();
   house_ = std::make_shared<Person>();
-  house_->name = "console";
+  house_->proved = !own->console.welcome.person.empty();
+  house_->name = house_->proved ? own->console.welcome.person : "console";
   house_->house = true;
   house_->link = std::make_shared<ServerLink>(
       ServerLink::Options{
@@ -74,7 +75,6 @@ std::expected<void, std::string> Gateway::join(const JoinBody& body, const auth:
   link.watch = link.join.console != AccessRole::kRecorder && session && !is_watched(*session);
   const auto person = std::make_shared<Person>();
   person->name = body.name;
-  person->number = joins_ + 1;  // 0: the gateway's own
   const std::uint64_t number = ++joins_;
   link.joined = [this, number](const std::expected<void, std::string>& result) {
     mailbox_->post([this, number, result] { finish(number, result); });
@@ -89,17 +89,20 @@ void Gateway::finish(std::uint64_t number, const std::expected<void, std::string
   if (found.empty()) return;
   const auto& [person, done] = found.mapped();
   if (!result) return done(std::unexpected(result.error()));
-  person->name = name_for(person->name, person->link->newest()->role);
+  const auto picture = person->link->newest();
+  person->proved = !picture->person.empty();
+  person->name = person->proved ? picture->person : name_for(person->name, picture->role);
   std::string secret = random_secret();
   if (!browsers_.add(secret, person, false, io::monotonic_now()))
     return done(std::unexpected("64 browsers are open already; close one, then ask for a new ticket"));
   done(secret);
 }
 
-/// A name that no other person has, so that two persons are never taken for one.
+/// A name that no other person has at present, so that two persons are not taken for one.
 std::string Gateway::name_for(const std::string& wish, AccessRole role) {
   const auto taken = [this](const std::string& name) {
-    return name == "console" || browsers_.any([&](const Person& person) { return person.name == name; });
+    return name == "console" || (house_ && name == house_->name) ||
+           browsers_.any([&](const Person& person) { return person.name == name; });
   };
   if (!wish.empty() && !taken(wish)) return wish;
   const std::string stem = (wish.empty() ? std::string(to_text(role)) : wish).substr(0, 26) + "-";
@@ -145,17 +148,6 @@ std::shared_ptr<ServerLink> Gateway::best_view(const std::shared_ptr<ServerLink>
   for (const auto& [name, other] : others_) consider(other.lock());
   browsers_.each([&](const std::shared_ptr<Person>& person) { consider(person->link); });
   return best;
-}
-
-EvaluationNotes& Gateway::notes_of(const rpc::Id& session) {
-  const auto found = std::ranges::find(notes_, session, &std::pair<rpc::Id, EvaluationNotes>::first);
-  if (found != notes_.end()) {
-    notes_.splice(notes_.begin(), notes_, found);
-  } else {
-    notes_.emplace_front(session, EvaluationNotes{});
-    if (notes_.size() > kNotesMax) notes_.pop_back();
-  }
-  return notes_.front().second;
 }
 
 void Gateway::on_second(Time now) {

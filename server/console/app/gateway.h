@@ -5,7 +5,6 @@
 #include <deque>
 #include <expected>
 #include <functional>
-#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,7 +17,6 @@
 #include "server/console/app/mailbox.h"
 #include "server/console/app/server_link.h"
 #include "server/console/browser_sessions.h"
-#include "server/console/evaluation_notes.h"
 #include "server/console/join_body.h"
 #include "server/console/one_time_token.h"
 
@@ -27,16 +25,15 @@ namespace tandem::console {
 /// A person at one or more pages.
 struct Person {
   std::string name;                  ///< for display
+  bool proved = false;               ///< the name is that of the ticket
   std::shared_ptr<ServerLink> link;  ///< control connection, whose rights the person has; the orders go there
   bool house = false;                ///< has the gateway's own connection
-  std::uint64_t number = 0;          ///< of this run of the gateway: names can be chosen freely
 };
 
 /// Persons with their control connections, and the links that show sessions. For the web thread.
 class Gateway {
  public:
   static constexpr std::size_t kJoinsMax = 8;    ///< joins at the same time
-  static constexpr std::size_t kNotesMax = 64;   ///< sessions with notes
   static constexpr std::size_t kTokensMax = 16;  ///< tokens that wait for a browser
 
   struct Options {
@@ -54,8 +51,6 @@ class Gateway {
   [[nodiscard]] Mailbox& mailbox() noexcept { return *mailbox_; }
   [[nodiscard]] BrowserSessions<Person>& browsers() noexcept { return browsers_; }
   [[nodiscard]] BrowserSeats& seats() noexcept { return seats_; }
-  /// Marks and sheets of a session. The notes of the session that was asked for least recently end beyond kNotesMax.
-  [[nodiscard]] EvaluationNotes& notes_of(const rpc::Id& session);
   [[nodiscard]] const std::string& play() const noexcept { return options_.play; }
 
   /// Redeems the token of the printed URL. @return secret of a new cookie; empty: refused
@@ -102,7 +97,6 @@ class Gateway {
   std::map<std::uint64_t, Pending> pending_;  ///< joins, by number
   std::uint64_t joins_ = 0;
   BrowserSeats seats_;
-  std::list<std::pair<rpc::Id, EvaluationNotes>> notes_;  ///< most recently used first
   unsigned names_ = 0;
 };
 

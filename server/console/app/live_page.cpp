@@ -9,7 +9,6 @@
 #include "server/console/live_json.h"
 #include "server/console/seat_picture.h"
 #include "server/console/state_json.h"
-#include "server/policy/roles.h"
 
 namespace tandem::console {
 namespace {
@@ -72,14 +71,20 @@ void LivePage::greet() {
   listed_ = gateway_.sessions_of(*person_);
   role_ = own->role;
   greeted_ = true;
-  send(hello_json(person_->name, role_, gateway_.release(), listed_,
-                  {.seats = gateway_.seats().allowed(), .invite = person_->house, .play = gateway_.play()}));
+  scenes_ = own->scenes;
+  PageOffers offers{.seats = gateway_.seats().allowed(),
+                    .invite = person_->house,
+                    .play = gateway_.play(),
+                    .proved = person_->proved};
+  if (scenes_) offers.scenes = *scenes_;
+  send(hello_json(person_->name, role_, gateway_.release(), listed_, offers));
 }
 
 void LivePage::on_news() {
   const auto own = link_->newest(), view = view_->newest();
   if (own->number == 0 || view->number == 0) return;  // still joining
-  if (!greeted_ || own->role != role_) greet();
+  const bool scenes = own->scenes && (!scenes_ || *own->scenes != *scenes_);
+  if (!greeted_ || own->role != role_ || scenes) greet();
   send_notices(*own, *view);
   send_notes(*own);
   send_seat();
@@ -156,10 +161,10 @@ std::string LivePage::on_frame(std::string_view text) {
     point(*pointer);
   } else if (const auto* invited = std::get_if<Invite>(&*frame)) {
     invite(*invited);
-  } else if (auto* noted = std::get_if<MarkFrame>(&*frame)) {
-    mark(std::move(*noted));
-  } else if (auto* filled = std::get_if<SheetFrame>(&*frame)) {
-    sheet(std::move(*filled));
+  } else if (const auto* noted = std::get_if<MarkFrame>(&*frame)) {
+    mark(*noted);
+  } else if (const auto* filled = std::get_if<SheetFrame>(&*frame)) {
+    sheet(*filled);
   }
   return {};
 }
@@ -172,23 +177,20 @@ void LivePage::watch(const Watch& wish) {
   shown_ = 0;
   event_ = 0;
   scene_.clear();
-  notes_ = 0;
+  notes_.reset();
   warning_.clear();
   connected_ = true;
   choose_view();
   on_news();
 }
 
-void LivePage::give(Order order) {
-  ask(order.id, std::move(order.body), [](bool) {});
-}
+void LivePage::give(Order order) { ask(order.id, std::move(order.body)); }
 
-/// Sends an order over the person's connection, and the reply to the page. @param then  called in the web thread
-void LivePage::ask(std::uint64_t id, rpc::Body body, std::function<void(bool ok)> then) {
-  auto reply = [weak = weak_from_this(), &mailbox = gateway_.mailbox(), id, then = std::move(then)](
-                   bool ok, std::string said, std::string message) {
-    mailbox.post([weak, id, ok, then, said = std::move(said), message = std::move(message)] {
-      then(ok);
+/// Sends an order over the person's connection, and the reply to the page.
+void LivePage::ask(std::uint64_t id, rpc::Body body) {
+  auto reply = [weak = weak_from_this(), &mailbox = gateway_.mailbox(), id](bool ok, std::string said,
+                                                                            std::string message) {
+    mailbox.post([weak, id, ok, said = std::move(said), message = std::move(message)] {
       const auto self = weak.lock();
       if (!self) return;
       self->send(reply_json(id, ok, said));
@@ -199,33 +201,21 @@ void LivePage::ask(std::uint64_t id, rpc::Body body, std::function<void(bool ok)
     send(reply_json(id, false, "16 orders already wait for the server; repeat this one in a second"));
 }
 
-// The server stores a note with its author; the copy for pages is kept after that only.
-void LivePage::mark(MarkFrame frame) {
-  const rpc::Id session = link_->newest()->status.session_id;
-  EvaluationNotes::Mark mark{{person_->number, person_->name}, frame.t_s, std::move(frame.text)};
-  ask(frame.id, rpc::Note{session, rpc::NoteKind::kMark, mark_json(mark)},
-      [&gateway = gateway_, session, mark = std::move(mark)](bool ok) {
-        if (ok) gateway.notes_of(session).add(mark);
-      });
+// The server judges and stores a note with its author; the page shows it once the server lists it.
+void LivePage::mark(const MarkFrame& frame) {
+  ask(frame.id, rpc::Note{link_->newest()->status.session_id, rpc::NoteKind::kMark,
+                          mark_json(person_->name, frame.t_s, frame.text)});
 }
 
-void LivePage::sheet(SheetFrame frame) {
-  const rpc::Id session = link_->newest()->status.session_id;
-  const EvaluationNotes::Author by{person_->number, person_->name};
-  if (const auto may = gateway_.notes_of(session).may_write(by, frame.sheet); !may)
-    return send(reply_json(frame.id, false, may.error()));
-  ask(frame.id, rpc::Note{session, rpc::NoteKind::kSheet, sheet_json(by, frame.sheet)},
-      [&gateway = gateway_, session, by, sheet = std::move(frame.sheet)](bool ok) {
-        if (ok && gateway.notes_of(session).may_write(by, sheet)) gateway.notes_of(session).put(by, sheet);
-      });
+void LivePage::sheet(const SheetFrame& frame) {
+  ask(frame.id,
+      rpc::Note{link_->newest()->status.session_id, rpc::NoteKind::kSheet, sheet_json(person_->name, frame.sheet)});
 }
 
 void LivePage::send_notes(const LivePicture& own) {
-  if (!server::allowed(own.role, rpc::Kind::kNote)) return;
-  const EvaluationNotes& notes = gateway_.notes_of(own.status.session_id);
-  if (notes.version() == notes_) return;
-  notes_ = notes.version();
-  send(notes.json_for(person_->number));
+  if (own.notes == notes_ || !own.notes) return;
+  notes_ = own.notes;
+  send(notes_->message());
 }
 
 // The gateway's own right may take any seat, so it serves only persons who have the gateway's connection.

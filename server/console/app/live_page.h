@@ -48,9 +48,9 @@ class LivePage : public std::enable_shared_from_this<LivePage> {
   void send_state(const LivePicture& own, const LivePicture& view);
   void watch(const Watch& wish);
   void give(Order order);
-  void ask(std::uint64_t id, rpc::Body body, std::function<void(bool ok)> then);
-  void mark(MarkFrame frame);
-  void sheet(SheetFrame frame);
+  void ask(std::uint64_t id, rpc::Body body);
+  void mark(const MarkFrame& frame);
+  void sheet(const SheetFrame& frame);
   void send_notes(const LivePicture& own);
   void take(const TakeSeat& wish);
   void leave(const LeaveSeat& wish);
@@ -72,7 +72,8 @@ class LivePage : public std::enable_shared_from_this<LivePage> {
   std::string scene_;                       ///< last message scene
   std::uint64_t shown_ = 0;                 ///< number of the last picture of `view_`
   std::uint32_t event_ = 0;
-  std::uint64_t notes_ = 0;  ///< version of the last message notes
+  std::shared_ptr<const EvaluationNotes> notes_;            ///< of the last message notes
+  std::shared_ptr<const std::vector<std::string>> scenes_;  ///< as in the last hello
   unsigned frames_ = 0;
   AccessRole role_ = AccessRole::kObserver;
   std::string warning_;

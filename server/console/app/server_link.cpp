@@ -7,6 +7,7 @@
 #include "common/auth/io/control_client.h"
 #include "server/console/live_json.h"
 #include "server/console/state_json.h"
+#include "server/policy/roles.h"
 
 namespace tandem::console {
 namespace {
@@ -19,7 +20,7 @@ constexpr std::chrono::milliseconds kPeriod = 500ms;       // of status requests
 constexpr std::chrono::milliseconds kPeriodAlone = 200ms;  // without them; the server answers ten per second
 constexpr std::chrono::milliseconds kPeriodRelieved = 2s;  // if another link shows the session
 constexpr std::chrono::milliseconds kPokeInterval = 250ms;
-constexpr std::chrono::milliseconds kRetry = 1s, kListPeriod = 2s;
+constexpr std::chrono::milliseconds kRetry = 1s, kListPeriod = 2s, kScenesPeriod = 30s;
 constexpr std::chrono::milliseconds kFeedRetry = 5s;  // a watcher that was silent, or found no place, asks again
 
 /// Whether a session refuses for good, so that only a new join helps.
@@ -131,12 +132,17 @@ void ServerLink::adopt(JoinedLink joined) {
   update([&](LivePicture& picture) {
     picture.status = std::move(joined.status);
     picture.role = console_.welcome.role;
+    picture.person = console_.welcome.person;
+    picture.notes = nullptr;
     picture.connected = true;
     picture.again = options_.again;
     picture.scene = scene;
     picture.live = nullptr;
     picture.warning = std::move(joined.warning);
   });
+  notes_after_ = notes_known_ = 0;
+  notes_again_ = false;
+  scenes_stale_ = true;
   if (!joined.feed) return;
   feed_ = std::make_unique<FeedThread>(
       std::move(*joined.feed), [this](const std::shared_ptr<const LiveValues>& values, const std::string& why) {
@@ -185,9 +191,12 @@ bool ServerLink::ask_status() {
     return false;
   }
   if (auto* status = std::get_if<rpc::Status>(&*answer)) {
+    const std::uint32_t notes = status->notes;
     update([&](LivePicture& picture) { picture.status = std::move(*status); });
-  } else if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer);
-             refused != nullptr && is_final(refused->code)) {
+    if (notes != notes_known_) ask_notes(notes);
+    return console_.connection != nullptr;
+  }
+  if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer); refused != nullptr && is_final(refused->code)) {
     lose(refused->text);
     return false;
   }
@@ -201,6 +210,40 @@ void ServerLink::ask_sessions() {
     auto sessions = std::make_shared<const std::vector<rpc::ListedSession>>(std::move(list->sessions));
     update([&](LivePicture& picture) { picture.sessions = std::move(sessions); });
   }
+}
+
+void ServerLink::ask_scenes() {
+  auto answer = console_.connection->ask(rpc::SceneListRequest{}, kReplyTimeout);
+  if (!answer) return lose(answer.error().text);
+  scenes_stale_ = false;  // after a refusal, the next period asks again
+  if (auto* list = std::get_if<rpc::SceneList>(&*answer)) {
+    auto scenes = std::make_shared<const std::vector<std::string>>(std::move(list->scenes));
+    update([&](LivePicture& picture) { picture.scenes = std::move(scenes); });
+  }
+}
+
+void ServerLink::ask_notes(std::uint32_t newest) {
+  const auto known = this->newest()->notes;
+  const auto notes = known ? std::make_shared<EvaluationNotes>(*known) : std::make_shared<EvaluationNotes>();
+  while (true) {
+    const auto answer =
+        console_.connection->ask(rpc::NotesRequest{console_.welcome.session_id, notes_after_}, kReplyTimeout);
+    if (!answer) return lose(answer.error().text);
+    const auto* const list = std::get_if<rpc::NoteList>(&*answer);
+    if (list == nullptr) break;  // too fast: the next status goes on from here
+    for (const rpc::StoredNote& note : list->notes) {
+      notes_again_ = notes->put(note) || notes_again_;
+      notes_after_ = note.number;
+    }
+    if (list->more && !list->notes.empty()) continue;
+    if (!notes_again_) {
+      notes_after_ = notes_known_ = newest;
+      break;
+    }
+    notes_again_ = false;
+    notes_after_ = 0;
+  }
+  update([&](LivePicture& picture) { picture.notes = notes; });
 }
 
 /// Joins once more if datagrams are missing, beside the connection that works.
@@ -223,11 +266,12 @@ void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
     return reply(false, "another change of authority came first; check it, then repeat the order", "");
   const auto* const created = std::get_if<rpc::SessionCreated>(&*answer);
   reply(true, "", created != nullptr ? tickets_json(*created) : std::string{});
+  scenes_stale_ = scenes_stale_ || created != nullptr;
   poke();
 }
 
 void ServerLink::work() {
-  Clock::time_point asked{}, listed{}, watched = Clock::now();
+  Clock::time_point asked{}, listed{}, scenes{}, watched = Clock::now();
   bool good = console_.connection != nullptr;
   std::unique_lock hold{lock_};
   while (!over_) {
@@ -256,6 +300,11 @@ void ServerLink::work() {
     if (good && console_.connection && options_.list && asked - listed >= kListPeriod) {
       listed = asked;
       ask_sessions();
+    }
+    if (good && console_.connection && (scenes_stale_ || asked - scenes >= kScenesPeriod) &&
+        server::allowed_without_seat(console_.welcome.role, rpc::Kind::kSceneListRequest)) {
+      scenes = asked;
+      ask_scenes();
     }
     if (live()) {
       watched = asked;

@@ -73,6 +73,9 @@ class ServerLink final : public LiveSource {
   [[nodiscard]] bool join();
   [[nodiscard]] bool ask_status();
   void ask_sessions();
+  void ask_scenes();
+  /// Reads the notes that are newer than the ones known, as many as the server's rate limit permits.
+  void ask_notes(std::uint32_t newest);
   void regain_feed();
   void execute(const rpc::Body& body, const Reply& reply);
   template <class Change>
@@ -91,6 +94,9 @@ class ServerLink final : public LiveSource {
   client::Console console_;
   std::unique_ptr<FeedThread> feed_;
   std::optional<JoinedLink> first_;
+  std::uint32_t notes_after_ = 0, notes_known_ = 0;  ///< last note read; newest note of the server when all were read
+  bool notes_again_ = false;                         ///< all notes must be read again
+  bool scenes_stale_ = true;
   // Of the web thread:
   std::uint64_t written_ = 0;
   std::string members_;

@@ -54,7 +54,7 @@ TEST(Ticket, HasTheDocumentedLayout) {
 TEST(Ticket, NeverExceedsItsLargestSize) {
   Ticket t = sample_ticket();
   t.role = AccessRole::kRecorder;
-  t.seat = std::string(Ticket::kSeatMax, 'z');
+  t.seat = t.person = std::string(Ticket::kNameMax, 'z');
   t.force_scale = Ticket::kFullForce;
   t.not_before = std::numeric_limits<std::int64_t>::max() - Ticket::kLifeMax;
   t.not_after = std::numeric_limits<std::int64_t>::max();
@@ -63,6 +63,28 @@ TEST(Ticket, NeverExceedsItsLargestSize) {
   ASSERT_TRUE(bytes);
   EXPECT_LE(bytes->size(), rpc::kSignedTicketMax);
   EXPECT_EQ(ticket_from_text(ticket_text(*bytes)), *bytes);
+}
+
+/// The name is signed with the rest. A ticket without a name is byte for byte one of the releases before names
+/// (HasTheDocumentedLayout).
+TEST(Ticket, CarriesTheNameOfItsPerson) {
+  const auto key = test::ticket_key();
+  Ticket ticket = sample_ticket();
+  ticket.person = "ann";
+  const auto bytes = signed_sample(key, ticket);
+  const auto got = check_ticket(bytes, key.verifier(), sample_use(ticket));
+  ASSERT_TRUE(got) << to_text(got.error());
+  EXPECT_EQ(got->person, "ann");
+  auto edited = *rpc::decode_signed_ticket(bytes);
+  auto content = *rpc::decode_ticket_content(edited.content);
+  content.person = "bob";
+  edited.content = rpc::encode(content);
+  EXPECT_EQ(rule_of(rpc::encode(edited), key, sample_use(ticket)), TicketCheck::kSignature);
+  content.person.clear();
+  edited.content = rpc::encode(content);
+  EXPECT_EQ(rule_of(rpc::encode(edited), key, sample_use(ticket)), TicketCheck::kSignature) << "the name was removed";
+  ticket.person = "a/b";
+  EXPECT_FALSE(sign_ticket(ticket, key));
 }
 
 /// Format 1: 192 bytes at fixed offsets, which begin with 1.
@@ -102,7 +124,7 @@ TEST(Ticket, RejectsSignedContentThatIsNoTicket) {
   const auto content = rpc::decode_signed_ticket(signed_sample(key))->content;
   EXPECT_TRUE(check_ticket(resigned(content), key.verifier(), use));
   auto unknown = content;
-  unknown.insert(unknown.end(), {std::byte{0x50}, std::byte{1}});  // field 10
+  unknown.insert(unknown.end(), {std::byte{0x58}, std::byte{1}});  // field 11
   EXPECT_EQ(rule_of(resigned(unknown), key, use), TicketCheck::kContent);
   auto repeated = content;
   repeated.insert(repeated.end(), {std::byte{0x48}, std::byte{7}});  // epoch_min again
@@ -117,6 +139,8 @@ TEST(Ticket, RejectsSignedContentThatIsNoTicket) {
   EXPECT_EQ(with([](rpc::TicketContent& c) { c.role = 257; }), TicketCheck::kContent) << "1 in the lowest byte";
   EXPECT_EQ(with([](rpc::TicketContent& c) { c.force_scale = 65536 + 500; }), TicketCheck::kContent);
   EXPECT_EQ(with([](rpc::TicketContent& c) { c.seat = "a b"; }), TicketCheck::kContent);
+  for (const std::string& bad : {std::string("a b"), std::string("\n"), std::string("\xc3\xa4"), std::string(33, 'x')})
+    EXPECT_EQ(with([&bad](rpc::TicketContent& c) { c.person = bad; }), TicketCheck::kContent) << bad;
   EXPECT_EQ(with([](rpc::TicketContent& c) { c.not_before = -1; }), TicketCheck::kContent);
   EXPECT_EQ(with([](rpc::TicketContent& c) { c.not_before = std::numeric_limits<std::int64_t>::min(); }),
             TicketCheck::kContent);
@@ -224,7 +248,8 @@ TEST(Ticket, RefusesToSignFieldsOutOfRange) {
   EXPECT_TRUE(refused([](Ticket& t) { t.force_scale = 1001; }));
   EXPECT_TRUE(refused([](Ticket& t) { t.seat = std::string(33, 'a'); }));
   EXPECT_TRUE(refused([](Ticket& t) { t.seat = "a b"; }));
-  EXPECT_TRUE(refused([](Ticket& t) { t.seat = ""; }));
+  EXPECT_FALSE(refused([](Ticket& t) { t.seat = ""; })) << "a console that watches";
+  EXPECT_TRUE(refused([](Ticket& t) { t.person = std::string(33, 'a'); }));
   EXPECT_TRUE(refused([](Ticket& t) { t.not_after = t.not_before + Ticket::kLifeMax + 1; }));
   EXPECT_TRUE(refused([](Ticket& t) { t.not_after = t.not_before - 1; }));
   EXPECT_FALSE(refused([](Ticket& t) { t.not_after = t.not_before + Ticket::kLifeMax; }));

@@ -106,6 +106,7 @@ inline Welcome welcome(RandomStream& r) {
   fill(r, m.resume_secret.bytes);
   m.authority_version = static_cast<std::uint32_t>(r.bits());
   m.limits.datagrams_per_s = 1 + static_cast<std::uint32_t>(r.below(1000000));
+  if (r.below(2) == 0) m.person = name(r);
   return m;
 }
 
@@ -133,7 +134,7 @@ inline Status status(RandomStream& r) {
   m.time_s = r.below(2) == 0 ? 0 : r.uniform(0, 1e9);
   m.draining = r.below(2) == 0;
   for (std::uint64_t k = r.below(kListedSeatsMax + 1); k > 0; --k)
-    m.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0, r.below(2) == 0});
+    m.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0, r.below(2) == 0, name(r, true)});
   for (std::uint64_t k = r.below(kToolsMax + 1); k > 0; --k) m.tools.push_back({name(r), weights(r)});
   if (r.below(2) == 0) {
     const bool seated = r.below(2) == 0;
@@ -145,11 +146,13 @@ inline Status status(RandomStream& r) {
               text(r),
               r.below(2) == 0 ? 0 : r.uniform(0, 1e9),
               text(r),
-              r.below(2) == 0};
+              r.below(2) == 0,
+              name(r, true)};
   }
   if (r.below(2) == 0)
     m.drain = {static_cast<std::uint32_t>(r.below(3601)), static_cast<std::uint32_t>(r.below(33)),
                static_cast<std::uint32_t>(r.below(300))};
+  m.notes = static_cast<std::uint32_t>(r.below(3) * 700);
   if (r.below(2) == 0) m.held = "stopped by trainer: r resumes";
   for (std::uint64_t i = r.below(rpc::kStatusEventsMax + 1); i > 0; --i)
     m.events.push_back({static_cast<std::uint32_t>(1 + r.below(1000)), "RESUMED by trainer"});
@@ -164,7 +167,9 @@ inline CreateSession create_session(RandomStream& r) {
     m.scene_text = "version: 1\n" + std::string(r.below(200), 'x');
   }
   m.life_s = static_cast<std::uint32_t>(r.below(kLifeMaxS + 1));
-  for (std::uint64_t k = r.below(kSeatsMax + 1); k > 0; --k) m.holders.push_back({"s" + std::to_string(k), name(r)});
+  for (std::uint64_t k = r.below(kSeatsMax + 1); k > 0; --k)
+    m.holders.push_back({"s" + std::to_string(k), name(r), name(r, true)});
+  for (std::uint64_t k = r.below(kSeatsMax + 1); k > 0; --k) m.holders.push_back({"", name(r), name(r, true), role(r)});
   return m;
 }
 inline SessionCreated session_created(RandomStream& r) {
@@ -175,8 +180,27 @@ inline SessionCreated session_created(RandomStream& r) {
   m.session.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0});
   if (r.below(2) == 0) m.code = code(r);
   for (std::uint64_t k = r.below(kSeatsMax + 1); k > 0; --k) {
-    SeatTicket& t = m.tickets.emplace_back(name(r), name(r), std::vector<std::byte>(1 + r.below(kTicketMax)));
+    SeatTicket& t = m.tickets.emplace_back(name(r, true), name(r), std::vector<std::byte>(1 + r.below(kTicketMax)),
+                                           name(r, true), role(r));
     fill(r, t.ticket);
+  }
+  return m;
+}
+
+inline NoteList note_list(RandomStream& r) {
+  NoteList m{.notes = {}, .more = r.below(2) == 0};
+  std::uint32_t number = 0;
+  for (std::uint64_t k = r.below(kNotesMax + 1); k > 0; --k) {
+    StoredNote& n = m.notes.emplace_back();
+    n.number = number += 1 + static_cast<std::uint32_t>(r.below(3));
+    n.kind = static_cast<NoteKind>(1 + r.below(2));
+    n.time_s = r.below(2) == 0 ? 0 : r.uniform(0, 1e9);
+    n.person = name(r, true);
+    n.workstation = name(r);
+    n.seat = name(r, true);
+    n.role = role(r);
+    n.yours = r.below(2) == 0;
+    n.json = "{\"text\": \"" + text(r) + "\"}";
   }
   return m;
 }
@@ -278,6 +302,24 @@ inline Frame frame(RandomStream& r, Kind kind) {
       m.json = "{\"text\": \"" + text(r) + "\"}";
       break;
     }
+    case Kind::kSceneListRequest:
+      f.body = SceneListRequest{};
+      break;
+    case Kind::kSceneList: {
+      auto& m = f.body.emplace<SceneList>();
+      m.more = r.below(2) == 0;
+      for (std::uint64_t k = r.below(50), i = 0; i < k; ++i) m.scenes.push_back("s" + std::to_string(100 + i));
+      break;
+    }
+    case Kind::kNotesRequest: {
+      auto& m = f.body.emplace<NotesRequest>();
+      fill(r, m.session_id);
+      m.after = static_cast<std::uint32_t>(r.below(3));
+      break;
+    }
+    case Kind::kNoteList:
+      f.body = note_list(r);
+      break;
   }
   return f;
 }

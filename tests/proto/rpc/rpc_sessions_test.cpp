@@ -1,6 +1,10 @@
 // Bounds of the messages that create, end and assess sessions, in both directions.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <string>
+#include <vector>
+
 #include "proto/rpc/rpc_codec.h"
 
 namespace tandem::rpc {
@@ -16,7 +20,11 @@ TEST(SessionMessages, HaveNamesOfTheirLength) {
        {std::string(), std::string(kNameMax + 1, 'x'), std::string("../x"), std::string("a b")}) {
     CreateSession named = creation(), scene = creation(), seat = creation(), workstation = creation();
     named.name = scene.scene = seat.holders[0].seat = workstation.holders[0].workstation = bad;
-    for (const CreateSession& message : {named, scene, seat, workstation}) EXPECT_FALSE(encodes(message)) << bad;
+    for (const CreateSession& message : {named, scene, workstation}) EXPECT_FALSE(encodes(message)) << bad;
+    EXPECT_EQ(encodes(seat), bad.empty()) << "without a seat the ticket is one of a console";
+    CreateSession person = creation();
+    person.holders[0].person = bad;
+    EXPECT_EQ(encodes(person), bad.empty()) << "a ticket need not name its person";
   }
 }
 
@@ -45,10 +53,66 @@ TEST(SessionMessages, LimitLifeAndHolders) {
   message.holders.push_back({"trainee", "desk-3"});
   EXPECT_FALSE(encodes(message)) << "a seat named twice";
   message.holders.clear();
-  for (std::size_t i = 0; i <= kSeatsMax; ++i) message.holders.push_back({"s" + std::to_string(i), "desk"});
+  for (std::size_t i = 0; i <= kHoldersMax; ++i) message.holders.push_back({"s" + std::to_string(i), "desk"});
   EXPECT_FALSE(encodes(message));
   message.holders.pop_back();
   EXPECT_TRUE(encodes(message));
+}
+
+TEST(SessionMessages, GiveConsoleTicketsARoleAndSeatTicketsThatOfTheSeat) {
+  CreateSession message = creation();
+  message.holders = {{"", "desk", "eva", AccessRole::kEvaluator}, {"", "desk", "max", AccessRole::kRecorder}};
+  EXPECT_TRUE(encodes(message)) << "several persons without a seat may share a workstation";
+  message.holders[1].role = static_cast<AccessRole>(kAccessRoles);
+  EXPECT_FALSE(encodes(message));
+  message.holders = {{"trainee", "desk", "ted", AccessRole::kEvaluator}};
+  EXPECT_FALSE(encodes(message)) << "the scene decides about the role of a seat";
+}
+
+TEST(SessionMessages, ListScenesInOrderOnce) {
+  SceneList list{.scenes = {"a", "b"}};
+  EXPECT_TRUE(encodes(list));
+  for (const std::vector<std::string>& bad :
+       {std::vector<std::string>{"b", "a"}, {"a", "a"}, {""}, {"../a"}, {std::string(kNameMax + 1, 'x')}})
+    EXPECT_FALSE(encodes(SceneList{.scenes = bad}));
+  list.scenes.clear();
+  for (std::size_t i = 0; i < kScenesMax; ++i) list.scenes.push_back("s" + std::to_string(1000 + i));
+  EXPECT_TRUE(encodes(list));
+  list.scenes.emplace_back("t");
+  EXPECT_FALSE(encodes(list));
+}
+
+TEST(SessionMessages, ListNotesWithinTheirBounds) {
+  NoteList list;
+  EXPECT_TRUE(encodes(list));
+  const auto note = [](std::uint32_t number) {
+    return StoredNote{.number = number, .person = "ann", .workstation = "desk", .json = "{}"};
+  };
+  list.notes = {note(1), note(3)};
+  EXPECT_TRUE(encodes(list));
+  const auto refused = [&list](auto change) {
+    NoteList bad = list;
+    change(bad.notes[1]);
+    return !encodes(bad);
+  };
+  EXPECT_TRUE(refused([](StoredNote& n) { n.number = 1; })) << "numbers increase";
+  EXPECT_TRUE(refused([](StoredNote& n) { n.kind = static_cast<NoteKind>(3); }));
+  EXPECT_TRUE(refused([](StoredNote& n) { n.time_s = -1; }));
+  EXPECT_TRUE(refused([](StoredNote& n) { n.time_s = std::numeric_limits<double>::quiet_NaN(); }));
+  EXPECT_TRUE(refused([](StoredNote& n) { n.person = "a b"; }));
+  EXPECT_TRUE(refused([](StoredNote& n) { n.workstation.clear(); }));
+  EXPECT_TRUE(refused([](StoredNote& n) { n.json.clear(); }));
+  EXPECT_TRUE(refused([](StoredNote& n) { n.json = std::string(kNoteMax + 1, 'x'); }));
+  list.notes.clear();
+  for (std::uint32_t i = 1; i <= kNotesMax; ++i) list.notes.push_back(note(i));
+  EXPECT_TRUE(encodes(list));
+  list.notes.push_back(note(kNotesMax + 1));
+  EXPECT_FALSE(encodes(list));
+  list.notes.resize(kNotesBytesMax / kNoteMax);
+  for (StoredNote& n : list.notes) n.json = std::string(kNoteMax, 'x');
+  EXPECT_TRUE(encodes(list)) << "fits into a frame";
+  list.notes.push_back(note(kNotesMax));
+  EXPECT_FALSE(encodes(list));
 }
 
 TEST(SessionMessages, CarryTicketsOfTheirLength) {

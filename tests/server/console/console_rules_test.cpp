@@ -116,9 +116,9 @@ TEST(BrowserFrame, IsRefusedForRolesWithoutTheRight) {
   using enum AccessRole;
   const std::pair<const char*, std::vector<AccessRole>> rows[] = {
       {R"({"type":"order","id":1,"order":"stop","why":""})", {kInstructor, kOperator}},
-      {R"({"type":"order","id":1,"order":"pause","why":""})", {kInstructor, kTrainee, kEvaluator, kOperator}},
-      {R"({"type":"order","id":1,"order":"resume","stop":1})", {kInstructor, kTrainee, kEvaluator, kOperator}},
-      {R"({"type":"order","id":1,"order":"authority","tool":0,"version":0,"alpha":[1]})", {kInstructor, kTrainee}},
+      {R"({"type":"order","id":1,"order":"pause","why":""})", {kInstructor, kEvaluator, kOperator}},
+      {R"({"type":"order","id":1,"order":"resume","stop":1})", {kInstructor, kEvaluator, kOperator}},
+      {R"({"type":"order","id":1,"order":"authority","tool":0,"version":0,"alpha":[1]})", {kInstructor}},
       {R"({"type":"order","id":1,"order":"remove","seat":"trainee","why":""})", {kInstructor, kOperator}},
       {R"({"type":"order","id":1,"order":"drain","grace_s":1})", {kOperator}}};
   for (const auto& [text, roles] : rows)

@@ -1,13 +1,11 @@
-// Marks and sheets of evaluators: their forms, who sees what, and that a closed sheet is final.
+// Marks and sheets of evaluators on the page: their forms, frames and the copies of the server's notes.
 #include "server/console/evaluation_notes.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "common/base/rng.h"
 #include "server/console/browser_frame.h"
 
 namespace tandem::console {
@@ -15,15 +13,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-const EvaluationNotes::Author kAnn{1, "ann"}, kBob{2, "bob"};
-
 EvaluationSheet goals(std::int64_t points, bool closed, const std::string& of = "trainee") {
   return {"GOALS", of, {{"efficiency", points}}, closed};
 }
-Json seen(const EvaluationNotes& notes, const EvaluationNotes::Author& by) {
-  return Json::parse(notes.json_for(by.id));
-}
-
 TEST(EvaluationSheets, HaveTheItemsOfThePublishedScales) {
   EXPECT_EQ(sheet_form("OSATS")->items.size(), 7u);  // Martin et al. 1997: 7 items, 35 points at most
   EXPECT_EQ(sheet_form("GEARS")->items.size(), 6u);  // Goh et al. 2012, with autonomy
@@ -41,73 +33,72 @@ TEST(EvaluationSheets, HaveTheItemsOfThePublishedScales) {
   EXPECT_FALSE(check({"SPARC", "trainee", {}, false}));
 }
 
-TEST(EvaluationNotes, HideOthersUntilTheOwnSheetIsClosed) {
+rpc::StoredNote stored(std::uint32_t number, rpc::NoteKind kind, std::string json, std::string person = "ann") {
+  return {.number = number, .kind = kind, .person = std::move(person), .workstation = "desk", .json = std::move(json)};
+}
+rpc::StoredNote sheet_of(std::uint32_t number, bool yours, bool closed, const std::string& person = "ann") {
+  rpc::StoredNote note = stored(number, rpc::NoteKind::kSheet, sheet_json(person, goals(4, closed)), person);
+  note.yours = yours;
+  return note;
+}
+Json seen(const EvaluationNotes& notes) { return Json::parse(notes.message()); }
+
+TEST(EvaluationNotes, ShowMarksAndSheetsInTheOrderOfTheServer) {
   EvaluationNotes notes;
-  notes.put(kAnn, goals(4, true));
-  EXPECT_EQ(seen(notes, kAnn)["sheets"].size(), 1u);
-  EXPECT_TRUE(seen(notes, kBob)["sheets"].empty());
-  notes.put(kBob, goals(2, false));
-  EXPECT_EQ(seen(notes, kBob)["sheets"].size(), 1u) << "the own draft only";
-  EXPECT_EQ(seen(notes, kAnn)["sheets"].size(), 1u) << "a draft is hidden from others";
-  notes.put(kBob, goals(3, true, "trainer"));
-  EXPECT_EQ(seen(notes, kBob)["sheets"].size(), 2u) << "a closed sheet about another seat shows nothing";
-  notes.put(kBob, goals(2, true));
-  EXPECT_EQ(seen(notes, kBob)["sheets"].size(), 3u);
-  EXPECT_EQ(seen(notes, kAnn)["sheets"].size(), 2u);
-  EXPECT_EQ(seen(notes, kAnn)["sheets"][1]["scores"]["efficiency"], 2);
+  EXPECT_FALSE(notes.put(stored(2, rpc::NoteKind::kMark, mark_json("x", std::nullopt, "second"), "bob")));
+  EXPECT_FALSE(notes.put(stored(1, rpc::NoteKind::kMark, mark_json("x", 1.5, "first"))));
+  EXPECT_FALSE(notes.put(stored(1, rpc::NoteKind::kMark, mark_json("x", 1.5, "again"))));
+  const Json marks = seen(notes)["marks"];
+  ASSERT_EQ(marks.size(), 2u);
+  EXPECT_EQ(marks[0], (Json{{"t", 1.5}, {"text", "first"}, {"person", "ann"}, {"proved", true}}));
+  EXPECT_EQ(marks[1], (Json{{"t", nullptr}, {"text", "second"}, {"person", "bob"}, {"proved", true}}));
 }
 
-TEST(EvaluationNotes, AClosedSheetIsFinal) {
+TEST(EvaluationNotes, ShowAChosenNameAsUnproved) {
   EvaluationNotes notes;
-  ASSERT_TRUE(notes.may_write(kAnn, goals(4, false)));
-  notes.put(kAnn, goals(4, false));
-  ASSERT_TRUE(notes.may_write(kAnn, goals(5, true)));
-  notes.put(kAnn, goals(5, true));
-  const auto refused = notes.may_write(kAnn, goals(1, false));
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().find("final"), std::string::npos);
-  EXPECT_TRUE(notes.may_write({3, "ann"}, goals(1, false))) << "the same name is not the same person";
-  EXPECT_EQ(seen(notes, kAnn)["sheets"][0]["scores"]["efficiency"], 5);
+  notes.put(stored(1, rpc::NoteKind::kMark, mark_json("ann", 0, "a"), ""));
+  notes.put(stored(2, rpc::NoteKind::kMark, R"({"grip":4})", ""));
+  const Json marks = seen(notes)["marks"];
+  EXPECT_EQ(marks[0]["person"], "ann");
+  EXPECT_EQ(marks[0]["proved"], false);
+  EXPECT_EQ(marks[1]["person"], "desk") << "of another program: the workstation";
+  EXPECT_EQ(marks[1]["text"], R"({"grip":4})");
+}
+
+TEST(EvaluationNotes, ReplaceAnOwnDraftAndAskAgainOnceItIsClosed) {
+  EvaluationNotes notes;
+  EXPECT_FALSE(notes.put(sheet_of(1, true, false)));
+  EXPECT_TRUE(notes.put(sheet_of(4, true, true))) << "sheets of others may be readable now";
+  EXPECT_FALSE(notes.put(sheet_of(4, true, true))) << "once";
+  EXPECT_FALSE(notes.put(sheet_of(2, false, true, "bob")));
+  const Json sheets = seen(notes)["sheets"];
+  ASSERT_EQ(sheets.size(), 2u);
+  EXPECT_EQ(sheets[0]["person"], "bob");
+  EXPECT_EQ(sheets[0]["yours"], false);
+  EXPECT_EQ(sheets[1]["yours"], true);
+  EXPECT_EQ(sheets[1]["closed"], true);
+}
+
+TEST(EvaluationNotes, SkipJsonThatIsNoSheet) {
+  EvaluationNotes notes;
+  for (const char* json :
+       {"{}", R"({"sheet":"GOALS","of":"a","scores":{"efficiency":9},"closed":true})",
+        R"({"sheet":"GOALS","of":"a","scores":{"efficiency":"4"},"closed":true})",
+        R"({"sheet":"GOALS","of":"a","scores":[],"closed":true})", R"({"sheet":"GOALS","of":"a","scores":{}})"})
+    EXPECT_FALSE(notes.put(stored(1, rpc::NoteKind::kSheet, json))) << json;
+  EXPECT_TRUE(seen(notes)["sheets"].empty());
 }
 
 TEST(EvaluationNotes, KeepBoundedNumbersOfMarksAndSheets) {
   EvaluationNotes notes;
-  for (std::size_t n = 0; n < EvaluationNotes::kMarksMax + 3; ++n) notes.add({kAnn, 0.5 * static_cast<double>(n), "m"});
-  notes.add({kBob, std::nullopt, "last"});
-  const Json marks = seen(notes, kBob)["marks"];
+  for (std::uint32_t n = 1; n <= EvaluationNotes::kMarksMax + 3; ++n)
+    notes.put(stored(n, rpc::NoteKind::kMark, mark_json("x", 0.5 * n, "m")));
+  const Json marks = seen(notes)["marks"];
   EXPECT_EQ(marks.size(), EvaluationNotes::kMarksMax);
-  EXPECT_EQ(marks[0]["t"], 2.0);
-  EXPECT_TRUE(marks.back()["t"].is_null());
-  EXPECT_EQ(marks.back()["person"], "bob");
-  for (std::size_t n = 0; n < EvaluationNotes::kSheetsMax; ++n) notes.put({n, "x"}, goals(3, false));
-  EXPECT_FALSE(notes.may_write({9999, "y"}, goals(3, false)));
-  EXPECT_TRUE(notes.may_write({7, "x"}, goals(4, false))) << "an existing draft may change";
-}
-
-// For any order of sheets, a person sees a sheet of another one only if both are closed, of one form and about one
-// seat.
-TEST(EvaluationNotes, ShowNoForeignOpenScoreInAnyOrder) {
-  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    RandomStream random(seed);
-    EvaluationNotes notes;
-    for (int n = 0; n < 60; ++n) {
-      const EvaluationNotes::Author by{random.below(4), "p"};
-      const EvaluationSheet sheet{random.below(2) == 0 ? "GOALS" : "GEARS",
-                                  random.below(2) == 0 ? "a" : "b",
-                                  {{"efficiency", static_cast<std::int64_t>(1 + random.below(5))}},
-                                  random.below(4) == 0};
-      if (notes.may_write(by, sheet)) notes.put(by, sheet);
-      for (std::uint64_t person = 0; person < 4; ++person) {
-        const Json sheets = Json::parse(notes.json_for(person))["sheets"];
-        for (const Json& row : sheets) {
-          if (row["closed"] == true) continue;
-          const auto own = std::ranges::count_if(
-              sheets, [&](const Json& other) { return other["sheet"] == row["sheet"] && other["of"] == row["of"]; });
-          EXPECT_EQ(own, 1) << "an open sheet is the person's own, and hides all others of its kind; seed " << seed;
-        }
-      }
-    }
-  }
+  EXPECT_EQ(marks[0]["t"], 2.0) << "the oldest are forgotten";
+  for (std::uint32_t n = 1; n <= EvaluationNotes::kSheetsMax + 3; ++n)
+    notes.put(sheet_of(n, false, true, "p" + std::to_string(n)));
+  EXPECT_EQ(seen(notes)["sheets"].size(), EvaluationNotes::kSheetsMax);
 }
 
 TEST(NoteFrames, NeedTheRightAndTheRangesOfTheForms) {
@@ -123,6 +114,22 @@ TEST(NoteFrames, NeedTheRightAndTheRangesOfTheForms) {
     ASSERT_TRUE(filled);
     EXPECT_EQ(std::get<SheetFrame>(*filled).sheet.scores.at("respect_for_tissue"), 4);
   }
+  // A page of a trainee or observer has no seat: it watches, frame by frame.
+  for (const AccessRole role : {AccessRole::kTrainee, AccessRole::kObserver})
+    for (const char* frame :
+         {R"({"type":"order","id":1,"order":"pause","why":""})", R"({"type":"order","id":1,"order":"stop","why":""})",
+          R"({"type":"order","id":1,"order":"resume","stop":1})",
+          R"({"type":"order","id":1,"order":"authority","tool":0,"version":1,"alpha":[1]})",
+          R"({"type":"order","id":1,"order":"remove","seat":"a","why":""})",
+          R"({"type":"order","id":1,"order":"drain","grace_s":1})",
+          R"({"type":"order","id":1,"order":"end","session":"000102030405060708090a0b0c0d0e0f"})"}) {
+      const auto refused = parse(frame, role);
+      ASSERT_FALSE(refused) << frame;
+      EXPECT_FALSE(refused.error().close);
+      EXPECT_NE(refused.error().text.find(" may "), std::string::npos) << refused.error().text;
+    }
+  for (const char* frame : {R"({"type":"ack","n":1})", R"({"type":"watch","id":1,"session":"ab"})"})
+    EXPECT_TRUE(parse(frame, AccessRole::kObserver)) << frame;
   for (const AccessRole role : {AccessRole::kTrainee, AccessRole::kObserver, AccessRole::kRecorder})
     for (const char* frame : {mark, sheet}) {
       const auto refused = parse(frame, role);
@@ -142,14 +149,19 @@ TEST(NoteFrames, NeedTheRightAndTheRangesOfTheForms) {
 TEST(DeskFrames, CreateAndEndSessionsForOperatorsOnly) {
   const auto parse = [](const char* text, AccessRole role) { return parse_browser_frame(text, role, rpc::Id{}); };
   const char* const create = R"({"type":"order","id":1,"order":"create","scene":"contact","name":"exam","people":
-      [{"name":"desk-1","role":"INSTRUCTOR","seat":"trainer"},{"name":"desk-2","role":"EVALUATOR","seat":""}]})";
+      [{"name":"desk-1","role":"INSTRUCTOR","seat":"trainer"},
+       {"name":"eva","role":"EVALUATOR","seat":"","workstation":"desk-2"}]})";
   const auto created = parse(create, AccessRole::kOperator);
   ASSERT_TRUE(created);
   const auto& order = std::get<rpc::CreateSession>(std::get<Order>(*created).body);
   EXPECT_EQ(order.scene, "contact");
   EXPECT_TRUE(order.tickets_only);
-  ASSERT_EQ(order.holders.size(), 1u) << "a ticket is for a seat";
-  EXPECT_EQ(order.holders[0].workstation, "desk-1");
+  ASSERT_EQ(order.holders.size(), 2u);
+  EXPECT_EQ(order.holders[0], (rpc::SeatHolder{"trainer", "desk-1", "desk-1"})) << "the scene has the role of the seat";
+  EXPECT_EQ(order.holders[1], (rpc::SeatHolder{"", "desk-2", "eva", AccessRole::kEvaluator}));
+  EXPECT_FALSE(parse(R"({"type":"order","id":1,"order":"create","scene":"c","name":"n",
+      "people":[{"name":"eva","role":"JUDGE","seat":""}]})",
+                     AccessRole::kOperator));
   const char* const end = R"({"type":"order","id":1,"order":"end","session":"000102030405060708090a0b0c0d0e0f"})";
   const auto ended = parse(end, AccessRole::kOperator);
   ASSERT_TRUE(ended);

@@ -107,6 +107,35 @@ TEST(StateJson, HasTheValuesOfTheDatagram) {
   EXPECT_EQ(tool["depth_m"], 0.002);
 }
 
+TEST(StateJson, NamesThePersonsOfTheTicketsAtTakenSeats) {
+  LivePicture named = live_picture();
+  named.status.seats[0].person = "ann";
+  named.status.seats[1].person = "ted";  // the status is older than the datagram: the seat is free
+  const json state = state_of(named);
+  EXPECT_EQ(state["seats"][0]["person"], "ann");
+  EXPECT_TRUE(state["seats"][1]["person"].is_null());
+  LivePicture slow = picture();
+  slow.status.seats[0].person = "ann";
+  EXPECT_EQ(state_of(slow)["seats"][0]["person"], "ann");
+  EXPECT_TRUE(state_of(slow)["seats"][1]["person"].is_null());
+  rpc::StatusStop stop;
+  stop.number = 1;
+  stop.seat = "trainer";
+  stop.ends = "x";
+  EXPECT_TRUE(state_of(slow, stop)["stop"]["person"].is_null());
+  stop.person = "ann";
+  EXPECT_EQ(state_of(slow, stop)["stop"]["person"], "ann");
+  EXPECT_EQ(state_of(slow, stop)["stop"]["by"], "trainer");
+}
+
+TEST(StateJson, HasTheVelocitiesOfTools) {
+  LivePicture moving = live_picture();
+  LiveValues live = *moving.live;
+  live.velocities[0] = {0.1, -0.2, 0};
+  moving.live = std::make_shared<const LiveValues>(live);
+  EXPECT_EQ(state_of(moving)["tools"][0]["v"], json({0.1, -0.2, 0.0}));
+}
+
 TEST(StateJson, HasNullForUnknownValues) {
   const json state = state_of(live_picture());
   EXPECT_TRUE(state["age_ms"].is_null());
@@ -165,8 +194,12 @@ TEST(StateJson, ShowsAStopUntilItHasEnded) {
   stop.why = "a \"hand\"";
   stop.ends = "instructor";
   stop.yours = true;
-  EXPECT_EQ(state_of(live_picture(), stop)["stop"],
-            json({{"number", 3}, {"kind", "STOP"}, {"by", "trainer"}, {"why", "a \"hand\""}, {"yours", true}}));
+  EXPECT_EQ(state_of(live_picture(), stop)["stop"], json({{"number", 3},
+                                                          {"kind", "STOP"},
+                                                          {"by", "trainer"},
+                                                          {"person", nullptr},
+                                                          {"why", "a \"hand\""},
+                                                          {"yours", true}}));
   stop.ends.clear();
   EXPECT_TRUE(state_of(live_picture(), stop)["stop"].is_null());
 }
@@ -191,6 +224,15 @@ TEST(LiveJson, HelloHasTheRightsOfTheRole) {
   const rpc::ListedSession listed[] = {{kId, "contact", rpc::SessionPhase::kRunning, {}}};
   const json hello = json::parse(hello_json("ann", AccessRole::kEvaluator, "1", listed));
   EXPECT_EQ(hello["person"], "ann");
+  EXPECT_EQ(hello["proved"], false);
+  EXPECT_EQ(hello["scenes"], json::array());
+  const std::vector<std::string> scenes{"contact", "lesson"};
+  const json desk =
+      json::parse(hello_json("ann", AccessRole::kOperator, "1", listed, {.proved = true, .scenes = scenes}));
+  EXPECT_EQ(desk["proved"], true);
+  EXPECT_EQ(desk["scenes"], json({"contact", "lesson"}));
+  for (const AccessRole watcher : {AccessRole::kTrainee, AccessRole::kObserver, AccessRole::kRecorder})
+    EXPECT_EQ(json::parse(hello_json("ann", watcher, "1", listed))["may"], json::array()) << to_text(watcher);
   for (const char* right : {"pause", "resume"})
     EXPECT_NE(std::ranges::find(hello["may"], right), hello["may"].end()) << right;
   for (const char* right : {"stop", "authority", "remove", "drain"})
@@ -199,6 +241,21 @@ TEST(LiveJson, HelloHasTheRightsOfTheRole) {
   EXPECT_EQ(hello["sessions"],
             json::array({{{"id", "ab000000000000000000000000000000"}, {"name", "contact"}, {"state", "RUNNING"}}}));
   EXPECT_TRUE(json::parse(reply_json({}, false, "x"))["id"].is_null());
+}
+
+TEST(LiveJson, TicketsNamePersonWorkstationRoleAndSeat) {
+  const rpc::SessionCreated created{.session = {kId, "exam", rpc::SessionPhase::kWaiting, {}},
+                                    .code = "",
+                                    .tickets = {{"trainee", "desk-1", {std::byte{1}}, "ted", AccessRole::kTrainee},
+                                                {"", "desk-2", {std::byte{2}}, "", AccessRole::kEvaluator}}};
+  const json tickets = json::parse(tickets_json(created))["tickets"];
+  ASSERT_EQ(tickets.size(), 2U);
+  EXPECT_EQ(tickets[0]["person"], "ted");
+  EXPECT_EQ(tickets[0]["workstation"], "desk-1");
+  EXPECT_EQ(tickets[0]["role"], "TRAINEE");
+  EXPECT_EQ(tickets[1]["person"], "desk-2") << "no name in the ticket: the workstation";
+  EXPECT_EQ(tickets[1]["role"], "EVALUATOR");
+  EXPECT_EQ(tickets[1]["seat"], "");
 }
 
 }  // namespace

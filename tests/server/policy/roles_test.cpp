@@ -92,6 +92,10 @@ constexpr std::array<KindRow, rpc::kKinds> kFrames{{
     {Kind::kSessionCreated, "-------"},
     {Kind::kEndSession, "-----x-"},
     {Kind::kNote, "-x-x-x-"},
+    {Kind::kSceneListRequest, "-----x-"},
+    {Kind::kSceneList, "-------"},
+    {Kind::kNotesRequest, "-x-x-x-"},
+    {Kind::kNoteList, "-------"},
 }};
 
 TEST(Roles, MatchTheDesignTableForEveryFrame) {
@@ -113,7 +117,7 @@ TEST(Roles, MatchTheDesignTableForEveryFrame) {
 }
 
 TEST(Roles, AllowNoFrameOutsideTheTable) {
-  for (const int number : {0, 1, 2, 26, 255}) {
+  for (const int number : {0, 1, 2, 30, 255}) {
     const auto kind = static_cast<Kind>(number);
     EXPECT_FALSE(is_client_message(kind));
     EXPECT_FALSE(allowed(std::nullopt, kind));
@@ -131,14 +135,55 @@ TEST(Roles, NameThePermittedRolesInARejection) {
   EXPECT_NE(forbidden_text(std::nullopt, Kind::kDrain).find("join first"), std::string::npos);
 }
 
-TEST(Roles, LetTraineesAndObserversJoinNoConsole) {
-  for (std::uint8_t c = 0; c < kAccessRoles; ++c) {
-    const auto role = static_cast<AccessRole>(c);
-    EXPECT_EQ(may_join_console(role), role == AccessRole::kInstructor || role == AccessRole::kEvaluator ||
-                                          role == AccessRole::kOperator || role == AccessRole::kRecorder)
-        << to_text(role);
-  }
+// Every role sees at least its own and the shared values at 60 Hz, so each may watch from a console.
+TEST(Roles, LetEveryRoleWatchFromAConsole) {
+  for (std::uint8_t c = 0; c < kAccessRoles; ++c) EXPECT_TRUE(may_join_console(static_cast<AccessRole>(c)));
   EXPECT_FALSE(may_join_console(static_cast<AccessRole>(kAccessRoles)));
+}
+
+// Frames of consoles: an independent copy. Columns: instructor, trainee, evaluator, observer, operator, recorder.
+constexpr std::array<KindRow, 12> kConsoleFrames{{
+    {Kind::kSessionListRequest, "xxxxxx"},
+    {Kind::kPing, "xxxxxx"},
+    {Kind::kStatusRequest, "xxxxxx"},
+    {Kind::kStopSession, "x---x-"},
+    {Kind::kPauseSession, "x-x-x-"},
+    {Kind::kResumeSession, "x-x-x-"},
+    {Kind::kSetAuthority, "x-----"},
+    {Kind::kRemoveParticipant, "x---x-"},
+    {Kind::kDrain, "----x-"},
+    {Kind::kCreateSession, "----x-"},
+    {Kind::kEndSession, "----x-"},
+    {Kind::kNote, "x-x-x-"},
+}};
+
+TEST(Roles, LetConsolesOfTraineesAndObserversOnlyWatch) {
+  std::set<Kind> seen;
+  for (const KindRow& row : kConsoleFrames) {
+    seen.insert(row.kind);
+    for (std::uint8_t c = 0; c < kAccessRoles; ++c) {
+      const auto role = static_cast<AccessRole>(c);
+      EXPECT_EQ(allowed_without_seat(role, row.kind), row.may[c] == 'x')
+          << to_text(role) << ", kind " << static_cast<int>(row.kind);
+    }
+  }
+  for (std::size_t i = 0; i < rpc::kKinds; ++i) {
+    const auto kind = static_cast<Kind>(static_cast<std::size_t>(Kind::kHello) + i);
+    for (std::uint8_t c = 0; c < kAccessRoles; ++c) {
+      const auto role = static_cast<AccessRole>(c);
+      EXPECT_TRUE(allowed(role, kind) || !allowed_without_seat(role, kind)) << "a console has no right of its own";
+      if (!allowed_without_seat(role, kind)) {
+        EXPECT_FALSE(forbidden_text_without_seat(role, kind).empty());
+      }
+      if (!seen.contains(kind)) {
+        EXPECT_EQ(allowed_without_seat(role, kind), allowed(role, kind));
+      }
+    }
+  }
+  EXPECT_EQ(forbidden_text_without_seat(AccessRole::kTrainee, Kind::kPauseSession),
+            "the role trainee may pause the session from a seat only; without a seat it watches the session");
+  EXPECT_EQ(forbidden_text_without_seat(AccessRole::kTrainee, Kind::kStopSession),
+            forbidden_text(AccessRole::kTrainee, Kind::kStopSession));
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ SessionSnapshot sample(const SceneSpec& scene) {
   kept.code = "ABCDEFGHJK";
   kept.written_s = 1'800'000'000;
   kept.removed_workstations = {{std::byte{1}}, {std::byte{2}, std::byte{3}}};
+  kept.persons = {"ann", "", std::string(32, 'x')};
   return kept;
 }
 
@@ -46,6 +47,7 @@ TEST(SessionSnapshot, SurvivesEncodingAndDecoding) {
   EXPECT_EQ(back->name, "lab");
   EXPECT_EQ(back->code, "ABCDEFGHJK");
   EXPECT_EQ(back->removed_workstations, kept.removed_workstations);
+  EXPECT_EQ(back->persons, kept.persons);
   EXPECT_EQ(back->written_s, kept.written_s);
   EXPECT_EQ(back->checkpoint.epoch, 7u);
   EXPECT_EQ(back->checkpoint.seats[1].resume, kept.checkpoint.seats[1].resume);
@@ -97,11 +99,17 @@ TEST(SessionSnapshot, NamesThatAreTooLongAreNotWritten) {
   kept.removed_workstations.resize(kRemovedWorkstationsMax + 1);
   EXPECT_TRUE(encode_snapshot(kept).empty());
   kept.removed_workstations.resize(kRemovedWorkstationsMax);
+  kept.persons.assign(kSeatsMax + 1, "ann");
+  EXPECT_TRUE(encode_snapshot(kept).empty());
+  kept.persons.assign(kSeatsMax, std::string(33, 'x'));
+  EXPECT_TRUE(encode_snapshot(kept).empty());
+  kept.persons.assign(kSeatsMax, std::string(32, 'x'));
   kept.code = std::string(255, 'y');
   const auto back = decode_snapshot(encode_snapshot(kept));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->name, kept.name);
   EXPECT_EQ(back->removed_workstations.size(), kRemovedWorkstationsMax);
+  EXPECT_EQ(back->persons, kept.persons);
   EXPECT_LE(encode_snapshot(kept).size(), kSnapshotMax);
 }
 

@@ -22,10 +22,13 @@ inline auth::Id16 id_of(unsigned number) { return {static_cast<std::byte>(number
 class RegistryFixture {
  public:
   RegistryFixture() { registry.requests().watch(shard); }
-  ~RegistryFixture() {
+  ~RegistryFixture() { finish(); }
+  /// Ends the thread of the shard.
+  void finish() {
     shard.stop();
     if (ticking_.joinable()) ticking_.join();
   }
+  [[nodiscard]] TickQueue& records() noexcept { return records_; }
 
   /// Registers a session of the scene free_motion (seats trainer and trainee), in the slot after the last one.
   /// @param code    session code; empty: tickets only

@@ -25,7 +25,7 @@ void join(SeatReservation& seat, std::uint32_t cid, unsigned secret_number, Resu
           bool ever_heard = true, double scale = 1) {
   seat.begin_join();
   seat.offer(match, ever_heard, scale, std::nullopt);
-  seat.admit({"desk", kDesk, 0}, cid, resume_hash(secret(secret_number).bytes, kDesk));
+  seat.admit({"desk", kDesk, 0}, cid, resume_hash(secret(secret_number).bytes, kDesk), "", kNow);
   EXPECT_EQ(seat.end_join(), std::nullopt) << "its ticket is used";
 }
 
@@ -121,6 +121,31 @@ TEST(SeatReservation, TakesSeatAndSecretFromARemovedOwnerWithAReason) {
   EXPECT_EQ(seat.lost_reason(7), "removed by desk-1");
   EXPECT_EQ(seat.lost_reason(8), "") << "another connection";
   EXPECT_EQ(seat.remove_owner("again"), std::nullopt);
+}
+
+TEST(SeatReservation, KnowsTheNamesOfItsLastTwoOwnersByTime) {
+  SeatReservation seat;
+  EXPECT_EQ(seat.person_at(kNow), "");
+  const auto take = [&seat](const std::string& person, Time at) {
+    seat.begin_join();
+    seat.offer(ResumeMatch::kNone, true, 1, std::nullopt);
+    seat.admit({"desk", kDesk, 0}, 7, {}, person, at);
+    EXPECT_EQ(seat.end_join(), std::nullopt);
+  };
+  take("ann", kNow);
+  EXPECT_EQ(seat.person(), "ann");
+  EXPECT_EQ(seat.person_at(kNow - 1ns), "");
+  EXPECT_EQ(seat.person_at(kNow), "ann");
+  take("bob", kNow + 1s);
+  EXPECT_EQ(seat.person_at(kNow + 1s - 1ns), "ann") << "an event of the owner before";
+  EXPECT_EQ(seat.person_at(kNow + 1s), "bob");
+  take("", kNow + 2s);
+  EXPECT_EQ(seat.person(), "") << "the ticket names no person";
+  EXPECT_EQ(seat.person_at(kNow + 1s), "bob");
+  EXPECT_EQ(seat.person_at(kNow), "") << "two owners are known: no name rather than a wrong one";
+  SeatReservation restored;
+  restored.restore({true, resume_hash(secret(1).bytes, kDesk), 1}, kNow + 600s, kNow, "ann");
+  EXPECT_EQ(restored.person(), "ann");
 }
 
 }  // namespace

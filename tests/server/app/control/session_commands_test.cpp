@@ -158,6 +158,53 @@ TEST(SessionCommands, PassANoteWithItsAuthorAndTime) {
       << "a note that is not stored is not confirmed";
 }
 
+TEST(SessionCommands, NameThePersonOfTheTicket) {
+  Commanding c;
+  c.joined.person = "ann";
+  std::vector<SessionNote> notes;
+  c.commands.set_on_note([&](const SessionNote& note) {
+    notes.push_back(note);
+    return std::string();
+  });
+  c.serve();
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::StopSession{id_of(1), "fire drill"})));
+  EXPECT_EQ(c.messages, (std::vector<std::string>{"STOPPED by ann at office (operator): fire drill"}));
+  const rpc::Body reply = c.ask(rpc::StatusRequest{id_of(1)});
+  ASSERT_TRUE(std::get<rpc::Status>(reply).stop);
+  EXPECT_EQ(std::get<rpc::Status>(reply).stop->person, "ann");
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::ResumeSession{id_of(1), 1})));
+  EXPECT_EQ(c.notices()[0].find("stop 1 is over: RESUMED by ann at office (operator)"), 0U) << c.notices()[0];
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::Note{id_of(1), rpc::NoteKind::kMark, "{}"})));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].person, "ann");
+  EXPECT_EQ(notes[0].author, "person/ann");
+}
+
+TEST(SessionCommands, ListTheNotesThatTheClientMayRead) {
+  Commanding c;
+  c.serve();
+  const rpc::Note draft{id_of(1), rpc::NoteKind::kSheet, R"({"sheet":"GOALS","of":"trainee","closed":false})"};
+  const rpc::Note closed{id_of(1), rpc::NoteKind::kSheet, R"({"sheet":"GOALS","of":"trainee","closed":true})"};
+  const auto list = [&c](const std::string& person) {
+    c.joined.person = person;
+    const rpc::Body reply = c.ask(rpc::NotesRequest{id_of(1), 0});
+    return std::holds_alternative<rpc::NoteList>(reply) ? std::get<rpc::NoteList>(reply).notes.size() : 99;
+  };
+  c.joined.person = "ann";
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(rpc::Note{id_of(1), rpc::NoteKind::kMark, "{}"})));
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(closed)));
+  const rpc::Body refused = c.ask(draft);
+  EXPECT_EQ(error_of(refused).code, ErrorCode::kNotAllowed);
+  EXPECT_NE(error_of(refused).text.find("is closed, which is final"), std::string::npos);
+  EXPECT_EQ(list("ann"), 2U);
+  EXPECT_EQ(list("bob"), 1U) << "marks only";
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(c.ask(closed)));
+  EXPECT_EQ(list("bob"), 3U);
+  EXPECT_EQ(std::get<rpc::Status>(c.ask(rpc::StatusRequest{id_of(1)})).notes, 3U);
+  c.joined.role = AccessRole::kTrainee;
+  EXPECT_EQ(std::get<rpc::Status>(c.ask(rpc::StatusRequest{id_of(1)})).notes, 0U) << "may not read notes";
+}
+
 TEST(NoteCheck, RejectsDeepNesting) {
   const auto nested = [](int depth) {
     return "{\"a\":" + std::string(static_cast<std::size_t>(depth), '[') +
@@ -171,6 +218,40 @@ TEST(NoteCheck, RejectsDeepNesting) {
 
 // ---- Orders about whole sessions ----
 
+TEST(SessionCommands, GiveTicketsToPersonsWithAndWithoutASeat) {
+  Commanding c;
+  SessionOrders orders;
+  c.commands.set_orders(orders);
+  std::optional<rpc::Body> reply;
+  c.commands.execute(c.joined, c.office,
+                     rpc::CreateSession{.name = "exam",
+                                        .scene = "free_motion",
+                                        .holders = {{"trainee", "office", "ted"},
+                                                    {"", "office", "eva", AccessRole::kEvaluator},
+                                                    {"", "office", "", AccessRole::kRecorder}}},
+                     [&](rpc::Body body) { reply = std::move(body); });
+  const SessionEntry& exam = c.add("exam", 2);
+  const rpc::SessionCreated created{.session = SessionRegistry::listed(exam), .code = "", .tickets = {}};
+  orders.take()->answer(created);
+  ASSERT_TRUE(reply);
+  const auto& tickets = std::get<rpc::SessionCreated>(*reply).tickets;
+  ASSERT_EQ(tickets.size(), 3U);
+  const auto ticket_of = [&](std::size_t i) {
+    const auth::TicketUse use{id_of(2), 3, tickets[i].seat, std::nullopt, {c.office.spki}, auth::wall_seconds()};
+    const auto ticket = auth::check_ticket(tickets[i].ticket, c.keys.ticket_key().verifier(), use);
+    EXPECT_TRUE(ticket) << to_text(ticket.error());
+    return ticket.value_or(auth::Ticket{});
+  };
+  EXPECT_EQ(ticket_of(0).person, "ted");
+  EXPECT_EQ(ticket_of(0).role, AccessRole::kTrainee) << "that of the seat";
+  EXPECT_EQ(ticket_of(1).person, "eva");
+  EXPECT_EQ(ticket_of(1).seat, "");
+  EXPECT_EQ(ticket_of(1).role, AccessRole::kEvaluator);
+  EXPECT_EQ(tickets[1].role, AccessRole::kEvaluator);
+  EXPECT_EQ(ticket_of(2).person, "");
+  EXPECT_EQ(ticket_of(2).role, AccessRole::kRecorder);
+}
+
 TEST(SessionCommands, QueueOrdersAboutSessionsUpToALimit) {
   Commanding c;
   const rpc::CreateSession exam{.name = "exam", .scene = "contact"};
@@ -180,6 +261,10 @@ TEST(SessionCommands, QueueOrdersAboutSessionsUpToALimit) {
   rpc::CreateSession held = exam;
   held.holders = {{"trainee", "nowhere"}};
   EXPECT_EQ(error_of(c.ask(held)).code, ErrorCode::kNotEnrolled);
+  held.holders = {{"", "office", "eva", AccessRole::kOperator}};
+  const rpc::ErrorReply raised = error_of(c.ask(held));
+  EXPECT_EQ(raised.code, ErrorCode::kNotAllowed) << "an operator makes no operators";
+  EXPECT_EQ(raised.text.find("eva: no ticket for a console has the role operator here"), 0U) << raised.text;
   std::size_t replies = 0;
   for (std::size_t i = 0; i < SessionOrders::kMax; ++i)
     c.commands.execute(c.joined, c.office, exam, [&](const rpc::Body&) { ++replies; });
@@ -223,8 +308,8 @@ TEST(SessionCommands, AddATicketForEveryHolderToTheReply) {
 TEST(SessionCommands, ReleaseTheSeatsOfRevokedWorkstationsOnly) {
   Commanding c;
   const SeatReservation::Hash secret{std::byte{1}};
-  c.lesson.seats[0].admit(c.office, 11, secret);
-  c.lesson.seats[1].admit({"gone", {std::byte{8}}, 0}, 12, secret);
+  c.lesson.seats[0].admit(c.office, 11, secret, "", {});
+  c.lesson.seats[1].admit({"gone", {std::byte{8}}, 0}, 12, secret, "", {});
   ASSERT_TRUE(c.lesson.link_tests.begin_join());
   c.lesson.link_tests.admit(0, {"gone", {std::byte{8}}, 0}, 13);
   c.serve();

@@ -53,6 +53,38 @@ TEST(SessionRegistry, ListsASeatAsTakenFromTheBeginOfAJoin) {
       << "commands on this computer see clients only";
 }
 
+/// Fills the queue of the shard; `begun` requests of the session wait in it then.
+void fill_queue(RegistryFixture& f, const SessionEntry& entry) {
+  bool full = false;
+  for (int i = 0; !full && i < 10000; ++i)
+    f.registry.post(entry, {.what = ShardRequest::What::kQueryPeers,
+                            .done = [&full](ShardRequest& r) { full = full || r.result == JoinResult::kSessionOver; }});
+  ASSERT_TRUE(full);
+}
+
+TEST(SessionRegistry, EndsASessionAlthoughTheQueueOfItsShardIsFull) {
+  RegistryFixture f;
+  const SessionEntry& lesson = f.add("lesson", 1);
+  fill_queue(f, lesson);
+  f.registry.end(id_of(1));
+  f.serve();
+  f.wait_until([&] { return lesson.session().over(); });
+}
+
+TEST(SessionRegistry, AddsARunningSessionAlthoughTheQueueOfItsShardIsFull) {
+  RegistryFixture f;
+  const SessionEntry& lesson = f.add("lesson", 1);
+  fill_queue(f, lesson);
+  LiveSession session{f.scene, *make_local_slaves(f.scene, Time{}), 5, f.records()};
+  std::optional<bool> served;
+  f.registry.add_running({"exam", id_of(2), {}, 1, &session, &f.shard}, [&](bool accepted) { served = accepted; });
+  EXPECT_FALSE(served) << "neither lost nor accepted yet";
+  f.serve();
+  f.wait_until([&] { return served.has_value(); });
+  EXPECT_TRUE(*served);
+  f.finish();
+}
+
 TEST(SessionRegistry, RemovesASessionAfterItsLastRequest) {
   RegistryFixture f;
   f.add("lesson", 1);

@@ -35,9 +35,12 @@ TEST(StatusNotices, KeepTheNewestEventsNumberedAndCut) {
 
 TEST(StatusNotices, NameTheConsoleAndTheReasonOfTheNewestStopOnly) {
   StatusNotices notices;
-  notices.set_stop(2, "office", "fire drill");
+  notices.set_stop(2, "office", "ann", "fire drill");
   EXPECT_EQ(completed(notices, 2).stop->workstation, "office");
   EXPECT_EQ(completed(notices, 2).stop->why, "fire drill");
+  EXPECT_EQ(completed(notices, 2).stop->person, "ann");
+  EXPECT_EQ(completed(notices, 3).stop->person, "");
+  EXPECT_EQ(completed(notices, 2, "", rpc::StopKind::kFault).stop->person, "");
   EXPECT_EQ(completed(notices, 3).stop->why, "") << "a newer stop, by a seat's key";
   EXPECT_EQ(completed(notices, 3).stop->workstation, "");
   EXPECT_EQ(completed(notices, 2, "trainee").stop->workstation, "") << "a seat has no workstation beside its name";
@@ -56,7 +59,7 @@ TEST(StatusNotices, ReportEachResumeOnceWithItsOrigin) {
     ASSERT_EQ(latch.resume(AccessRole::kInstructor, by, number, ~0U), CommandResult::kDone);
   };
   stop_and_resume(0, 1);
-  notices.update(latch, scene);
+  notices.update(latch, scene, "ann");
   notices.update(latch, scene);
   stop_and_resume(AuditEvent::kControlPlane, 2);
   notices.update(latch, scene);
@@ -66,7 +69,7 @@ TEST(StatusNotices, ReportEachResumeOnceWithItsOrigin) {
   const auto events = completed(notices).events;
   ASSERT_EQ(events.size(), 3U);
   EXPECT_EQ(events[0].text,
-            "stop 1 is over: RESUMED by " + scene.seats[0].name + " (instructor); force returns over 0.5 s");
+            "stop 1 is over: RESUMED by ann at " + scene.seats[0].name + " (instructor); force returns over 0.5 s");
   EXPECT_EQ(events[1].text, "stop 2 is over: RESUMED by a console; force returns over 0.5 s");
   EXPECT_EQ(events[2].text, "stop 3 is over: RESUMED by office (operator); force returns over 0.5 s");
 }

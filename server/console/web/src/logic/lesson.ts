@@ -2,12 +2,15 @@ import { kSeatsMax, type Ticket } from '../protocol/messages';
 
 /** Names of sessions, persons and seats: the rule of the server. */
 const kName = /^[A-Za-z0-9_-]{1,32}$/;
-export const kRoles = ['INSTRUCTOR', 'TRAINEE', 'EVALUATOR', 'OBSERVER'] as const;
+export const kRoles = ['INSTRUCTOR', 'TRAINEE', 'EVALUATOR', 'OBSERVER', 'RECORDER'] as const;
 
 export interface LessonPerson {
   name: string;
   role: string;
+  /** Empty: a console without a seat. */
   seat: string;
+  /** Computer at which the person joins; absent: the one of the person's name. */
+  workstation?: string;
 }
 
 export interface Lesson {
@@ -18,7 +21,7 @@ export interface Lesson {
 
 export interface LessonMistake {
   /** Field of the lesson, or of person number `index`. */
-  field: 'scene' | 'name' | 'person' | 'seat' | 'people';
+  field: 'scene' | 'name' | 'person' | 'seat' | 'workstation' | 'people';
   index: number | null;
 }
 
@@ -37,11 +40,20 @@ export function lessonMistakes(lesson: Lesson): LessonMistake[] {
   lesson.people.forEach((person, index) => {
     if (!isName(person.name) || names.has(person.name)) mistakes.push({ field: 'person', index });
     if (person.seat !== '' && (!isName(person.seat) || seats.has(person.seat))) mistakes.push({ field: 'seat', index });
+    if (person.workstation !== undefined && !isName(person.workstation)) mistakes.push({ field: 'workstation', index });
     names.add(person.name);
     if (person.seat !== '') seats.add(person.seat);
   });
   return mistakes;
 }
+
+/** Steps with which the holder of a ticket joins: at a seat with a device, or at a console. */
+export function stepsOf(ticket: Ticket): readonly ('desk.step1' | 'desk.step2' | 'desk.step3' | StepWithoutSeat)[] {
+  if (ticket.seat !== '') return ['desk.step1', 'desk.step2', 'desk.step3'];
+  const watches = ticket.role === 'TRAINEE' || ticket.role === 'OBSERVER' || ticket.role === 'RECORDER';
+  return ['desk.console1', 'desk.console2', watches ? 'desk.watch3' : 'desk.control3'];
+}
+type StepWithoutSeat = 'desk.console1' | 'desk.console2' | 'desk.watch3' | 'desk.control3';
 
 /** Returns the link of a ticket. The part behind # stays in the browser: neither server nor log sees the ticket. */
 export function ticketLink(origin: string, ticket: Ticket): string {

@@ -102,9 +102,14 @@ export function totalOf(form: SheetForm, scores: Readonly<Record<string, number>
   };
 }
 
+/** Names can be chosen freely, so the gateway's word comes first. */
+function isOwn(sheet: Sheet, person: string): boolean {
+  return sheet.yours ?? sheet.person === person;
+}
+
 /** A sheet of an evaluator that is not sent yet, or that the gateway returned. */
 export function ownSheet(notes: Notes | null, person: string, name: SheetName, of: string): Sheet | null {
-  return notes?.sheets.find((s) => s.person === person && s.sheet === name && s.of === of) ?? null;
+  return notes?.sheets.find((s) => isOwn(s, person) && s.sheet === name && s.of === of) ?? null;
 }
 
 /**
@@ -113,5 +118,5 @@ export function ownSheet(notes: Notes | null, person: string, name: SheetName, o
  */
 export function othersSheets(notes: Notes | null, person: string, name: SheetName, of: string): Sheet[] {
   if (!ownSheet(notes, person, name, of)?.closed) return [];
-  return notes?.sheets.filter((s) => s.person !== person && s.sheet === name && s.of === of && s.closed) ?? [];
+  return notes?.sheets.filter((s) => !isOwn(s, person) && s.sheet === name && s.of === of && s.closed) ?? [];
 }

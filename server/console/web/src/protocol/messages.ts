@@ -80,6 +80,8 @@ export interface StopState {
   number: number;
   kind: string;
   by: string;
+  /** Name in the ticket of the person at `by`; null: not named. */
+  person: string | null;
   why: string;
   yours: boolean;
 }
@@ -181,6 +183,8 @@ export interface Sheet {
   sheet: SheetName;
   of: string;
   person: string;
+  /** Whether the person of this page wrote it; null: the gateway does not say. */
+  yours: boolean | null;
   scores: Readonly<Record<string, number>>;
   closed: boolean;
 }
@@ -193,6 +197,8 @@ export interface Notes {
 
 export interface Ticket {
   person: string;
+  /** Computer at which the ticket is valid. */
+  workstation: string;
   role: string;
   seat: string;
   ticket: string;
@@ -214,7 +220,12 @@ export type OrderBody =
   | { order: 'authority'; tool: number; version: number; alpha: readonly number[] }
   | { order: 'remove'; seat: string; why: string }
   | { order: 'drain'; grace_s: number }
-  | { order: 'create'; scene: string; name: string; people: readonly { name: string; role: string; seat: string }[] }
+  | {
+      order: 'create';
+      scene: string;
+      name: string;
+      people: readonly { name: string; role: string; seat: string; workstation?: string }[];
+    }
   | { order: 'end'; session: string };
 
 /** Frames that expect a reply; the connection adds the `id`. */

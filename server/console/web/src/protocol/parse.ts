@@ -143,6 +143,7 @@ function stopState(value: unknown): StopState | null {
     number: count(value.number),
     kind: text(value.kind),
     by: text(value.by),
+    person: textOrNull(value.person),
     why: text(value.why),
     yours: value.yours === true,
   };
@@ -240,6 +241,7 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
                 sheet: name,
                 of: text(sheet.of),
                 person: text(sheet.person),
+                yours: typeof sheet.yours === 'boolean' ? sheet.yours : null,
                 scores: scores(sheet.scores),
                 closed: sheet.closed === true,
               },
@@ -254,6 +256,7 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
       .map(object)
       .map((ticket) => ({
         person: text(ticket.person),
+        workstation: text(ticket.workstation),
         role: text(ticket.role),
         seat: text(ticket.seat),
         ticket: text(ticket.ticket),

@@ -53,7 +53,7 @@ export class ControlBar implements View {
     const words = stop
       ? t('stop.active', {
           kind: word('stop.kind', stop.kind),
-          by: stop.by || '–',
+          by: stop.person === null ? stop.by || '–' : `${stop.person} (${stop.by})`,
           why: stop.why || t('stop.no_reason'),
         }) + (stop.yours || !model.granted('resume') ? '' : ` ${t('stop.not_yours')}`)
       : '';

@@ -1,5 +1,5 @@
 import type { Page, View } from '../app/page';
-import { kRoles, lessonMistakes, ticketLink, type Lesson } from '../logic/lesson';
+import { kRoles, lessonMistakes, stepsOf, ticketLink, type Lesson } from '../logic/lesson';
 import type { Tickets } from '../protocol/messages';
 import { t, word } from '../strings/strings';
 import { button, el, labelled, panel, select, setDisabled } from './dom';
@@ -10,6 +10,7 @@ interface PersonRow {
   name: HTMLInputElement;
   role: HTMLSelectElement;
   seat: HTMLInputElement;
+  workstation: HTMLInputElement;
 }
 
 /** The lesson desk: creates a session with its people and shows a page with ticket and steps per person. */
@@ -109,6 +110,7 @@ export class DeskView implements View {
     const name = el('input', { type: 'text', maxlength: 32, pattern: '[A-Za-z0-9_\\-]{1,32}', required: true });
     const seatInput = el('input', { type: 'text', maxlength: 32, pattern: '[A-Za-z0-9_\\-]{0,32}' });
     seatInput.value = seat;
+    const workstation = el('input', { type: 'text', maxlength: 32, pattern: '[A-Za-z0-9_\\-]{0,32}' });
     const roles = select(
       kRoles.map((known) => [known, word('role', known)] as const),
       role,
@@ -121,9 +123,10 @@ export class DeskView implements View {
       labelled(t('desk.person', { n }), name),
       labelled(t('desk.role', { n }), roles),
       labelled(t('desk.seat', { n }), seatInput),
+      labelled(t('desk.workstation', { n }), workstation),
       drop,
     );
-    const row: PersonRow = { node, name, role: roles, seat: seatInput };
+    const row: PersonRow = { node, name, role: roles, seat: seatInput, workstation };
     this.rows.push(row);
     this.people.append(node);
   }
@@ -141,13 +144,18 @@ export class DeskView implements View {
         name: row.name.value.trim(),
         role: row.role.value,
         seat: row.seat.value.trim(),
+        ...(row.workstation.value.trim() === '' ? {} : { workstation: row.workstation.value.trim() }),
       })),
     };
     const mistake = lessonMistakes(lesson)[0];
     if (mistake) {
       const row = mistake.index === null ? undefined : this.rows[mistake.index];
       const field =
-        mistake.field === 'scene' ? this.scene : mistake.field === 'seat' ? row?.seat : (row?.name ?? this.name);
+        mistake.field === 'scene'
+          ? this.scene
+          : mistake.field === 'seat' || mistake.field === 'workstation'
+            ? row?.[mistake.field]
+            : (row?.name ?? this.name);
       field?.focus();
       const label = field?.closest('label')?.textContent ?? t('desk.people');
       this.page.report('error', `${label}: A-Z a-z 0-9 _ -, 1…32`);
@@ -161,7 +169,7 @@ export class DeskView implements View {
     if (!tickets) return this.tickets.replaceChildren();
     const cards = tickets.tickets.map((ticket) => {
       const link = ticketLink(location.origin, ticket);
-      const steps = [t('desk.step1'), t('desk.step2'), t('desk.step3', { seat: ticket.seat || 'SEAT' })];
+      const steps = stepsOf(ticket).map((key) => t(key, { seat: ticket.seat, role: ticket.role.toLowerCase() }));
       return el(
         'article',
         { class: 'ticket', 'aria-label': t('desk.ticket_of', { person: ticket.person }) },
@@ -174,7 +182,8 @@ export class DeskView implements View {
         ),
         qrCode(link, t('desk.qr', { person: ticket.person })),
         el('p', {}, el('a', { href: link }, t('desk.link'))),
-        el('h4', {}, t('desk.steps')),
+        el('p', {}, t('desk.at', { workstation: ticket.workstation || ticket.person })),
+        el('h4', {}, t(ticket.seat === '' ? 'desk.steps_console' : 'desk.steps')),
         el('ol', {}, ...steps.map((step) => el('li', {}, step))),
         el('p', { class: 'note' }, t('desk.ticket_of', { person: ticket.person }), ': ', el('code', {}, ticket.ticket)),
       );

@@ -247,7 +247,8 @@ export class MockGateway {
       const tickets = frame.people.map((person) => {
         const ticket = randomBytes(16).toString('hex');
         this.tickets.set(ticket, [person.name, person.role]);
-        return { person: person.name, role: person.role, seat: person.seat, ticket };
+        const { name, role, seat, workstation = name } = person;
+        return { person: name, workstation, role, seat, ticket };
       });
       return page.send({ type: 'tickets', session: kSession, name: frame.name, tickets });
     }

@@ -81,7 +81,7 @@ describe('AlarmLog', () => {
 
   it('reports a stop with person and reason, and a fault as such', () => {
     const log = new AlarmLog();
-    const stop = { number: 1, kind: 'STOP', by: 'ina', why: 'test', yours: true };
+    const stop = { number: 1, kind: 'STOP', by: 'ina', person: null, why: 'test', yours: true };
     log.update(makeState({ stop }), scene);
     expect(log.list()).toMatchObject([{ kind: 'stopped', level: 'alarm', seat: 'ina', detail: 'test' }]);
     log.update(makeState({ t: 5, stop: { ...stop, kind: 'FAULT' } }), scene);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
 import { clock, fixed, kUnknown, percent } from '../../src/logic/format';
-import { isName, lessonMistakes, ticketLink, ticketOfHash } from '../../src/logic/lesson';
+import { isName, lessonMistakes, stepsOf, ticketLink, ticketOfHash, type LessonMistake } from '../../src/logic/lesson';
 import { kKeyStep, kReach, kStickSpeed, PointerDevice } from '../../src/logic/pointer_device';
 import { spread } from '../../src/picture/label';
 import { en } from '../../src/strings/en';
@@ -84,8 +84,24 @@ describe('lesson', () => {
     ]);
     expect(isName('x'.repeat(33))).toBe(false);
   });
+  it('may name the workstation of a person', () => {
+    const [ina] = people;
+    const lesson = (workstation: string): LessonMistake[] =>
+      lessonMistakes({ scene: 'contact', name: 'm', people: ina ? [{ ...ina, workstation }] : [] });
+    expect(lesson('desk-1')).toEqual([]);
+    expect(lesson('desk 1')).toEqual([{ field: 'workstation', index: 0 }]);
+  });
+  it('has three steps for each ticket, by seat and role', () => {
+    const steps = (role: string, seat: string): readonly string[] =>
+      stepsOf({ person: 'a', workstation: 'w', role, seat, ticket: 't' });
+    expect(steps('TRAINEE', 'trainee')).toEqual(['desk.step1', 'desk.step2', 'desk.step3']);
+    for (const role of ['TRAINEE', 'OBSERVER', 'RECORDER']) expect(steps(role, '')[2]).toBe('desk.watch3');
+    for (const role of ['INSTRUCTOR', 'EVALUATOR']) expect(steps(role, '')[2]).toBe('desk.control3');
+    expect(steps('EVALUATOR', '')).toHaveLength(3);
+  });
   it('keeps the ticket behind # of its link', () => {
-    const link = ticketLink('http://127.0.0.1:1', { person: 'a&b', role: '', seat: '', ticket: 'x+/=' });
+    const ticket = { person: 'a&b', workstation: 'w', role: '', seat: '', ticket: 'x+/=' };
+    const link = ticketLink('http://127.0.0.1:1', ticket);
     const url = new URL(link);
     expect(url.search).toBe('');
     expect(ticketOfHash(url.hash)).toEqual({ ticket: 'x+/=', name: 'a&b' });

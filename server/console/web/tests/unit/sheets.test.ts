@@ -50,6 +50,7 @@ describe('sheets of others', () => {
     sheet: 'GOALS',
     of: 'trainee',
     person,
+    yours: null,
     scores: {},
     closed,
   });
@@ -62,6 +63,14 @@ describe('sheets of others', () => {
     expect(othersSheets(closed, 'eva', 'GOALS', 'trainee').map((s) => s.person)).toEqual(['max']);
     expect(othersSheets(notes(sheet('max', true)), 'eva', 'GOALS', 'trainee')).toEqual([]);
     expect(othersSheets(null, 'eva', 'GOALS', 'trainee')).toEqual([]);
+  });
+  it('are told from the own one by the gateway, because two persons may have one name', () => {
+    const mine = { ...sheet('eva', false), yours: true };
+    const theirs = { ...sheet('eva', true), yours: false };
+    expect(ownSheet(notes(theirs, mine), 'eva', 'GOALS', 'trainee')).toBe(mine);
+    expect(othersSheets(notes(theirs, mine), 'eva', 'GOALS', 'trainee')).toEqual([]);
+    const closed = { ...mine, closed: true };
+    expect(othersSheets(notes(theirs, closed), 'eva', 'GOALS', 'trainee')).toEqual([theirs]);
   });
   it('belong to one scale and one person', () => {
     const closed = notes(

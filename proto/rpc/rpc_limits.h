@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/axes.h"
+
+/// Versions of the control connection, and bounds of its messages (proto/rpc/rpc_messages.h).
+namespace tandem::rpc {
+
+inline constexpr std::uint32_t kFrameVersion = 1;     ///< version of the frames
+inline constexpr std::uint32_t kProtocolVersion = 2;  ///< version of the whole protocol: handshake, frames, datagrams
+inline constexpr std::size_t kFrameMax = 65536;       ///< one frame without its length [bytes]
+inline constexpr std::size_t kTextMax = 480;          ///< texts for display [bytes of UTF-8 without control characters]
+inline constexpr double kLatencyMax = 1;              ///< of a device [s]
+inline constexpr std::size_t kNameMax = 32;           ///< names: A-Z a-z 0-9 _ -
+inline constexpr std::size_t kVersionsMax = 8;
+inline constexpr std::size_t kTicketMax = 512;  ///< more than a ticket has, so that a wrong length is a ticket error
+inline constexpr std::size_t kSessionCodeSize = 10;
+inline constexpr std::size_t kSessionsMax = 48, kListedSeatsMax = kSeatsMax;
+inline constexpr std::size_t kSceneTextMax = 49152;        ///< scene in a CreateSession [bytes]
+inline constexpr std::uint32_t kLifeMaxS = 86400;          ///< of a created session [s]
+inline constexpr std::size_t kNoteMax = 8192;              ///< JSON of a Note [bytes]
+inline constexpr std::size_t kHoldersMax = 2 * kSeatsMax;  ///< persons with a ticket in a CreateSession
+inline constexpr std::size_t kScenesMax = 256;             ///< names in a SceneList
+inline constexpr std::size_t kNotesMax = 64;               ///< notes in a NoteList
+inline constexpr std::size_t kNotesBytesMax = 49152;       ///< JSON of all notes in a NoteList [bytes]
+
+using Id = std::array<std::byte, 16>;
+
+}  // namespace tandem::rpc
