@@ -64,7 +64,7 @@ class WebStream {
   template <class Handler>
   friend void async_teardown(boost::beast::role_type, WebStream& stream, Handler&& handler) {
     boost::beast::error_code ignored;
-    stream.lowest().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    static_cast<void>(stream.lowest().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored));
     stream.lowest().expires_after(kDrain);
     Drain<std::decay_t<Handler>>{&stream, std::forward<Handler>(handler), std::make_unique<Bytes>()}({}, 0);
   }
