@@ -42,7 +42,7 @@ export class LessonPrograms {
     const config = join(place, 'lesson.textproto');
     writeFileSync(
       config,
-      `version: 1 listen: "127.0.0.1:0" state: "state" session { name: "lesson" scene: "${scene}" }`,
+      `version: 1 listen: "127.0.0.1:0" state: "state" session { name: "lesson" scene: "${scene}" duration_s: 3600 }`,
     );
     const host = run('tandem-server', 'serve', config);
     const server = await addressOf(host);
