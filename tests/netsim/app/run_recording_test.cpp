@@ -52,8 +52,8 @@ TEST_F(RunRecording, GivesTheTraceOfTheSameRun) {
            {"one_axis", {"--seed", "3"}},
            {"seed_contact", {}}}) {
     SCOPED_TRACE(scene);
-    std::vector<std::string> arguments{"run", scene, "--duration", "3", "--quiet", "--record", path("a.mcap"),
-                                       "--trace", path("a.csv")};
+    std::vector<std::string> arguments{"run",      scene,          "--duration", "3",          "--quiet",
+                                       "--record", path("a.mcap"), "--trace",    path("a.csv")};
     arguments.insert(arguments.end(), options.begin(), options.end());
     ASSERT_LE(netsim(arguments), 1) << err_;
     ASSERT_EQ(netsim({"trace", path("a.mcap"), "--output", path("b.csv")}), 0) << err_;
@@ -72,9 +72,9 @@ TEST_F(RunRecording, GivesTheSameBytesAgain) {
 }
 
 TEST_F(RunRecording, ReadsACutFileWithANote) {
-  ASSERT_LE(netsim({"run", "contact", "--duration", "2", "--quiet", "--record", path("a.mcap"), "--trace",
-                    path("a.csv")}),
-            1);
+  ASSERT_LE(
+      netsim({"run", "contact", "--duration", "2", "--quiet", "--record", path("a.mcap"), "--trace", path("a.csv")}),
+      1);
   std::filesystem::resize_file(path("a.mcap"), content("a.mcap").size() / 2);
   ASSERT_EQ(netsim({"trace", path("a.mcap"), "--output", path("b.csv")}), 0) << err_;
   EXPECT_NE(err_.find("has no undamaged end"), std::string::npos) << err_;
