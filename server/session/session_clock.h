@@ -40,6 +40,8 @@ class SessionClock {
   [[nodiscard]] Duration begin_step() noexcept { return std::exchange(step_, tick_length_); }
   /// Number of the server's tick; 0 for the first.
   [[nodiscard]] std::uint32_t tick() const noexcept { return tick_; }
+  /// A tick began already.
+  [[nodiscard]] bool ticked() const noexcept { return started_.has_value(); }
   [[nodiscard]] Time last_tick() const noexcept { return last_tick_; }
   /// Missed ticks that were not run.
   [[nodiscard]] std::uint64_t dropped_ticks() const noexcept { return dropped_ticks_; }
