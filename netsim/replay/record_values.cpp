@@ -35,6 +35,7 @@ void visit_record(const SceneSpec& scene, const server::TickRecord& record, Visi
     const std::string& seat = scene.seats[i].name;
     joints(seat, r.q);
     triple(seat, "measured_cp", r.x);
+    triple(seat, "measured_cv", r.v);
     triple(seat, "servo_cf", r.f_cmd);
     triple(seat, "measured_cf", r.f_out);
     energies(seat, "in_nj", r.e_in);
@@ -58,6 +59,7 @@ void visit_record(const SceneSpec& scene, const server::TickRecord& record, Visi
     triple(tool, "setpoint_cp", r.x_tool);
     triple(tool, "servo_cf", r.f_cmd);
     triple(tool, "measured_cf", r.f_env);
+    for (std::size_t i = 0; i < scene.masters(); ++i) visit(tool, "authority", "alpha", i + 1, r.alpha[i]);
     one(tool, "state", "penetration", r.penetration);
     one(tool, "state", "held", r.held ? 1 : 0);
     one(tool, "state", "sample_tick", r.sample_tick);
