@@ -8,9 +8,11 @@ class Command;
 namespace tandem::netsim {
 
 void add_control_command(const io::Command& root);   ///< sends a command to a running proxy
+void add_diff_command(const io::Command& root);      ///< compares two recordings
 void add_feel_command(const io::Command& root);      ///< measures what hands feel
 void add_profiles_command(const io::Command& root);  ///< lists or previews networks
 void add_proxy_command(const io::Command& root);     ///< puts a simulated network between live clients and a server
+void add_replay_command(const io::Command& root);    ///< replays the inputs of a recording
 void add_run_command(const io::Command& root);       ///< runs a whole session in virtual time
 void add_swarm_command(const io::Command& root);     ///< runs random sessions and checks every invariant
 void add_sweep_command(const io::Command& root);     ///< runs one scene over a grid of networks

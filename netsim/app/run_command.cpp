@@ -176,6 +176,8 @@ int run_command(const RunArguments& arguments) {
   setup.network = network->link;
   setup.monitor_quality = !arguments.no_quality;
   if (arguments.check) return check(arguments, setup, *network);
+  RunRecording recording{setup};
+  if (!arguments.record.empty()) setup.journal = &recording.journal();
   auto made = Simulation::make(setup);
   if (!made) return run_usage_error(made.error());
   const bool json_on_stdout = arguments.json == "-";
@@ -188,7 +190,6 @@ int run_command(const RunArguments& arguments) {
   RunLog log;
   if (const auto problem = log.open(arguments.log); !problem.empty()) return run_usage_error("--log: " + problem);
   log.attach(simulation.network());
-  RunRecording recording{setup};
   if (const auto problem = recording.open(arguments.record); !problem.empty())
     return run_usage_error("--record: " + problem);
   recording.attach(simulation);

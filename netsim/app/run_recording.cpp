@@ -1,6 +1,9 @@
 #include "netsim/app/run_recording.h"
 
+#include <span>
+
 #include "common/base/hex.h"
+#include "common/base/rng.h"
 #include "common/setup/channel_factory.h"
 #include "proto/text/scene_bytes.h"
 #include "server/recording/lesson_notes.h"
@@ -11,6 +14,7 @@ namespace tandem::netsim {
 namespace {
 
 constexpr double kLinkHz = 60;
+constexpr std::size_t kPieceMax = std::size_t{1} << 16;  // of inputs [bytes]
 
 server::RecordingInfo info_of(const SimulationConfig& setup) {
   server::RecordingInfo info;
@@ -24,7 +28,17 @@ server::RecordingInfo info_of(const SimulationConfig& setup) {
   return info;
 }
 
+/// The addresses of a simulation are not personal, so the seed gives the key: the same run gives the same bytes.
+transport::HashKey address_key(std::uint64_t seed) noexcept {
+  transport::HashKey key{};
+  for (std::size_t i = 0; i < key.size(); ++i) key[i] = static_cast<std::byte>(RandomKey{seed}.bits(i) & 0xff);
+  return key;
+}
+
 }  // namespace
+
+RunRecording::RunRecording(const SimulationConfig& setup)
+    : setup_(&setup), journal_(address_key(setup.seed)), piece_(kPieceMax) {}
 
 std::string RunRecording::open(const std::string& name) {
   std::string problem = file_.open(name, false);
@@ -52,7 +66,12 @@ void RunRecording::on_tick(const Simulation& simulation) {
     writer_->add_link(server::lesson_link(server::link_of(simulation.session(), simulation.now(), k % seats),
                                           simulation.record().tick));
   ++steps_;
+  take_inputs(simulation.record().tick);
   file_.write(writer_->take());
+}
+
+void RunRecording::take_inputs(std::uint32_t tick) {
+  while (const std::size_t size = journal_.drain(piece_)) writer_->add_inputs(tick, std::span{piece_}.first(size));
 }
 
 std::string RunRecording::close() {

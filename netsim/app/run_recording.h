@@ -1,12 +1,16 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/io/output_file.h"
 #include "netsim/system/simulation.h"
 #include "netsim/system/simulation_config.h"
 #include "server/recording/recording_writer.h"
+#include "server/session/input_journal.h"
 
 namespace tandem::netsim {
 
@@ -15,7 +19,10 @@ namespace tandem::netsim {
 class RunRecording {
  public:
   /// @param setup  of the simulation; outlives this object
-  explicit RunRecording(const SimulationConfig& setup) : setup_(&setup) {}
+  explicit RunRecording(const SimulationConfig& setup);
+
+  /// Journal of the session's inputs, for SimulationConfig::journal.
+  [[nodiscard]] server::InputJournal& journal() noexcept { return journal_; }
 
   /// Opens the file. @param name  empty: nothing is recorded
   /// @return the error; empty if there is none
@@ -28,7 +35,11 @@ class RunRecording {
   [[nodiscard]] std::string close();
 
  private:
+  void take_inputs(std::uint32_t tick);
+
   const SimulationConfig* setup_;
+  server::InputJournal journal_;
+  std::vector<std::byte> piece_;
   io::OutputFile file_;
   std::unique_ptr<server::RecordingWriter> writer_;
   std::uint64_t steps_ = 0;

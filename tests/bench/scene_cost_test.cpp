@@ -37,6 +37,19 @@ TEST(SceneCost, OfAConsoleThatWatchesIsAtMost3Percent) {
   EXPECT_GT(seen->all, alone->all) << "else no console watched";
 }
 
+TEST(SceneCost, OfRecordingAllInputsIsAtMost3Percent) {
+  if (std::string(TANDEM_SCENE_COST).empty())
+    GTEST_SKIP() << "the instructions are those of a release build for x86-64";
+  if (std::system("valgrind --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "valgrind is not installed";
+  const auto without = cost_of(TANDEM_SCENE_COST, row_of("recorded_contact")),
+             with = cost_of(TANDEM_SCENE_COST, row_of("inputs"));
+  ASSERT_TRUE(without && with) << "callgrind failed";
+  std::printf("[  figures ] instructions per client-tick: %.0f recorded, %.0f with all inputs\n", without->all,
+              with->all);
+  EXPECT_LE(with->all, 1.03 * without->all);
+  EXPECT_GT(with->all, without->all) << "else nothing was recorded";
+}
+
 TEST(SceneCost, ReadsCallgrindsFile) {
   std::istringstream file(
       "version: 1\npositions: line\nevents: Ir\n\nob=/usr/lib/libIPSec_MB.so.1\nfn=gcm\n0 100\n\n"

@@ -13,6 +13,8 @@
 #include "common/transport/secure_channel.h"
 #include "netsim/system/simulated_handshake.h"
 #include "server/app/process/local_slaves.h"
+#include "server/session/build_text.h"
+#include "server/session/input_journal.h"
 #include "server/session/session.h"
 #include "tests/bench/bench_clients.h"
 #include "tests/bench/instruction_count.h"
@@ -80,14 +82,22 @@ inline std::unique_ptr<client::SessionWatch> watcher_of(server::Session& session
 
 /// Runs `kSessions` sessions in memory, for callgrind. @return exit code
 /// @param watched  a console sees each session; true: a recorder
-inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watched, int ticks) {
+/// @param inputs   everything that enters a session is recorded; the journals are drained outside of the count
+inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watched, int ticks, bool inputs = false) {
   const std::size_t seats = scene.seats.size();
   std::vector<std::unique_ptr<server::Session>> sessions;
+  std::vector<std::unique_ptr<server::InputJournal>> journals;
+  std::vector<std::byte> drained(1 << 16);
+  std::size_t journal_bytes = 0;
   std::vector<std::unique_ptr<BareClient>> clients;
   std::vector<std::unique_ptr<client::SessionWatch>> watchers;
   Time now{std::chrono::hours(1)};
   for (std::size_t s = 0; s < kSessions; ++s) {
     sessions.push_back(session_of(scene, recorded));
+    if (inputs) {
+      journals.push_back(std::make_unique<server::InputJournal>(transport::HashKey{}));
+      if (!sessions.back()->attach_journal(*journals.back(), Time{}, server::build_text())) return 1;
+    }
     for (std::size_t i = 0; i < seats; ++i)
       clients.push_back(std::make_unique<BareClient>(
           *netsim::simulate_join(*sessions.back(), now, i, caps_of(scene, i), RandomKey{s}, i)));
@@ -112,6 +122,8 @@ inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watc
         in[count++].size = *size;
       }
     const std::size_t sent = serve_one_tick(sessions, seats, now, std::span{in}.first(count), out);
+    for (const auto& journal : journals)
+      while (const std::size_t size = journal->drain(drained)) journal_bytes += size;
     for (const Carried& d : std::span{out}.first(sent)) {
       const std::size_t to = client_at(d.address);
       const auto bytes = std::span{d.bytes}.first(d.size);
@@ -125,7 +137,10 @@ inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watc
     if (session->state() != wire::SessionState::kRunning) return 1;  // otherwise it measured waiting participants
   for (const auto& watcher : watchers)
     if (!watcher->newest()) return 1;
-  std::printf("%zu client-ticks\n", clients.size() * static_cast<std::size_t>(ticks));
+  for (const auto& journal : journals)
+    if (journal->dropped() > 0) return 1;
+  std::printf("%zu client-ticks, %zu bytes of inputs\n", clients.size() * static_cast<std::size_t>(ticks),
+              journal_bytes);
   return 0;
 }
 

@@ -1,0 +1,102 @@
+#include "netsim/replay/recording_replay.h"
+
+#include <algorithm>
+
+#include "common/mcap/mcap_reader.h"
+#include "common/mcap/message_cursor.h"
+#include "netsim/replay/journal_reader.h"
+#include "netsim/replay/record_values.h"
+#include "proto/recording/event_messages.h"
+#include "proto/recording/lesson_reader.h"
+#include "proto/recording/recording_format.h"
+#include "server/recording/lesson_record.h"
+
+namespace tandem::netsim {
+namespace {
+
+/// Compares the records of a replay with the rows of a lesson.
+class RowComparison {
+ public:
+  /// @param lesson  must outlive this  @param seats  rows have the values of seats as the server knew them
+  RowComparison(const Lesson& lesson, bool seats) : lesson_(&lesson), values_(lesson.scene), seats_(seats) {}
+
+  std::optional<ReplayDifference> operator()(const server::Session& session) {
+    const server::TickRecord& record = session.record();
+    if (!session.recorded() || (last_ ? record.tick <= *last_ : !record.running)) return std::nullopt;
+    last_ = record.tick;
+    while (row_ < lesson_->rows() && lesson_->tick[row_] < record.tick) ++row_;
+    if (row_ >= lesson_->rows() || lesson_->tick[row_] != record.tick) return std::nullopt;  // it was dropped
+    server::fill_record(*lesson_, row_, recorded_);
+    if (!seats_) {
+      recorded_.seats = record.seats;
+      for (std::size_t j = 0; j < lesson_->scene.tools.size(); ++j)
+        if (lesson_->scene.tools[j].remote) recorded_.tools[j] = record.tools[j];
+    }
+    ++rows_;
+    RecordValues::read(lesson_->scene, recorded_, before_);
+    RecordValues::read(lesson_->scene, record, now_);
+    return values_.difference(before_, now_);
+  }
+  [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
+
+ private:
+  const Lesson* lesson_;
+  RecordValues values_;
+  bool seats_;
+  std::size_t row_ = 0;
+  std::optional<std::uint32_t> last_;  ///< tick of the newest row, as RecordingWriter decides
+  std::uint64_t rows_ = 0;
+  server::TickRecord recorded_{};
+  std::vector<double> before_, now_;
+};
+
+/// Feeds all messages of the inputs. @return whether there are any
+bool feed(const mcap::Reader& reader, SessionReplay& replay, JournalReader& journal) {
+  mcap::MessageCursor cursor{reader};
+  bool any = false, more = true;
+  const auto apply = [&] {
+    while (auto event = journal.next())
+      if (!replay.apply(*event)) return false;
+    return journal.error().empty();
+  };
+  while (const auto message = more ? cursor.next() : std::nullopt) {
+    const mcap::Channel* const channel = cursor.channel(message->channel);
+    if (channel == nullptr || channel->topic != rec::kInputsTopic) continue;
+    any = true;
+    const auto inputs = rec::decode_inputs(message->data);
+    more = inputs && journal.add(inputs->data) && apply();
+  }
+  journal.finish();
+  if (more) apply();
+  return any;
+}
+
+}  // namespace
+
+std::expected<RecordingReplay, std::string> replay_recording(std::span<const std::byte> file) {
+  const auto lesson = read_lesson(file);
+  if (!lesson) return std::unexpected(lesson.error());
+  const auto reader = mcap::Reader::open(file);
+  if (!reader) return std::unexpected(reader.error().message);
+  RecordingReplay out;
+  out.session = lesson->session;
+  out.complete = lesson->complete;
+  out.seats_compared = !lesson->metadata.contains("seats");
+  if (lesson->rows() > 0) out.length_s = lesson->tick.back() / lesson->scene.tick_hz;
+  SessionReplay replay{lesson->scene};
+  RowComparison rows{*lesson, out.seats_compared};
+  replay.compare = [&](const server::Session& session) { return rows(session); };
+  JournalReader journal;
+  if (!feed(*reader, replay, journal))
+    return std::unexpected("has no inputs (channel " + std::string(rec::kInputsTopic) +
+                           "): the recording began after its session, or was made without them");
+  out.difference = replay.difference();
+  out.error = replay.error().empty() ? journal.error() : replay.error();
+  out.other_builds = replay.other_builds();
+  out.other_scene = !replay.same_scene();
+  out.counts = replay.counts();
+  out.rows = rows.rows();
+  return out;
+}
+
+}  // namespace tandem::netsim
