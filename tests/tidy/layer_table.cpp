@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 44> kLayers{{
+const std::array<Layer, 45> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -181,6 +181,12 @@ const std::array<Layer, 44> kLayers{{
       "netsim/system", "proto", "server"},
      {},
      "scenarios check text against a scene and judge reports: no JSON, no files; those belong to netsim/app"},
+    {"netsim/score",
+     {"common/base", "netsim/demo/captioned_figure.h", "netsim/demo/report_style.h", "netsim/plot", "netsim/score",
+      "proto/spec", "server/console/evaluation_sheets.h"},
+     {"Eigen", "boost", "json"},
+     "scores are computed from recorded lessons by pure functions: no session, files or clocks; those belong to "
+     "netsim/app"},
     {"netsim/testing",
      {"common", "netsim/engine", "netsim/profiles", "netsim/system", "netsim/testing", "proto", "server"},
      {"gtest"},
