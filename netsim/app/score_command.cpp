@@ -72,7 +72,8 @@ Scored score_files(const ScoreArguments& a, const std::vector<std::string>& path
   return out;
 }
 
-/// Returns the seat whose scores are compared: the named one, or the first trainee of the last lesson, or its first seat.
+/// Returns the seat whose scores are compared: the named one, or the first trainee of the last lesson, or its first
+/// seat.
 std::string learner_seat(const ScoreArguments& a, const Scored& lessons, io::UsageErrors& mistakes) {
   if (lessons.empty()) return a.seat;
   const std::vector<score::SeatScore>& seats = lessons.back().seats;
@@ -141,7 +142,8 @@ void add_score_command(const io::Command& root) {
                   "recordings: rows of --trace (with --scene), or tables of recorded motion; a folder: all of its "
                   "recordings")
       .value_name("FILE...");
-  command.add_option("--scene", a.scene, "scene of a trace: a file, or the name of a shipped scene").value_name("SCENE");
+  command.add_option("--scene", a.scene, "scene of a trace: a file, or the name of a shipped scene")
+      .value_name("SCENE");
   command.add_option("--seat", a.seat, "the learner's seat; default: the first trainee").value_name("SEAT");
   command
       .add_option("--experts", a.experts,
@@ -151,8 +153,7 @@ void add_score_command(const io::Command& root) {
       .add_option("--learner", a.learner,
                   "recordings of a learner's sessions, in time: learning curve and cumulative sum against the experts")
       .value_name("FILE...");
-  command
-      .add_option("--hands", a.hands, "two seats that are the hands of one person: LEFT,RIGHT; may be repeated")
+  command.add_option("--hands", a.hands, "two seats that are the hands of one person: LEFT,RIGHT; may be repeated")
       .value_name("SEAT,SEAT")
       .one_value();
   command.add_option("--authority", a.options.authority, "authority from which a seat holds the tool; default 0.5")
@@ -170,8 +171,7 @@ void add_score_command(const io::Command& root) {
   command.add_option("--json", a.json, "writes all scores; `-`: to standard output").value_name("FILE|-");
   command.add_option("--csv", a.csv, "writes one line per score; `-`: to standard output").value_name("FILE|-");
   command
-      .add_option("--html", a.html,
-                  "writes a report for the learner about the last recording; `-`: to standard output")
+      .add_option("--html", a.html, "writes a report for the learner about the last recording; `-`: to standard output")
       .value_name("FILE|-");
   command.add_flag("--quiet", a.quiet, "prints no tables");
   command.footer(

@@ -55,8 +55,7 @@ void set_interval(const MeanSquares& m, double n, double k, double confidence, C
   }
   const double fj = m.columns / m.error, a = n * (1 + (k - 1) * rho) - k * rho;
   const double above = k * rho * fj + a;
-  const double freedom =
-      (k - 1) * (n - 1) * above * above / ((n - 1) * k * k * rho * rho * fj * fj + a * a);
+  const double freedom = (k - 1) * (n - 1) * above * above / ((n - 1) * k * k * rho * rho * fj * fj + a * a);
   if (!(freedom > 0)) {
     icc.low = icc.high = std::numeric_limits<double>::quiet_NaN();
     return;
@@ -99,7 +98,8 @@ std::expected<Kappa, std::string> cohen_kappa(const Matrix& table) {
   for (std::size_t i = 0; i < n; ++i) {
     if (table[i].size() != n) return std::unexpected("the table of judgements is not square");
     for (std::size_t j = 0; j < n; ++j) {
-      if (!(table[i][j] >= 0) || !std::isfinite(table[i][j])) return std::unexpected("a count is negative or not finite");
+      if (!(table[i][j] >= 0) || !std::isfinite(table[i][j]))
+        return std::unexpected("a count is negative or not finite");
       all += table[i][j];
       first[i] += table[i][j];
       second[j] += table[i][j];

@@ -16,8 +16,8 @@ struct Correlation {
 
 /// Two-way random effects, absolute agreement: targets and evaluators are samples of larger sets.
 struct IntraclassCorrelation {
-  Correlation single;         ///< ICC(2,1): of one evaluator's rating
-  Correlation mean;           ///< ICC(2,k): of the mean of all evaluators
+  Correlation single;  ///< ICC(2,1): of one evaluator's rating
+  Correlation mean;    ///< ICC(2,k): of the mean of all evaluators
   std::size_t targets = 0, evaluators = 0;
   double confidence = 0.95;
 };

@@ -7,6 +7,7 @@ namespace tandem::netsim::score {
 namespace {
 
 constexpr double kNormal = 1.4826;  // standard deviation of a normal distribution over its median absolute deviation
+constexpr double kDeviationMin = 0.01;  // of the median: experts who differ by less set no finer mark
 
 /// A value that may be used, or NaN.
 double usable_value(const PartScore& part, Metric metric) {
@@ -21,7 +22,7 @@ Threshold threshold_from(std::vector<double> values, Better better) {
   if (values.size() < kExpertsMin || better == Better::kNeither) return out;
   out.median = median_of(values);
   for (double& v : values) v = std::abs(v - out.median);
-  out.deviation = median_of(values);
+  out.deviation = std::max(median_of(values), kDeviationMin * std::abs(out.median));
   out.pass_mark = out.median + (better == Better::kLow ? 1 : -1) * kNormal * out.deviation;
   return out;
 }
@@ -89,8 +90,7 @@ Cusum cusum(const std::vector<bool>& passed, const CusumOptions& o) {
 }
 
 std::vector<LearningCurve> learning_curves(std::span<const LessonScores> sessions, const std::string& seat,
-                                           const std::vector<PartThresholds>& thresholds,
-                                           const CusumOptions& options) {
+                                           const std::vector<PartThresholds>& thresholds, const CusumOptions& options) {
   std::vector<LearningCurve> out;
   for (const PartThresholds& part : thresholds)
     for (const MetricRow& row : metric_rows()) {

@@ -15,7 +15,7 @@ namespace tandem::netsim::score {
 struct Threshold {
   std::size_t experts = 0;  ///< lessons with a value that is not withheld
   double median = kUnknown;
-  double deviation = kUnknown;  ///< median absolute deviation from the median
+  double deviation = kUnknown;  ///< median absolute deviation from the median; at least 1 % of the median
   /// Median, moved to the worse side by 1.4826 deviations, which is one standard deviation of a normal distribution.
   double pass_mark = kUnknown;
   [[nodiscard]] bool exists() const noexcept { return pass_mark == pass_mark; }

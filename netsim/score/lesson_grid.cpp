@@ -20,8 +20,8 @@ void fill_unknown(std::vector<Value>& values, std::span<const Stretch> stretches
       if (!is_known(values[k])) continue;
       if (last != s.end && k - last > 1 && k - last <= longest)
         for (std::size_t g = last + 1; g < k; ++g)
-          values[g] = interpolated(values[last], values[k],
-                              static_cast<double>(g - last) / static_cast<double>(k - last));
+          values[g] =
+              interpolated(values[last], values[k], static_cast<double>(g - last) / static_cast<double>(k - last));
       last = k;
     }
   }
@@ -38,7 +38,8 @@ std::string lesson_problem(const Lesson& lesson) {
   if (!(lesson.scene.tick_hz > 0) || !std::isfinite(lesson.scene.tick_hz)) return "the scene has no tick rate";
   for (std::size_t k = 1; k < n; ++k)
     if (lesson.tick[k] <= lesson.tick[k - 1])
-      return "tick " + std::to_string(lesson.tick[k]) + " of row " + std::to_string(k + 1) + " is not above the one before";
+      return "tick " + std::to_string(lesson.tick[k]) + " of row " + std::to_string(k + 1) +
+             " is not above the one before";
   bool fits = true;
   const auto check = [&](const auto&... columns) { ((fits = fits && (columns.empty() || columns.size() == n)), ...); };
   check(lesson.time_ns, lesson.running, lesson.stopped_ticks, lesson.dropped_ticks);

@@ -71,7 +71,8 @@ std::expected<LessonScores, std::string> score_lesson(
     const std::vector<std::pair<std::string, std::string>>& one_person) {
   if (std::string problem = lesson_problem(lesson); !problem.empty()) return std::unexpected(std::move(problem));
   const LessonGrid grid(lesson, options.gap_flagged_s);
-  if (grid.size() == 0) return std::unexpected("the session clock never ran in this lesson, so there is nothing to score");
+  if (grid.size() == 0)
+    return std::unexpected("the session clock never ran in this lesson, so there is nothing to score");
 
   const std::size_t masters = lesson.scene.masters();
   std::vector<SeatTrack> seats;
@@ -79,9 +80,9 @@ std::expected<LessonScores, std::string> score_lesson(
   std::map<std::size_t, ToolData> tools;
   for (const SeatTrack& seat : seats) {
     if (tools.contains(seat.tool)) continue;
-    tools.emplace(seat.tool, ToolData{tool_track(lesson, grid, seat.tool, options),
-                                      parts_of(lesson, grid, seat.tool, options),
-                                      interventions_at(lesson, grid, seats, seat.tool, options)});
+    tools.emplace(seat.tool,
+                  ToolData{tool_track(lesson, grid, seat.tool, options), parts_of(lesson, grid, seat.tool, options),
+                           interventions_at(lesson, grid, seats, seat.tool, options)});
   }
 
   LessonScores out;
@@ -102,8 +103,8 @@ std::expected<LessonScores, std::string> score_lesson(
       continue;
     }
     const ToolData& tool = tools.at(track.tool);
-    SeatScore seat{track.seat, spec.name, lesson.seats[track.seat].person, spec.role,
-                   lesson.scene.tools[track.tool].name, {}};
+    SeatScore seat{
+        track.seat, spec.name, lesson.seats[track.seat].person, spec.role, lesson.scene.tools[track.tool].name, {}};
     for (const Part& part : tool.parts)
       seat.parts.push_back(score_part({lesson, grid, track, tool.track, part, options, tool.interventions}));
     out.seats.push_back(std::move(seat));
@@ -127,13 +128,16 @@ std::vector<std::string> conditions_of(const ScoreOptions& o) {
       format("Positions: low-pass at %g Hz, forces at %g Hz (Butterworth of order 4, without phase); tracking, force "
              "reflection and jumps: as recorded.",
              o.position_cutoff_hz, o.force_cutoff_hz),
-      format("Velocity: central difference of the filtered position. Jerk: third central difference. Spectra: averaged to "
-             "at most %g Hz. Smoothness: mean of the pieces of at least %g s, weighted with their duration.",
-             o.spectrum_rate_hz, o.segment_min_s),
+      format(
+          "Velocity: central difference of the filtered position. Jerk: third central difference. Spectra: averaged to "
+          "at most %g Hz. Smoothness: mean of the pieces of at least %g s, weighted with their duration.",
+          o.spectrum_rate_hz, o.segment_min_s),
       format("Idle below %g mm/s. Contact above %g N. Excess force above %g N. A seat holds a tool from authority %g.",
              1e3 * o.speed_min, o.force_contact, o.force_limit, o.authority),
-      format("Gaps up to %g ms are interpolated. Flagged: more than %g %% of the samples missing, a gap above %g ms, a gate "
-             "trip, force above the limit of the seat, an overdrawn energy account. Withheld: more than %g %% missing or a "
+      format("Gaps up to %g ms are interpolated. Flagged: more than %g %% of the samples missing, a gap above %g ms, a "
+             "gate "
+             "trip, force above the limit of the seat, an overdrawn energy account. Withheld: more than %g %% missing "
+             "or a "
              "gap above %g ms.",
              1e3 * o.gap_flagged_s, 100 * o.missing_flagged, 1e3 * o.gap_flagged_s, 100 * o.missing_withheld,
              1e3 * o.gap_withheld_s)};

@@ -18,7 +18,7 @@ namespace tandem::netsim::score {
 /// Scores of one hand in one part.
 struct PartScore {
   Part::Kind kind = Part::Kind::kWhole;
-  std::string key;    ///< of the Part
+  std::string key;  ///< of the Part
   std::string title;
   MetricValues values{};
   Quality quality;
@@ -48,7 +48,7 @@ struct NamedPair {
 };
 
 struct LessonScores {
-  std::string file;     ///< as the user named it
+  std::string file;  ///< as the user named it
   std::string session;
   double begin_s = 0, end_s = 0;  ///< session time of the first and after the last tick [s]
   double rate_hz = 0;

@@ -150,8 +150,13 @@ std::optional<Metric> metric_named(std::string_view key) noexcept {
 }
 
 std::string_view title_of(MetricGroup group) noexcept {
-  constexpr std::string_view kTitles[] = {"Motion of the hand", "Force on the hand", "Contact of the tool",
-                                          "Tracking and transparency", "Sharing", "Passivity", "Link"};
+  constexpr std::string_view kTitles[] = {"Motion of the hand",
+                                          "Force on the hand",
+                                          "Contact of the tool",
+                                          "Tracking and transparency",
+                                          "Sharing",
+                                          "Passivity",
+                                          "Link"};
   return kTitles[static_cast<std::size_t>(group)];
 }
 
@@ -161,7 +166,8 @@ std::string value_text(const MetricRow& row, double value) {
   if (shown == 0) return "0";
   if (std::abs(shown) >= 1e6 || std::abs(shown) < 1e-3) return format("%.2e", shown);
   const int before = static_cast<int>(std::floor(std::log10(std::abs(shown)) + 1e-12)) + 1;
-  return format("%.*f", row.si_unit == "1" && row.unit.empty() && shown == std::floor(shown) ? 0 : std::max(0, 3 - before),
+  return format("%.*f",
+                row.si_unit == "1" && row.unit.empty() && shown == std::floor(shown) ? 0 : std::max(0, 3 - before),
                 shown);
 }
 

@@ -97,11 +97,11 @@ enum class Better : std::uint8_t { kLow, kHigh, kNeither };
 struct MetricRow {
   Metric metric;
   MetricGroup group;
-  std::string_view key;         ///< in JSON and CSV
-  std::string_view title;       ///< in reports
-  std::string_view si_unit;     ///< in JSON and CSV; `1`: dimensionless
-  std::string_view unit;        ///< in reports
-  double factor;                ///< from SI to that unit
+  std::string_view key;      ///< in JSON and CSV
+  std::string_view title;    ///< in reports
+  std::string_view si_unit;  ///< in JSON and CSV; `1`: dimensionless
+  std::string_view unit;     ///< in reports
+  double factor;             ///< from SI to that unit
   Better better;
   std::string_view definition;  ///< one sentence
 };

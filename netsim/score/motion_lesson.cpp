@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kRowsMin = 5;
 constexpr double kStepMin = 1e-5, kStepMax = 0.1;  // [s] median
-constexpr double kStopTicks = 2;  // between two recordings
+constexpr double kStopTicks = 2;                   // between two recordings
 
 /// Three columns whose names differ in one letter.
 struct ColumnTriple {
@@ -83,9 +83,9 @@ std::expected<std::vector<MotionRow>, CsvError> rows_of(const CsvTable& table, s
       row.rec = *number;
     }
     if (!rows.empty() && rows.back().rec == row.rec && !(row.t > rows.back().t))
-      return std::unexpected(CsvError{table.line(r), time + 1,
-                                      table.columns()[time].name + format(": %.9g s is not after the row before, %.9g s",
-                                                                          row.t, rows.back().t)});
+      return std::unexpected(CsvError{
+          table.line(r), time + 1,
+          table.columns()[time].name + format(": %.9g s is not after the row before, %.9g s", row.t, rows.back().t)});
     rows.push_back(row);
   }
   return rows;
@@ -104,14 +104,14 @@ std::expected<Source, std::string> read_source(std::string_view csv, const std::
       time = found;
       factor = unit == "ms" ? 1e-3 : 1;
     }
-  if (!time)
-    return std::unexpected(file + ":1: no column of time; add t_s[s], t[s], time[s] or t_ms[ms]");
+  if (!time) return std::unexpected(file + ":1: no column of time; add t_s[s], t[s], time[s] or t_ms[ms]");
   source.hands = triples(source.table, "m", 1);
   for (ColumnTriple& in_mm : triples(source.table, "mm", 1e-3)) source.hands.push_back(std::move(in_mm));
   if (source.hands.empty())
-    return std::unexpected(file +
-                           ":1: no triple of positions in [m] or [mm], such as px_m[m],py_m[m],pz_m[m]; this file holds "
-                           "no motion to score");
+    return std::unexpected(
+        file +
+        ":1: no triple of positions in [m] or [mm], such as px_m[m],py_m[m],pz_m[m]; this file holds "
+        "no motion to score");
   if (source.hands.size() > kMastersMax)
     return std::unexpected(file + ":1: " + std::to_string(source.hands.size()) + " triples of positions; at most " +
                            std::to_string(kMastersMax) + " can be scored");
@@ -137,8 +137,8 @@ std::expected<Source, std::string> read_source(std::string_view csv, const std::
   std::ranges::nth_element(steps, middle);
   source.step_s = *middle;
   if (source.step_s < kStepMin || source.step_s > kStepMax)
-    return std::unexpected(file + format(": the median step is %.6g s; allowed are %g to %g s", source.step_s, kStepMin,
-                                         kStepMax));
+    return std::unexpected(
+        file + format(": the median step is %.6g s; allowed are %g to %g s", source.step_s, kStepMin, kStepMax));
   return source;
 }
 
@@ -268,8 +268,8 @@ std::expected<Lesson, std::string> read_motion(std::string_view csv, const std::
     const std::uint32_t first = next;
     next = writer.write(begin, end, first);
     if (begin > 0 || end < rows.size())
-      lesson.scene.phases.push_back({format("rec %g", rows[begin].rec), first / lesson.scene.tick_hz,
-                                     next / lesson.scene.tick_hz, false});
+      lesson.scene.phases.push_back(
+          {format("rec %g", rows[begin].rec), first / lesson.scene.tick_hz, next / lesson.scene.tick_hz, false});
     begin = end;
   }
   return lesson;

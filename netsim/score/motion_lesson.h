@@ -12,8 +12,8 @@ namespace tandem::netsim::score {
 ///
 /// The first line is `name[unit],...`. Needed: a column of time, `t_s[s]`, `t[s]`, `time[s]` or `t_ms[ms]`, and one
 /// triple of positions in [m] or [mm]: names that differ in one letter x, y, z, such as `px_m`, `py_m`, `pz_m`. Each
-/// triple is the hand of a seat named after it. A triple of forces in [N] belongs to the seat whose name begins with the
-/// same word, or to the only seat. Rows of another `rec[1]` are another recording: a phase, after a stop.
+/// triple is the hand of a seat named after it. A triple of forces in [N] belongs to the seat whose name begins with
+/// the same word, or to the only seat. Rows of another `rec[1]` are another recording: a phase, after a stop.
 ///
 /// The rate is that of the median step. A tick has a row if a row of the file is within half a step; its values are
 /// interpolated linearly. Other ticks are gaps, so uneven steps of a logger show as missing samples. An empty position

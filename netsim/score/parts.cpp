@@ -39,7 +39,8 @@ std::vector<Part> parts_of(const Lesson& lesson, const LessonGrid& grid, std::si
     }
     add_part(parts, {Part::Kind::kHeldBy, "held:" + seat.name, seat.name + " holds the tool", std::move(mask)});
   }
-  if (authority_known) add_part(parts, {Part::Kind::kShared, "shared", "No seat holds the tool alone", std::move(none)});
+  if (authority_known)
+    add_part(parts, {Part::Kind::kShared, "shared", "No seat holds the tool alone", std::move(none)});
   for (const PhaseSpec& phase : lesson.scene.phases) {
     std::vector<std::uint8_t> mask(n);
     for (std::size_t k = 0; k < n; ++k) mask[k] = grid.time(k) >= phase.from - 1e-9 && grid.time(k) < phase.to - 1e-9;

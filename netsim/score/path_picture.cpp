@@ -13,8 +13,8 @@ namespace tandem::netsim::score {
 namespace {
 
 constexpr double kWidth = 640, kDrawing = 560, kMargin = 40, kLegendRow = 22;
-constexpr double kBoxMin = 0.010;         // [m] shortest edge of the box
-constexpr std::size_t kPointsMax = 1500;  // per piece
+constexpr double kBoxMin = 0.010;                            // [m] shortest edge of the box
+constexpr std::size_t kPointsMax = 1500;                     // per piece
 constexpr double kCosine = 0.8660254037844386, kSine = 0.5;  // of 30 degrees
 
 /// Bounding box and projection.
@@ -109,9 +109,10 @@ std::string frame_of(const Isometric& box) {
 
 std::string end_dot(const Isometric& box, const LessonTriple& p, const char* label) {
   const plot::Point2 at = box.at(p);
-  return format("<circle class=\"dot\" cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\"/><text class=\"note\" x=\"%.1f\" y=\"%.1f\">%s"
-                "</text>",
-                at.x, at.y, at.x + 8, at.y - 6, label);
+  return format(
+      "<circle class=\"dot\" cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\"/><text class=\"note\" x=\"%.1f\" y=\"%.1f\">%s"
+      "</text>",
+      at.x, at.y, at.x + 8, at.y - 6, label);
 }
 
 }  // namespace
@@ -135,9 +136,10 @@ std::string isometric_picture(const std::vector<PathPiece>& pieces, const std::s
             plot::escaped(piece.label) + "</text>";
     y += kLegendRow;
   }
-  return format("<svg class=\"figure isometric\" viewBox=\"0 0 %g %.0f\" role=\"img\" "
-                "xmlns=\"http://www.w3.org/2000/svg\"><title>",
-                kWidth, y) +
+  return format(
+             "<svg class=\"figure isometric\" viewBox=\"0 0 %g %.0f\" role=\"img\" "
+             "xmlns=\"http://www.w3.org/2000/svg\"><title>",
+             kWidth, y) +
          plot::escaped(description) + "</title>" + body + "</svg>\n";
 }
 

@@ -9,8 +9,8 @@ namespace tandem::netsim::score {
 
 /// A piece of a path with one colour.
 struct PathPiece {
-  std::string ink;    ///< class of netsim/plot/plot_style.h
-  std::string label;  ///< in the legend, once per picture
+  std::string ink;                   ///< class of netsim/plot/plot_style.h
+  std::string label;                 ///< in the legend, once per picture
   std::vector<LessonTriple> points;  ///< [m]
 };
 

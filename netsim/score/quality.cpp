@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint8_t kReleasing = 4, kLatched = 5, kFault = 6;  // wire::GateState
 constexpr double kClipTolerance = 1e-6;                           // [N]
 
-/// Counts ticks of a part without a new sample, and the longest time between two new ones. Ticks before the seat's first
-/// sample and after its last one do not count: the participant was not there.
+/// Counts ticks of a part without a new sample, and the longest time between two new ones. Ticks before the seat's
+/// first sample and after its last one do not count: the participant was not there.
 void count_gaps(const PartInput& in, Quality& quality) {
   const LessonGrid& grid = in.grid;
   const LessonSeat& seat = in.lesson.seats[in.seat.seat];
@@ -79,7 +79,8 @@ void add_doubts(const ScoreOptions& options, double force_limit, Quality& q) {
   };
   if (q.missing_share > options.missing_flagged)
     add(q.missing_share > options.missing_withheld, measured,
-        format("%.3g %% of the samples are missing (limit %g %%)", 100 * q.missing_share, 100 * options.missing_flagged));
+        format("%.3g %% of the samples are missing (limit %g %%)", 100 * q.missing_share,
+               100 * options.missing_flagged));
   if (q.longest_gap_s > options.gap_flagged_s * (1 + 1e-9))
     add(q.longest_gap_s > options.gap_withheld_s, measured,
         format("the longest gap between two samples is %.4g ms (limit %g ms)", 1e3 * q.longest_gap_s,

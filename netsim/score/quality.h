@@ -22,13 +22,13 @@ struct Doubt {
 };
 
 struct Quality {
-  double expected_s = 0;       ///< time of the part, ticks without rows included [s]
-  double missing_share = 0;    ///< ticks without a new sample of this seat [0, 1]
-  double longest_gap_s = 0;    ///< between two new samples; a clean signal has one tick [s]
+  double expected_s = 0;        ///< time of the part, ticks without rows included [s]
+  double missing_share = 0;     ///< ticks without a new sample of this seat [0, 1]
+  double longest_gap_s = 0;     ///< between two new samples; a clean signal has one tick [s]
   bool freshness_known = true;  ///< false: the file does not state which samples are new, so only missing rows count
-  bool gate_known = true;      ///< false: the file states neither the gate's state nor its trips
+  bool gate_known = true;       ///< false: the file states neither the gate's state nor its trips
   std::uint32_t gate_trips = 0;
-  double clipped_share = 0;    ///< ticks in which the commanded force was above the limit of the seat [0, 1]
+  double clipped_share = 0;        ///< ticks in which the commanded force was above the limit of the seat [0, 1]
   double margin_min_j = kUnknown;  ///< least passivity margin so far [J]; below 0: the account was overdrawn
   std::vector<Doubt> doubts;
 };

@@ -13,9 +13,9 @@ namespace tandem::netsim::score {
 
 /// Total of one sheet.
 struct SheetTotal {
-  std::string lesson;          ///< file
-  std::string scale, of, by;   ///< scale; seat; evaluator
-  double total = 0;            ///< of the rated items
+  std::string lesson;         ///< file
+  std::string scale, of, by;  ///< scale; seat; evaluator
+  double total = 0;           ///< of the rated items
   std::size_t rated = 0, items = 0;
   double least = 0, most = 0;  ///< possible totals of all items
   bool closed = false;
@@ -26,7 +26,7 @@ struct SheetTotal {
 struct ScaleAgreement {
   std::string scale;
   std::vector<std::string> evaluators;
-  std::size_t targets = 0;  ///< seats of lessons that all of them rated; CHECKLIST: items of these
+  std::size_t targets = 0;                      ///< seats of lessons that all of them rated; CHECKLIST: items of these
   std::optional<IntraclassCorrelation> totals;  ///< of the totals; not for CHECKLIST
   std::optional<Kappa> kappa;                   ///< CHECKLIST: Cohen's for two evaluators, Fleiss' for more
   std::string missing;                          ///< why a number is missing

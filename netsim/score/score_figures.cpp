@@ -8,8 +8,8 @@
 namespace tandem::netsim::score {
 namespace {
 
-constexpr std::size_t kPiecesMax = 400;      // of a path; later changes of the holder keep the colour
-constexpr double kBandGap = 0.004;           // of the duration: contacts with less time between them are one band
+constexpr std::size_t kPiecesMax = 400;  // of a path; later changes of the holder keep the colour
+constexpr double kBandGap = 0.004;       // of the duration: contacts with less time between them are one band
 constexpr std::size_t kCurvesOfAuthority = 8;
 
 std::vector<plot::Point2> over_time(const LessonGrid& grid, const std::vector<double>& values, double factor) {
@@ -74,8 +74,7 @@ plot::Curve curve_of(std::string label, std::string ink, std::vector<plot::Point
 
 SeatView::SeatView(const Lesson& of, const LessonScores& with, std::size_t own_seat)
     : lesson(of), scores(with), grid(of, with.options.gap_flagged_s), own(own_seat) {
-  for (std::size_t i = 0; i < lesson.scene.masters(); ++i)
-    seats.push_back(seat_track(lesson, grid, i, scores.options));
+  for (std::size_t i = 0; i < lesson.scene.masters(); ++i) seats.push_back(seat_track(lesson, grid, i, scores.options));
   tool = tool_track(lesson, grid, seats[own].tool, scores.options);
   parts = parts_of(lesson, grid, seats[own].tool, scores.options);
 }
@@ -168,8 +167,8 @@ plot::Figure time_figure(const SeatView& view) {
   plot::Panel& force = figure.panels.back();
   force.bands = contact_bands(view);
   if (std::ranges::any_of(view.tool.force, [](double f) { return std::isfinite(f); }))
-    force.curves.push_back(curve_of("force of the environment on the tool", "slave",
-                                    over_time(view.grid, view.tool.force, 1)));
+    force.curves.push_back(
+        curve_of("force of the environment on the tool", "slave", over_time(view.grid, view.tool.force, 1)));
   force.curves.push_back(curve_of("force on the hand", "series0", over_time(view.grid, hand.force, 1)));
   force.y = plot::range_of(force.curves, true, 0.5);
   force.y->lo = 0;
@@ -181,8 +180,8 @@ plot::Figure time_figure(const SeatView& view) {
   for (std::size_t i = 0; i < view.seats.size() && authority.curves.size() < kCurvesOfAuthority; ++i) {
     if (view.seats[i].tool != hand.tool) continue;
     const std::string ink = i == view.own ? "series0" : "series" + std::to_string(1 + authority.curves.size() % 7);
-    authority.curves.push_back(curve_of("authority of " + view.lesson.scene.seats[i].name, ink,
-                                        over_time(view.grid, view.seats[i].alpha, 1)));
+    authority.curves.push_back(
+        curve_of("authority of " + view.lesson.scene.seats[i].name, ink, over_time(view.grid, view.seats[i].alpha, 1)));
   }
   for (const NamedIntervention& i : view.scores.interventions)
     authority.verticals.push_back({i.from_s, i.seat + " takes over"});
@@ -208,10 +207,12 @@ plot::Figure curves_figure(const ScoreResult& result, std::size_t most) {
     panel.y_label = row.unit.empty() ? "" : "[" + std::string(row.unit) + "]";
     panel.height = 130;
     const double last = static_cast<double>(curve.points.size());
-    panel.curves.push_back(curve_of("experts' median", "slave", {{1, curve.threshold.median * row.factor},
-                                                                 {last, curve.threshold.median * row.factor}}));
-    panel.curves.push_back(curve_of("pass mark", "series5", {{1, curve.threshold.pass_mark * row.factor},
-                                                             {last, curve.threshold.pass_mark * row.factor}}));
+    panel.curves.push_back(
+        curve_of("experts' median", "slave",
+                 {{1, curve.threshold.median * row.factor}, {last, curve.threshold.median * row.factor}}));
+    panel.curves.push_back(
+        curve_of("pass mark", "series5",
+                 {{1, curve.threshold.pass_mark * row.factor}, {last, curve.threshold.pass_mark * row.factor}}));
     panel.curves.push_back(curve_of("learner", "series0", std::move(points)));
     figure.panels.push_back(std::move(panel));
   }

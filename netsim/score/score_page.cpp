@@ -32,11 +32,11 @@ svg.isometric { max-width: 640px; margin: 0 auto; } ul.doubts { color: var(--mis
 @media (max-width: 640px) { table.scores, table.scores tbody { display: block; } table.scores thead { display: none; }
   table.scores tr { display: grid; grid-template-columns: 1fr auto; gap: 0 10px; padding: 7px 0; border-bottom: 1px solid var(--grid); }
   table.scores td { border: 0; padding: 1px 0; white-space: normal; } table.scores td:first-child { font-weight: 600; }
-  table.scores td:nth-child(2) { grid-column: 1 / 3; order: 9; font-size: 13px; } table.scores td:nth-child(4)::before { content: "holding the tool: "; color: var(--soft); }
-  table.scores td:nth-child(4), table.scores td:nth-child(5), table.scores td:nth-child(6), table.scores td:nth-child(7) { grid-column: 1 / 3; text-align: left; font-size: 13px; }
-  table.scores td:nth-child(5):not(:empty)::before { content: "experts' median: "; color: var(--soft); } table.scores td:nth-child(6):not(:empty)::before { content: "pass mark: "; color: var(--soft); } }
+  table.scores td:nth-child(2) { grid-column: 1 / 3; order: 9; font-size: 13px; max-width: none; }
+  table.scores td.held, table.scores td.median, table.scores td.mark, table.scores td.standing { grid-column: 1 / 3; text-align: left; font-size: 13px; }
+  td.held::before { content: "holding the tool: "; color: var(--soft); } td.median::before { content: "experts' median: "; color: var(--soft); } td.mark::before { content: "pass mark: "; color: var(--soft); } }
 @media print { @page { size: A4; margin: 14mm; } h2 { break-after: avoid; margin-top: 20pt; } tr { break-inside: avoid; } table.scores td:nth-child(2) { max-width: none; }
-  svg.isometric { max-width: 105mm; } .tiles { grid-template-columns: repeat(4, 1fr); } .tile b { font-size: 15pt; } }
+  table.compared td:nth-child(2), table.compared th:nth-child(2) { display: none; } svg.isometric { max-width: 105mm; } .tiles { grid-template-columns: repeat(4, 1fr); } .tile b { font-size: 15pt; } }
 )css";
 
 std::string tile(const PartScore& part, Metric metric) {
@@ -68,6 +68,8 @@ std::string headline(const SeatScore& seat, const PartScore& whole) {
                      std::string(to_text(access_role(seat.role))) + ")";
   if (std::isfinite(share)) text += format(" had %.0f %% of the authority over the tool", 100 * share);
   text += ". ";
+  if (worst == Trust::kGood && (!whole.quality.freshness_known || !whole.quality.gate_known))
+    return text + "As far as this recording states it, link and data were good.";
   constexpr const char* kWords[] = {"Link and data were good: all scores count.",
                                     "Some scores are flagged (!): the reasons are below the table.",
                                     "Too much data is missing: the scores concerned are withheld."};
@@ -85,10 +87,12 @@ std::string introduction(const ScoreResult& result, const LessonScores& lesson, 
                      escaped(version) + ".</p>\n<div class=\"tiles\">\n";
   for (const Metric metric : {Metric::kTime, Metric::kPathLength, Metric::kForcePeak, Metric::kSparc})
     html += tile(whole, metric);
-  html += "</div>\n<nav><a href=\"#scores\">Scores</a><a href=\"#path\">Path</a><a href=\"#time\">Force and "
-          "authority</a><a href=\"#events\">Events</a>";
+  html +=
+      "</div>\n<nav><a href=\"#scores\">Scores</a><a href=\"#path\">Path</a><a href=\"#time\">Force and "
+      "authority</a><a href=\"#events\">Events</a>";
   if (!result.curves.empty()) html += "<a href=\"#progress\">Progress</a>";
-  return html + "<a href=\"#link\">Link</a><a href=\"#evaluators\">Evaluators</a><a href=\"#all\">All scores</a></nav>\n";
+  return html +
+         "<a href=\"#link\">Link</a><a href=\"#evaluators\">Evaluators</a><a href=\"#all\">All scores</a></nav>\n";
 }
 
 std::string pairs_html(const LessonScores& lesson, const std::string& seat) {
@@ -97,12 +101,14 @@ std::string pairs_html(const LessonScores& lesson, const std::string& seat) {
     if (pair.first != seat && pair.second != seat) continue;
     const std::string names = escaped(pair.first) + " and " + escaped(pair.second);
     if (std::isfinite(pair.score.conflict))
-      html += "<p>" + names + format(": the forces on both hands opposed each other by %.0f %% in %.1f s of common force.",
-                                     100 * pair.score.conflict, pair.score.both_feel_s) +
+      html += "<p>" + names +
+              format(": the forces on both hands opposed each other by %.0f %% in %.1f s of common force.",
+                     100 * pair.score.conflict, pair.score.both_feel_s) +
               "</p>\n";
     if (std::isfinite(pair.score.both_move_share))
-      html += "<p>" + names + format(", two hands of one person: both moved in %.0f %% of the time in which one did.",
-                                     100 * pair.score.both_move_share) +
+      html += "<p>" + names +
+              format(", two hands of one person: both moved in %.0f %% of the time in which one did.",
+                     100 * pair.score.both_move_share) +
               "</p>\n";
   }
   return html;
@@ -111,8 +117,7 @@ std::string pairs_html(const LessonScores& lesson, const std::string& seat) {
 std::string definitions_html(const SeatScore& seat) {
   std::string html = "<dl class=\"soft\">\n";
   for (const MetricRow& row : metric_rows())
-    if (std::ranges::any_of(seat.parts,
-                            [&](const PartScore& p) { return std::isfinite(of(p.values, row.metric)); }))
+    if (std::ranges::any_of(seat.parts, [&](const PartScore& p) { return std::isfinite(of(p.values, row.metric)); }))
       html += "<dt>" + std::string(row.title) + "</dt><dd>" + std::string(row.definition) + "</dd>\n";
   return html + "</dl>\n";
 }
@@ -141,17 +146,17 @@ std::string score_page(const Lesson& lesson, const ScoreResult& result, const st
   html += "<header>\n" + introduction(result, scores, *seat, version) + "</header>\n<main>\n<h2 id=\"scores\">Scores" +
           (result.thresholds.empty() ? "" : " against " + std::to_string(result.experts) + " expert recordings") +
           "</h2>\n" + main_scores_html(result, *seat) + pairs_html(scores, seat->name);
-  html += "<h2 id=\"path\">Path</h2>\n<figure>" +
-          isometric_picture(path_pieces(view), "Path of the hand and of the tool in space") +
-          "<figcaption>Path of the hand in space, seen from the right front above; its shadow lies on the "
-          "floor.</figcaption></figure>\n" +
-          demo::to_html({"planes", "Path in three planes", "The same path from three sides.", planes_figure(view)},
-                        "path");
+  html +=
+      "<h2 id=\"path\">Path</h2>\n<figure>" +
+      isometric_picture(path_pieces(view), "Path of the hand and of the tool in space") +
+      "<figcaption>Path of the hand in space, seen from the right front above; its shadow lies on the "
+      "floor.</figcaption></figure>\n" +
+      demo::to_html({"planes", "Path in three planes", "The same path from three sides.", planes_figure(view)}, "path");
   html += "<h2 id=\"time\">Force and authority</h2>\n" +
-          demo::to_html({"time", "Over the session",
-                         "Contact of the tool is shaded. Red marks below the speed are missing samples.",
-                         time_figure(view)},
-                        "force");
+          demo::to_html(
+              {"time", "Over the session",
+               "Contact of the tool is shaded. Red marks below the speed are missing samples.", time_figure(view)},
+              "force");
   html += "<h2 id=\"events\">Events</h2>\n" + events_html(lesson, scores);
   if (!result.curves.empty()) {
     html += "<h2 id=\"progress\">Progress</h2>\n" + progress_html(result);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "common/base/format.h"
 #include "netsim/plot/svg_plot.h"
@@ -14,13 +15,14 @@ namespace {
 using plot::escaped;
 
 constexpr std::size_t kEventsMax = 200;
+constexpr std::size_t kColumnsMax = 6;  // parts side by side on A4
 
 /// Scores that a learner reads first.
-constexpr std::array kMainMetrics{Metric::kTime,          Metric::kIdleTime,          Metric::kPathLength,
-                                  Metric::kStraightShare, Metric::kLogJerk,           Metric::kSparc,
-                                  Metric::kForcePeak,     Metric::kForceMean,         Metric::kExcessTime,
-                                  Metric::kForceRatePeak, Metric::kContactForcePeak,  Metric::kPenetrationMax,
-                                  Metric::kTracking,      Metric::kTrackingNoDelay,   Metric::kReflectionError,
+constexpr std::array kMainMetrics{Metric::kTime,          Metric::kIdleTime,         Metric::kPathLength,
+                                  Metric::kStraightShare, Metric::kLogJerk,          Metric::kSparc,
+                                  Metric::kForcePeak,     Metric::kForceMean,        Metric::kExcessTime,
+                                  Metric::kForceRatePeak, Metric::kContactForcePeak, Metric::kPenetrationMax,
+                                  Metric::kTracking,      Metric::kTrackingNoDelay,  Metric::kReflectionError,
                                   Metric::kHandoverJump,  Metric::kAuthorityShare};
 
 std::string cell(const std::string& text, const char* kind = "") {
@@ -32,11 +34,14 @@ std::string value_html(const PartScore* part, const MetricRow& row) {
   const double value = of(part->values, row.metric);
   const MetricTrust trust = trust_in(part->quality, row.metric, value);
   switch (trust.trust) {
-    case Trust::kGood: return escaped(value_with_unit(row, value));
+    case Trust::kGood:
+      return escaped(value_with_unit(row, value));
     case Trust::kFlagged:
       return escaped(value_with_unit(row, value)) + " <abbr title=\"" + escaped(trust.reason) + "\">!</abbr>";
-    case Trust::kWithheld: return "<abbr title=\"" + escaped(trust.reason) + "\">withheld</abbr>";
-    case Trust::kAbsent: break;
+    case Trust::kWithheld:
+      return "<abbr title=\"" + escaped(trust.reason) + "\">withheld</abbr>";
+    case Trust::kAbsent:
+      break;
   }
   return "–";
 }
@@ -70,28 +75,30 @@ std::string main_scores_html(const ScoreResult& result, const SeatScore& seat) {
   const bool compared = !result.thresholds.empty();
   const PartScore* const whole = seat.part("whole");
   const PartScore* const held = seat.part("held:" + seat.name);
-  std::string html =
-      "<div class=\"scroll\"><table class=\"scores\"><thead><tr><th>Score</th><th>Definition</th><th>Whole "
-      "lesson</th><th>While " +
-      escaped(seat.name) + " holds the tool</th>";
-  if (compared) html += "<th>Experts' median</th><th>Pass mark</th><th>Compared with the experts</th>";
+  std::string html = "<div class=\"scroll\"><table class=\"scores" + std::string(compared ? " compared" : "") +
+                     "\"><thead><tr><th>Score</th><th>Definition</th><th>Whole lesson</th>";
+  if (held != nullptr) html += "<th>While " + escaped(seat.name) + " holds the tool</th>";
+  if (compared) html += "<th>Experts' median</th><th>Pass mark</th><th class=\"words\">Compared with the experts</th>";
   html += "</tr></thead><tbody>\n";
   for (const Metric metric : kMainMetrics) {
     if (!exists(seat, metric)) continue;
     const MetricRow& row = row_of(metric);
     html += "<tr><td>" + std::string(row.title) + "</td>" + cell(escaped(row.definition), "words") +
-            cell(value_html(whole, row)) + cell(value_html(held, row));
+            cell(value_html(whole, row));
+    if (held != nullptr) html += cell(value_html(held, row), "held");
     const Threshold* const threshold = compared ? threshold_of(result.thresholds, "whole", metric) : nullptr;
     if (threshold != nullptr && whole != nullptr) {
       const double value = of(whole->values, metric);
       const Trust trust = trust_in(whole->quality, metric, value).trust;
       const bool shown = trust == Trust::kGood || trust == Trust::kFlagged;
       const bool passed = shown && passes(*threshold, metric, value);
-      html += cell(escaped(value_with_unit(row, threshold->median))) +
-              cell(escaped(value_with_unit(row, threshold->pass_mark))) +
+      html += cell(escaped(value_with_unit(row, threshold->median)), "median") +
+              cell(escaped(value_with_unit(row, threshold->pass_mark)), "mark") +
               cell(shown ? std::string(passed ? "✓ " : "✗ ") + escaped(standing_text(*threshold, metric, value))
                          : "not compared: the value is " + std::string(to_text(trust)),
-                   !shown ? "words" : passed ? "words met" : "words missed");
+                   !shown   ? "words"
+                   : passed ? "words met"
+                            : "words missed");
     } else if (compared) {
       html += "<td></td><td></td><td></td>";
     }
@@ -101,23 +108,28 @@ std::string main_scores_html(const ScoreResult& result, const SeatScore& seat) {
 }
 
 std::string all_scores_html(const SeatScore& seat) {
-  std::string html = "<div class=\"scroll\"><table class=\"all\"><thead><tr><th>Score</th>";
-  for (const PartScore& part : seat.parts) html += "<th>" + escaped(part.title) + "</th>";
-  html += "</tr></thead><tbody>\n";
-  auto group = MetricGroup::kLink;
-  bool first = true;
-  for (const MetricRow& row : metric_rows()) {
-    if (!exists(seat, row.metric)) continue;
-    if (first || row.group != group)
-      html += format("<tr class=\"section\"><th colspan=\"%zu\">", seat.parts.size() + 1) +
-              std::string(title_of(row.group)) + "</th></tr>\n";
-    first = false;
-    group = row.group;
-    html += "<tr><td>" + std::string(row.title) + "</td>";
-    for (const PartScore& part : seat.parts) html += cell(value_html(&part, row));
-    html += "</tr>\n";
+  std::string html;
+  for (std::size_t from = 0; from < seat.parts.size(); from += kColumnsMax) {
+    const auto parts = std::span(seat.parts).subspan(from, std::min(kColumnsMax, seat.parts.size() - from));
+    html += "<div class=\"scroll\"><table class=\"all\"><thead><tr><th>Score</th>";
+    for (const PartScore& part : parts) html += "<th>" + escaped(part.title) + "</th>";
+    html += "</tr></thead><tbody>\n";
+    auto group = MetricGroup::kLink;
+    bool first = true;
+    for (const MetricRow& row : metric_rows()) {
+      if (!exists(seat, row.metric)) continue;
+      if (first || row.group != group)
+        html += format("<tr class=\"section\"><th colspan=\"%zu\">", parts.size() + 1) +
+                std::string(title_of(row.group)) + "</th></tr>\n";
+      first = false;
+      group = row.group;
+      html += "<tr><td>" + std::string(row.title) + "</td>";
+      for (const PartScore& part : parts) html += cell(value_html(&part, row));
+      html += "</tr>\n";
+    }
+    html += "</tbody></table></div>\n";
   }
-  return html + "</tbody></table></div>\n";
+  return html;
 }
 
 std::string link_html(const LessonScores& lesson) {
@@ -125,8 +137,9 @@ std::string link_html(const LessonScores& lesson) {
                                 Metric::kGapUp,       Metric::kGapDown,     Metric::kGateTrips};
   const bool measured = std::ranges::any_of(
       lesson.seats, [&](const SeatScore& s) { return exists(s, Metric::kRoundTrip50) || exists(s, Metric::kGapUp); });
-  std::string html = "<div class=\"scroll\"><table class=\"links\"><thead><tr><th>Seat</th><th>Data</th><th>Missing "
-                     "samples</th><th>Longest gap</th>";
+  std::string html =
+      "<div class=\"scroll\"><table class=\"links\"><thead><tr><th>Seat</th><th>Data</th><th>Missing "
+      "samples</th><th>Longest gap</th>";
   for (const Metric metric : kMetrics)
     if (measured) html += "<th>" + std::string(row_of(metric).title) + "</th>";
   html += "</tr></thead><tbody>\n";
@@ -154,13 +167,14 @@ std::string events_html(const Lesson& lesson, const LessonScores& scores) {
   };
   std::vector<Row> rows;
   for (const NamedIntervention& i : scores.interventions)
-    rows.push_back({i.from_s, i.seat + " takes the tool from " + i.from_seat +
-                                  format(" for %.1f s; cause: ", i.to_s - i.from_s) + i.cause +
-                                  (std::isfinite(i.opposition)
-                                       ? format("; force and motion of the other hand: cosine %.2f", i.opposition)
-                                       : "")});
+    rows.push_back(
+        {i.from_s,
+         i.seat + " takes the tool from " + i.from_seat + format(" for %.1f s; cause: ", i.to_s - i.from_s) + i.cause +
+             (std::isfinite(i.opposition) ? format("; force and motion of the other hand: cosine %.2f", i.opposition)
+                                          : "")});
   for (const LessonEvent& event : lesson.events)
-    rows.push_back({event.tick / lesson.scene.tick_hz, event.text.empty() ? event.what + " " + event.seat : event.text});
+    rows.push_back(
+        {event.tick / lesson.scene.tick_hz, event.text.empty() ? event.what + " " + event.seat : event.text});
   for (const LessonMark& mark : lesson.marks) rows.push_back({mark.t_s, "mark by " + mark.by + ": " + mark.text});
   std::ranges::stable_sort(rows, {}, &Row::at);
   if (rows.empty()) return "<p>No events, marks or interventions are recorded.</p>\n";
@@ -168,7 +182,8 @@ std::string events_html(const Lesson& lesson, const LessonScores& scores) {
   for (std::size_t i = 0; i < std::min(rows.size(), kEventsMax); ++i)
     html += format("<tr><td>%.2f s</td>", rows[i].at) + cell(escaped(rows[i].text), "words") + "</tr>\n";
   html += "</tbody></table>\n";
-  if (rows.size() > kEventsMax) html += format("<p class=\"soft\">%zu more are left out.</p>\n", rows.size() - kEventsMax);
+  if (rows.size() > kEventsMax)
+    html += format("<p class=\"soft\">%zu more are left out.</p>\n", rows.size() - kEventsMax);
   return html;
 }
 
@@ -184,9 +199,10 @@ std::string evaluators_html(const ScoreResult& result, const LessonScores& lesso
               cell(escaped(sheet.by), "words") + cell(format("%g of %g", sheet.total, sheet.most)) +
               cell(sheet.complete() ? "all items" : format("%zu of %zu items", sheet.rated, sheet.items)) + "</tr>\n";
   if (!rows.empty())
-    html += "<h3>Sheets</h3>\n<table class=\"sheets\"><thead><tr><th>Scale</th><th>Seat</th><th>Evaluator</th><th>Total"
-            "</th><th>Rated</th></tr></thead><tbody>\n" +
-            rows + "</tbody></table>\n";
+    html +=
+        "<h3>Sheets</h3>\n<table class=\"sheets\"><thead><tr><th>Scale</th><th>Seat</th><th>Evaluator</th><th>Total"
+        "</th><th>Rated</th></tr></thead><tbody>\n" +
+        rows + "</tbody></table>\n";
   for (const ScaleAgreement& agreement : result.agreements)
     html += "<p>Agreement of the evaluators over all recordings: " + escaped(agreement_text(agreement)) + ".</p>\n";
   return html.empty() ? "<p>No notes or sheets are recorded.</p>\n" : html;
@@ -195,12 +211,13 @@ std::string evaluators_html(const ScoreResult& result, const LessonScores& lesso
 std::string progress_html(const ScoreResult& result) {
   if (result.curves.empty()) return {};
   std::string html =
-      format("<p>%zu expert recordings; %zu session%s of the learner. A session passes a score at the pass mark: the "
-             "experts' median, moved to the worse side by 1.48 median absolute deviations. The cumulative sum rises for "
-             "a failed session and falls for a passed one: the learner counts as competent below %.2f, where fewer than "
-             "%g %% of the sessions fail.</p>\n",
-             result.experts, result.lessons.size(), result.lessons.size() == 1 ? "" : "s",
-             -result.curves.front().sum.low, 100 * result.cusum.acceptable) +
+      format(
+          "<p>%zu expert recordings; %zu session%s of the learner. A session passes a score at the pass mark: the "
+          "experts' median, moved to the worse side by 1.48 median absolute deviations. The cumulative sum rises for "
+          "a failed session and falls for a passed one: the learner counts as competent below %.2f, where fewer than "
+          "%g %% of the sessions fail.</p>\n",
+          result.experts, result.lessons.size(), result.lessons.size() == 1 ? "" : "s", -result.curves.front().sum.low,
+          100 * result.cusum.acceptable) +
       "<div class=\"scroll\"><table class=\"progress\"><thead><tr><th>Score</th><th>Passed</th><th>Change per session"
       "</th><th>Cumulative sum</th><th>Verdict</th></tr></thead><tbody>\n";
   for (const LearningCurve& curve : result.curves) {
@@ -208,8 +225,7 @@ std::string progress_html(const ScoreResult& result) {
     const MetricRow& row = row_of(curve.metric);
     std::size_t passed = 0;
     for (const CurvePoint& point : curve.points) passed += point.passed ? 1 : 0;
-    html += "<tr><td>" + std::string(row.title) + "</td>" +
-            cell(format("%zu of %zu", passed, curve.sum.sums.size())) +
+    html += "<tr><td>" + std::string(row.title) + "</td>" + cell(format("%zu of %zu", passed, curve.sum.sums.size())) +
             cell(escaped(value_with_unit(row, curve.slope))) +
             cell(curve.sum.sums.empty() ? "–" : format("%.2f", curve.sum.sums.back())) +
             cell(std::string(to_text(curve.sum.verdict))) + "</tr>\n";

@@ -12,7 +12,8 @@ constexpr int kTitleWidth = 38, kCellWidth = 14;
 
 /// Number of characters of UTF-8 text.
 int characters(std::string_view text) {
-  return static_cast<int>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<int>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 std::string padded(std::string_view text, int width, bool right) {
@@ -23,10 +24,14 @@ std::string padded(std::string_view text, int width, bool right) {
 std::string cell_text(const PartScore& part, const MetricRow& row) {
   const double value = of(part.values, row.metric);
   switch (trust_in(part.quality, row.metric, value).trust) {
-    case Trust::kGood: return value_text(row, value);
-    case Trust::kFlagged: return value_text(row, value) + "!";
-    case Trust::kWithheld: return "withheld";
-    case Trust::kAbsent: break;
+    case Trust::kGood:
+      return value_text(row, value);
+    case Trust::kFlagged:
+      return value_text(row, value) + "!";
+    case Trust::kWithheld:
+      return "withheld";
+    case Trust::kAbsent:
+      break;
   }
   return "–";
 }
@@ -93,6 +98,7 @@ std::string curves_text(const ScoreResult& result) {
          padded("pass mark", kCellWidth, true) + padded("last session", kCellWidth, true) + padded("passed", 9, true) +
          "  CUSUM\n";
   for (const LearningCurve& curve : result.curves) {
+    if (curve.part != "whole" && curve.part != "held:" + result.seat) continue;
     const MetricRow& row = row_of(curve.metric);
     std::size_t passed = 0, counted = 0;
     for (const CurvePoint& point : curve.points) {
@@ -111,7 +117,7 @@ std::string curves_text(const ScoreResult& result) {
                                    : format("%.2f ", curve.sum.sums.back()) + std::string(to_text(curve.sum.verdict))) +
            "\n";
   }
-  return out;
+  return out + "  (the other parts: --json)\n";
 }
 
 }  // namespace
@@ -142,8 +148,8 @@ std::string scores_text(const ScoreResult& result, const std::string& seat) {
   if (!result.curves.empty()) out += curves_text(result);
   if (!result.sheets.empty()) out += "\nSheets of evaluators\n";
   for (const SheetTotal& sheet : result.sheets)
-    out += format("  %s: %s of %s by %s: %g of %g to %g%s\n", sheet.lesson.c_str(), sheet.scale.c_str(), sheet.of.c_str(),
-                  sheet.by.c_str(), sheet.total, sheet.least, sheet.most,
+    out += format("  %s: %s of %s by %s: %g of %g to %g%s\n", sheet.lesson.c_str(), sheet.scale.c_str(),
+                  sheet.of.c_str(), sheet.by.c_str(), sheet.total, sheet.least, sheet.most,
                   sheet.complete() ? "" : format(" (%zu of %zu items rated)", sheet.rated, sheet.items).c_str());
   for (const ScaleAgreement& agreement : result.agreements) out += "  " + agreement_text(agreement) + "\n";
   if (!result.lessons.empty()) {

@@ -7,12 +7,12 @@
 namespace tandem::netsim::score {
 namespace {
 
-constexpr double kRest = 0.5;                  // [s] at rest before drift counts
-constexpr double kAroundChange = 0.050;        // [s] before and after a change of authority
-constexpr double kDepthSpan = 0.0005;          // [m] smallest range of depths for a stiffness
-constexpr std::size_t kDepthSamples = 50;      // fewest samples for a stiffness
-constexpr std::size_t kCoarseStride = 4;       // of samples in the coarse search for the delay
-constexpr double kCoarseLag = 0.010;           // [s]
+constexpr double kRest = 0.5;              // [s] at rest before drift counts
+constexpr double kAroundChange = 0.050;    // [s] before and after a change of authority
+constexpr double kDepthSpan = 0.0005;      // [m] smallest range of depths for a stiffness
+constexpr std::size_t kDepthSamples = 50;  // fewest samples for a stiffness
+constexpr std::size_t kCoarseStride = 4;   // of samples in the coarse search for the delay
+constexpr double kCoarseLag = 0.010;       // [s]
 
 /// RMS distance between the hand and the tool `lag` elements later, over elements of the part.
 double rms_at_lag(const PartInput& in, std::size_t lag, std::size_t stride) {
@@ -68,8 +68,8 @@ double stiffness(const PartInput& in) {
 double drift(const PartInput& in) {
   const auto rest = static_cast<std::size_t>(kRest * in.grid.rate());
   double sum = 0, count = 0;
-  for (const Stretch& s : in.grid.runs(
-           [&](std::size_t k) { return in.part.has(k) && in.seat.speed[k] < in.options.speed_min; }))
+  for (const Stretch& s :
+       in.grid.runs([&](std::size_t k) { return in.part.has(k) && in.seat.speed[k] < in.options.speed_min; }))
     for (std::size_t k = s.begin + rest; k < s.end; ++k) {
       const double d = distance(in.seat.x_raw[k], in.tool.x[k]);
       if (!std::isfinite(d)) continue;

@@ -8,9 +8,9 @@ namespace tandem::netsim::score {
 
 /// Parameters of `sparc`: those of the reference package.
 struct SparcOptions {
-  int padding = 4;           ///< the spectrum has 2^(ceil(log2 N) + padding) points
-  double cutoff_hz = 10;     ///< largest frequency considered
-  double amplitude = 0.05;   ///< the range reaches to the last frequency of at least this share of the largest amplitude
+  int padding = 4;          ///< the spectrum has 2^(ceil(log2 N) + padding) points
+  double cutoff_hz = 10;    ///< largest frequency considered
+  double amplitude = 0.05;  ///< the range reaches to the last frequency of at least this share of the largest amplitude
 };
 
 /// Spectral arc length: minus the length of the normalised amplitude spectrum's curve over [0, 1]. Near -1.4 for one

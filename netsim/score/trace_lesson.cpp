@@ -212,7 +212,8 @@ void TraceReader::store_row() {
     three(c.f_out, seat.f);
     energies(c.e_in, seat.e_in);
     energies(c.e_out, seat.e_out);
-    if (c.leader != kNone) seat.leader.push_back(static_cast<std::uint32_t>(std::min<std::uint64_t>(whole(c.leader), kMastersMax)));
+    if (c.leader != kNone)
+      seat.leader.push_back(static_cast<std::uint32_t>(std::min<std::uint64_t>(whole(c.leader), kMastersMax)));
     three(c.ghost, seat.ghost);
   }
   for (std::size_t i = 0; i < tools_.size(); ++i) {

@@ -11,10 +11,10 @@
 
 namespace tandem::netsim::score {
 
-/// Reads the rows that `--trace` writes (server/report/trace_csv.h) into a Lesson, piece by piece. The columns `tick[1]`
-/// and `SEAT.x[m]`, `SEAT.y[m]`, `SEAT.z[m]` of one MASTER seat at least are required. The values of other columns that
-/// are not there are unknown. A row that repeats the tick of the one before is left out: the session was stopped.
-/// What a trace does not have stays empty: velocity, gate, freshness, accounts, links, events.
+/// Reads the rows that `--trace` writes (server/report/trace_csv.h) into a Lesson, piece by piece. The columns
+/// `tick[1]` and `SEAT.x[m]`, `SEAT.y[m]`, `SEAT.z[m]` of one MASTER seat at least are required. The values of other
+/// columns that are not there are unknown. A row that repeats the tick of the one before is left out: the session was
+/// stopped. What a trace does not have stays empty: velocity, gate, freshness, accounts, links, events.
 class TraceReader {
  public:
   static constexpr std::size_t kRowsMax = 40'000'000;  ///< 11 h at 1 kHz
@@ -24,8 +24,8 @@ class TraceReader {
   /// @param file   name for messages
   TraceReader(SceneSpec scene, std::string file);
 
-  /// Takes the next bytes of the file. Error: `FILE:LINE: column NAME: ...` with the value and what is allowed. After an
-  /// error no more bytes may be given.
+  /// Takes the next bytes of the file. Error: `FILE:LINE: column NAME: ...` with the value and what is allowed. After
+  /// an error no more bytes may be given.
   [[nodiscard]] std::expected<void, std::string> append(std::string_view bytes);
   /// Returns the lesson after the last byte. Error: no header, no row, a cut last line.
   [[nodiscard]] std::expected<Lesson, std::string> finish();

@@ -110,7 +110,7 @@ ToolTrack tool_track(const Lesson& lesson, const LessonGrid& grid, std::size_t t
   if (!spec.is_virtual && !recorded.q.empty()) track.q = grid.held(recorded.q, AxisArray{});
   track.changes = authority_changes(lesson, grid, tool);
   find_surface(spec.remote && spec.seat < lesson.scene.seats.size() ? lesson.scene.seats[spec.seat].environment
-                                                                     : spec.environment,
+                                                                    : spec.environment,
                track);
   return track;
 }

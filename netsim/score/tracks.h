@@ -30,7 +30,7 @@ struct ToolTrack {
 
 /// A hand.
 struct SeatTrack {
-  std::size_t seat = 0, tool = 0;  ///< indices in the scene
+  std::size_t seat = 0, tool = 0;         ///< indices in the scene
   std::vector<LessonTriple> x_raw, x, v;  ///< tip [m], filtered tip [m], its velocity [m/s]
   std::vector<double> speed;              ///< |v|; NaN: unknown
   std::vector<LessonTriple> f_raw, f;     ///< force delivered to the hand [N], and filtered

@@ -42,7 +42,8 @@ TEST(IntraclassCorrelation, NamesMissingData) {
 }
 
 TEST(Kappa, OfCohenEqualsThePublishedTable) {
-  // Cohen 1968, "Weighted kappa", Psychological Bulletin 70(4), table 1: unweighted kappa 0.492 at an agreement of 0.70.
+  // Cohen 1968, "Weighted kappa", Psychological Bulletin 70(4), table 1: unweighted kappa 0.492 at an agreement of
+  // 0.70.
   const auto kappa = cohen_kappa({{0.44, 0.07, 0.09}, {0.05, 0.20, 0.05}, {0.01, 0.03, 0.06}});
   ASSERT_TRUE(kappa) << kappa.error();
   EXPECT_NEAR(kappa->kappa, 0.492, 0.0005);

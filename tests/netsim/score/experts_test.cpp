@@ -34,6 +34,8 @@ TEST(Experts, GiveMedianDeviationAndPassMark) {
   EXPECT_NEAR(path->pass_mark, 0.12 + 1.4826 * 0.01, 2e-4);
   EXPECT_TRUE(passes(*path, Metric::kPathLength, 0.13));
   EXPECT_FALSE(passes(*path, Metric::kPathLength, 0.14));
+  // All lessons take 2 s: a deviation of 0 becomes 1 %.
+  EXPECT_NEAR(threshold_of(thresholds, "whole", Metric::kTime)->pass_mark, 2 + 1.4826 * 0.02, 1e-9);
   EXPECT_EQ(threshold_of(thresholds, "whole", Metric::kSpeedPeak), nullptr) << "neither side is better";
   EXPECT_EQ(threshold_of(thresholds, "phase:x", Metric::kPathLength), nullptr);
   const Threshold* const smooth = threshold_of(thresholds, "whole", Metric::kSparc);
@@ -42,9 +44,9 @@ TEST(Experts, GiveMedianDeviationAndPassMark) {
 }
 
 TEST(Experts, NeedThreeValuesThatAreNotWithheld) {
-  EXPECT_EQ(threshold_of(thresholds_of(std::vector{lesson_of(0.1), lesson_of(0.2)}, "trainee"), "whole",
-                         Metric::kPathLength),
-            nullptr);
+  EXPECT_EQ(
+      threshold_of(thresholds_of(std::vector{lesson_of(0.1), lesson_of(0.2)}, "trainee"), "whole", Metric::kPathLength),
+      nullptr);
   const std::vector<LessonScores> poor{lesson_of(0.1), lesson_of(0.2), lesson_of(0.3, 0.3)};
   EXPECT_EQ(threshold_of(thresholds_of(poor, "trainee"), "whole", Metric::kPathLength), nullptr);
 }

@@ -59,7 +59,8 @@ TEST(MotionScores, OfTremorAreWorseInEveryMeasureOfSmoothness) {
   LessonMaker smooth, shaky;
   const auto motion = [](double t) { return 0.2 * minimum_jerk(t / 2); };
   smooth.ticks(2000).hand(0, [&](double t) { return LessonTriple{motion(t), 0, 0}; });
-  shaky.ticks(2000).hand(0, [&](double t) { return LessonTriple{motion(t) + 0.002 * std::sin(2 * kPi * 6 * t), 0, 0}; });
+  shaky.ticks(2000).hand(0,
+                         [&](double t) { return LessonTriple{motion(t) + 0.002 * std::sin(2 * kPi * 6 * t), 0, 0}; });
   const LessonScores a = smooth.scores(), b = shaky.scores();
   EXPECT_LT(value_of(b, "trainee", Metric::kLogJerk), value_of(a, "trainee", Metric::kLogJerk) - 1);
   EXPECT_LT(value_of(b, "trainee", Metric::kSparc), value_of(a, "trainee", Metric::kSparc) - 0.3);
@@ -79,9 +80,9 @@ TEST(MotionScores, OfARestHaveNoSmoothness) {
 
 TEST(ForceScores, OfAConstantForceAlongAMotion) {
   LessonMaker maker;
-  maker.ticks(1001)
-      .hand(0, [](double t) { return LessonTriple{0.1 * t, 0, 0}; })
-      .force(0, [](double) { return LessonTriple{2, 0, 0}; });
+  maker.ticks(1001).hand(0, [](double t) { return LessonTriple{0.1 * t, 0, 0}; }).force(0, [](double) {
+    return LessonTriple{2, 0, 0};
+  });
   const LessonScores s = maker.scores();
   EXPECT_NEAR(value_of(s, "trainee", Metric::kForcePeak), 2, 1e-9);
   EXPECT_NEAR(value_of(s, "trainee", Metric::kForceMean), 2, 1e-9);
@@ -100,9 +101,9 @@ TEST(ForceScores, OfAConstantForceAlongAMotion) {
 TEST(ForceScores, OfARampAndOfForcesAcrossTheAxis) {
   LessonMaker maker;
   maker.lesson.scene.tools[0].environment.wall = WallSpec{};  // normal to x
-  maker.ticks(1001)
-      .hand(0, [](double) { return LessonTriple{0.01, 0, 0}; })
-      .force(0, [](double t) { return LessonTriple{3 * t, 4 * t, 0}; });
+  maker.ticks(1001).hand(0, [](double) { return LessonTriple{0.01, 0, 0}; }).force(0, [](double t) {
+    return LessonTriple{3 * t, 4 * t, 0};
+  });
   const LessonScores s = maker.scores();
   EXPECT_NEAR(value_of(s, "trainee", Metric::kForceRateRms), 5, 1e-3);
   EXPECT_NEAR(value_of(s, "trainee", Metric::kForceRms), 5 / std::sqrt(3.0), 5e-3);
@@ -114,11 +115,9 @@ TEST(ForceScores, OfARampAndOfForcesAcrossTheAxis) {
 TEST(ForceScores, OfIndependentAxesHaveTheVolumeOfTheirEllipsoid) {
   LessonMaker maker;
   // Each axis: amplitude a at its own whole number of periods, so its deviation is a / sqrt(2).
-  maker.ticks(10000)
-      .hand(0, [](double) { return LessonTriple{}; })
-      .force(0, [](double t) {
-        return LessonTriple{std::sin(2 * kPi * t), 2 * std::sin(2 * kPi * 0.5 * t), 3 * std::sin(2 * kPi * 0.3 * t)};
-      });
+  maker.ticks(10000).hand(0, [](double) { return LessonTriple{}; }).force(0, [](double t) {
+    return LessonTriple{std::sin(2 * kPi * t), 2 * std::sin(2 * kPi * 0.5 * t), 3 * std::sin(2 * kPi * 0.3 * t)};
+  });
   EXPECT_NEAR(value_of(maker.scores(), "trainee", Metric::kForceEllipsoid),
               4.0 / 3 * kPi * 1 * 2 * 3 / std::pow(2.0, 1.5), 0.02);
 }

@@ -66,10 +66,11 @@ TEST(MotionLesson, ReadsLookAlikesOfEveryRecording) {
   EXPECT_NEAR(one->rate_hz, 1000, 1e-6);
   EXPECT_TRUE(one->seats[0].parts[0].quality.doubts.empty());
   EXPECT_TRUE(std::isfinite(of(one->seats[0].parts[0].values, Metric::kForcePeak)));
-  const auto three = scored(table("t_s[s],giver_fx_N[N],giver_fy_N[N],giver_fz_N[N],baton_x_m[m],baton_y_m[m],baton_z_m[m],"
-                                  "giver_hand_x_m[m],giver_hand_y_m[m],giver_hand_z_m[m]",
-                                  800, 1 / 120.0, 0),
-                            "three.csv");
+  const auto three =
+      scored(table("t_s[s],giver_fx_N[N],giver_fy_N[N],giver_fz_N[N],baton_x_m[m],baton_y_m[m],baton_z_m[m],"
+                   "giver_hand_x_m[m],giver_hand_y_m[m],giver_hand_z_m[m]",
+                   800, 1 / 120.0, 0),
+             "three.csv");
   ASSERT_TRUE(three);
   ASSERT_EQ(three->seats.size(), 2u);
   EXPECT_EQ(three->seats[0].name, "baton");
@@ -98,8 +99,8 @@ TEST(MotionLesson, FlagsGapsAndUnevenSteps) {
 }
 
 TEST(MotionLesson, InterpolatesToTicks) {
-  const auto lesson = read_motion("t_ms[ms],x[mm],y[mm],z[mm]\n0,0,0,0\n10,10,0,0\n20.4,20.4,0,0\n30,30,0,0\n40,40,,0\n50,50,0,0\n",
-                                  "steps.csv");
+  const auto lesson = read_motion(
+      "t_ms[ms],x[mm],y[mm],z[mm]\n0,0,0,0\n10,10,0,0\n20.4,20.4,0,0\n30,30,0,0\n40,40,,0\n50,50,0,0\n", "steps.csv");
   ASSERT_TRUE(lesson) << lesson.error();
   ASSERT_EQ(lesson->rows(), 6u);
   EXPECT_NEAR(lesson->seats[0].x[2][0], 0.020, 1e-6);

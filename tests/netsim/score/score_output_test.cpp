@@ -87,7 +87,8 @@ TEST(ScoreOutput, HasNineCellsInEveryLineOfCsv) {
 TEST(ScoreOutput, StatesConditionsAndInterventionsInText) {
   const std::string text = scores_text(result_of(rich()), "trainee");
   EXPECT_NE(text.find("low-pass at 10 Hz"), std::string::npos);
-  EXPECT_NE(text.find("1.50 to 3.00 s: trainer takes tool tool from trainee (not recorded)"), std::string::npos) << text;
+  EXPECT_NE(text.find("1.50 to 3.00 s: trainer takes tool tool from trainee (not recorded)"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("held:trainee"), std::string::npos);
   EXPECT_EQ(text.find("\ntrainer, instructor"), std::string::npos) << "only the named seat";
 }
@@ -156,7 +157,8 @@ TEST(PathPicture, PutsXToTheLowerRightYToTheUpperRightAndZUp) {
 
 TEST(PathPicture, SurvivesEmptyAndBrokenPaths) {
   EXPECT_NE(isometric_picture({}, "d").find("</svg>"), std::string::npos);
-  EXPECT_EQ(isometric_picture({{"series0", "p", {kUnknownTriple, kUnknownTriple}}}, "d").find("nan"), std::string::npos);
+  EXPECT_EQ(isometric_picture({{"series0", "p", {kUnknownTriple, kUnknownTriple}}}, "d").find("nan"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -174,9 +174,9 @@ TEST(PassivityScores, SumDissipationAndKeepTheLeastMargin) {
 TEST(LinkScores, AreOfTheSeatAndPart) {
   LessonMaker maker({"a", "b"});
   maker.lesson.scene.phases = {{"late", 0.5, 1, false}};
-  maker.ticks(1000)
-      .hand(0, [](double t) { return LessonTriple{0.1 * t, 0, 0}; })
-      .hand(1, [](double t) { return LessonTriple{0.1 * t, 0, 0}; });
+  maker.ticks(1000).hand(0, [](double t) { return LessonTriple{0.1 * t, 0, 0}; }).hand(1, [](double t) {
+    return LessonTriple{0.1 * t, 0, 0};
+  });
   for (std::uint32_t i = 0; i < 100; ++i) {
     LessonLink link;
     link.tick = i * 10;

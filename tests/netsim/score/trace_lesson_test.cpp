@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "server/report/trace_csv.h"
 #include "netsim/score/lesson_scores.h"
+#include "server/report/trace_csv.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem::netsim::score {
@@ -158,8 +158,9 @@ TEST(TraceLesson, NamesEveryMistake) {
 }
 
 TEST(TraceLesson, TakesUnknownValuesRepeatedTicksAndACutLine) {
-  const auto lesson = read(small_scene(),
-                           "tick[1],trainer.x[m],trainer.y[m],trainer.z[m]\r\n0,1,2,3\r\n1,nan,2,3\r\n1,7,7,7\r\n2,1,2,3\n3,1");
+  const auto lesson =
+      read(small_scene(),
+           "tick[1],trainer.x[m],trainer.y[m],trainer.z[m]\r\n0,1,2,3\r\n1,nan,2,3\r\n1,7,7,7\r\n2,1,2,3\n3,1");
   ASSERT_TRUE(lesson) << lesson.error();
   EXPECT_EQ(lesson->rows(), 3u);
   EXPECT_TRUE(std::isnan(lesson->seats[0].x[1][0]));
@@ -169,7 +170,8 @@ TEST(TraceLesson, TakesUnknownValuesRepeatedTicksAndACutLine) {
 
 TEST(TraceLesson, SurvivesEveryCutAndEveryFlippedByte) {
   const Recorded trace = recorded("one_axis", 0.01);
-  for (std::size_t n = 0; n < trace.csv.size(); n += 5) (void)read(trace.scene, std::string_view(trace.csv).substr(0, n));
+  for (std::size_t n = 0; n < trace.csv.size(); n += 5)
+    (void)read(trace.scene, std::string_view(trace.csv).substr(0, n));
   for (std::size_t n = 0; n < trace.csv.size(); n += 3) {
     std::string bytes = trace.csv;
     bytes[n] = static_cast<char>(bytes[n] ^ (1 << (n % 8)));
