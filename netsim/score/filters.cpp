@@ -23,7 +23,7 @@ struct Biquad {
 
   /// Filters in place. The state begins as after an endless constant input of the first value.
   template <class Iterator>
-  void run(Iterator begin, Iterator end) const {
+  void run(Iterator begin, const Iterator& end) const {
     if (begin == end) return;
     double s2 = (b2 - a2) * *begin, s1 = (b1 - a1) * *begin + s2;
     for (; begin != end; ++begin) {
