@@ -9,16 +9,20 @@
 #include <memory>
 
 #include "common/base/csv.h"
+#include "common/base/raw_bytes.h"
 #include "netsim/score/motion_lesson.h"
 #include "netsim/score/trace_lesson.h"
 #include "proto/io/scene_file.h"
+#include "proto/recording/lesson_reader.h"
 #include "proto/spec/input_error.h"
 
 namespace tandem::netsim {
 namespace {
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
-constexpr std::array<std::string_view, 1> kEndings{".csv"};
+constexpr std::size_t kRecordingMax = std::size_t{1} << 32;  // [bytes]
+constexpr std::array<std::string_view, 2> kEndings{".csv", ".mcap"};
+constexpr std::string_view kMcap = "\x89MCAP";
 
 struct Closing {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -66,14 +70,19 @@ std::expected<Lesson, std::string> load_lesson(const std::string& file, const st
   std::string_view piece = pieces.next(file);
   if (!pieces.error().empty()) return std::unexpected(pieces.error());
   if (score::TraceReader::is_trace(piece)) return read_trace(pieces, piece, file, scene);
-  std::string text;
+  const bool recording = piece.starts_with(kMcap);
+  const std::size_t most = recording ? kRecordingMax : CsvTable::kBytesMax;
+  std::string bytes;
   for (; !piece.empty(); piece = pieces.next(file)) {
-    if (text.size() + piece.size() > CsvTable::kBytesMax)
-      return std::unexpected(file + ": more than 1 GiB; cut the recording");
-    text += piece;
+    if (bytes.size() + piece.size() > most)
+      return std::unexpected(file + ": more than " + std::to_string(most >> 30) + " GiB; cut the recording");
+    bytes += piece;
   }
   if (!pieces.error().empty()) return std::unexpected(pieces.error());
-  return score::read_motion(text, file);
+  if (!recording) return score::read_motion(bytes, file);
+  auto lesson = read_lesson(bytes_of(bytes));
+  if (!lesson) return std::unexpected(file + ": " + lesson.error());
+  return lesson;
 }
 
 std::expected<std::vector<std::string>, std::string> lesson_files(const std::vector<std::string>& paths) {

@@ -138,9 +138,10 @@ void add_score_command(const io::Command& root) {
       "score", "Scores recorded sessions: motion, force, tracking, sharing, by holder of the tool and by phase.",
       score_command);
   command
-      .add_option("files", a.files,
-                  "recordings: rows of --trace (with --scene), or tables of recorded motion; a folder: all of its "
-                  "recordings")
+      .add_option(
+          "files", a.files,
+          "recordings: MCAP files of --record, rows of --trace (with --scene), or tables of recorded motion; a folder: "
+          "all of its .mcap and .csv files")
       .value_name("FILE...");
   command.add_option("--scene", a.scene, "scene of a trace: a file, or the name of a shipped scene")
       .value_name("SCENE");
@@ -181,9 +182,10 @@ void add_score_command(const io::Command& root) {
       "netsim/README.md, \"Scores\".\n\n"
       "Exit: 0 scored, 1 a file could not be written, 2 wrong arguments or files.\n\n"
       "Examples\n"
+      "  tandem-netsim score lesson.mcap\n"
+      "  tandem-netsim score lesson.mcap --seat trainee --html report.html\n"
       "  tandem-netsim score out.csv --scene contact\n"
-      "  tandem-netsim score out.csv --scene contact --seat trainee --html report.html\n"
-      "  tandem-netsim score --experts experts --learner monday.csv tuesday.csv --scene contact --json -");
+      "  tandem-netsim score --experts experts --learner monday.mcap tuesday.mcap --json -");
 }
 
 }  // namespace tandem::netsim

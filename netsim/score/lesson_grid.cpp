@@ -52,6 +52,18 @@ std::string lesson_problem(const Lesson& lesson) {
   return fits ? "" : "a column of the lesson has another number of rows";
 }
 
+namespace {
+
+/// Whether the hands moved between two rows while session time stood still: a stop, or ticks that the server dropped.
+bool time_stood_still(const Lesson& lesson, std::size_t before, std::size_t after) {
+  const auto changed = [&](const std::vector<std::uint64_t>& counts) {
+    return !counts.empty() && counts[before] != counts[after];
+  };
+  return changed(lesson.stopped_ticks) || changed(lesson.dropped_ticks);
+}
+
+}  // namespace
+
 LessonGrid::LessonGrid(const Lesson& lesson, double bridge_s)
     : rate_(lesson.scene.tick_hz),
       bridge_(std::max<std::size_t>(1, static_cast<std::size_t>(std::floor(bridge_s * rate_ + 1e-9)))) {
@@ -67,6 +79,7 @@ LessonGrid::LessonGrid(const Lesson& lesson, double bridge_s)
     }
     const std::uint32_t t = lesson.tick[r];
     if (!begins && t - tick_.back() > (tick_.size() < kElementsMax ? bridge_ : 1)) begins = true;
+    if (!begins && time_stood_still(lesson, r - 1, r)) begins = true;
     if (begins) {
       stretches_.push_back({tick_.size(), tick_.size()});
     } else {

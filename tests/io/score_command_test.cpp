@@ -1,6 +1,7 @@
 // `tandem-netsim score` as users start it: tables, files, mistakes, and what it costs.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -50,6 +51,35 @@ TEST(ScoreCommand, WritesTablesJsonCsvAndAReport) {
   EXPECT_GT(metrics["contact_force_peak"]["value"].get<double>(), 0.5);
   EXPECT_NE(folder.read("b.csv").find(",trainer,instructor,whole,path_length,m,"), std::string::npos);
   EXPECT_NE(folder.read("a.html").find("</html>"), std::string::npos);
+}
+
+TEST(ScoreCommand, GivesARecordingTheScoresOfItsTrace) {
+  const Folder folder;
+  Process run({TANDEM_NETSIM, "run", "evaluation", "--duration", "12", "--delay", "10", "--jitter", "2", "--quiet",
+               "--no-quality", "--trace", folder.file("a.csv"), "--record", folder.file("a.mcap")});
+  ASSERT_EQ(code_of(run), 0) << run.err();
+  Process process = score({folder.file("a.mcap"), folder.file("a.csv"), "--scene", "evaluation", "--json", "-"});
+  ASSERT_EQ(code_of(process), 0) << process.err();
+  const auto json = nlohmann::json::parse(process.out());
+  const auto &recording = json["lessons"][0]["seats"], &trace_seats = json["lessons"][1]["seats"];
+  ASSERT_EQ(recording.size(), 4u);
+  ASSERT_EQ(trace_seats.size(), 4u);
+  std::size_t compared = 0;
+  for (std::size_t s = 0; s < recording.size(); ++s) {
+    ASSERT_EQ(recording[s]["parts"].size(), trace_seats[s]["parts"].size());
+    for (std::size_t p = 0; p < recording[s]["parts"].size(); ++p)
+      for (const auto& [key, metric] : trace_seats[s]["parts"][p]["metrics"].items()) {
+        const auto& other = recording[s]["parts"][p]["metrics"][key];
+        if (metric["value"].is_null() || other["value"].is_null()) continue;
+        // A trace has nine decimals.
+        EXPECT_NEAR(metric["value"].get<double>(), other["value"].get<double>(),
+                    1e-5 * std::abs(other["value"].get<double>()) + 1e-6)
+            << recording[s]["seat"] << " " << recording[s]["parts"][p]["part"] << " " << key;
+        ++compared;
+      }
+  }
+  EXPECT_GT(compared, 500u);
+  EXPECT_FALSE(recording[0]["parts"][0]["metrics"]["dissipated"]["value"].is_null()) << "only a recording has accounts";
 }
 
 TEST(ScoreCommand, ComparesALearnerWithExperts) {

@@ -95,6 +95,19 @@ TEST(ScoreQuality, AcceptsAStopAndALateJoin) {
   EXPECT_NEAR(value_of(s, "trainee", Metric::kTime), 4, 1e-9);
 }
 
+TEST(ScoreQuality, CountsNoWayThatAHandGoesWhileSessionTimeStandsStill) {
+  LessonMaker maker = clean();
+  maker.hand(0, [](double t) { return LessonTriple{t < 2 ? 0.01 * t : 0.5 + 0.01 * t, 0, 0}; });
+  EXPECT_GT(value_of(maker.scores(), "trainee", Metric::kPathLength), 0.5) << "a jump, as far as the file states";
+  for (std::vector<std::uint64_t> Lesson::* counts : {&Lesson::stopped_ticks, &Lesson::dropped_ticks}) {
+    LessonMaker stopped = maker;
+    for (std::size_t k = 0; k < 5000; ++k) (stopped.lesson.*counts).push_back(k < 2000 ? 0 : 700);
+    const LessonScores s = stopped.scores();
+    EXPECT_NEAR(value_of(s, "trainee", Metric::kPathLength), 0.05, 1e-3);
+    EXPECT_TRUE(quality(s).doubts.empty());
+  }
+}
+
 TEST(ScoreQuality, FlagsGateTripsClippedForceAndOverdrawnAccounts) {
   LessonMaker maker = clean();
   for (std::size_t k = 100; k < 200; ++k) maker.lesson.seats[0].gate[k] = 4;
