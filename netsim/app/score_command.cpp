@@ -158,7 +158,7 @@ void add_score_command(const io::Command& root) {
       .value_name("SEAT,SEAT")
       .one_value();
   command.add_option("--authority", a.options.authority, "authority from which a seat holds the tool; default 0.5")
-      .check(io::number_in(0.01, 1, "1"))
+      .check(io::number_in(0.01, 1, ""))
       .value_name("A");
   command.add_option("--force-limit", a.options.force_limit, "limit of the time with excess force; default 2 N")
       .check(io::number_in(0.01, 1000, "N"))
