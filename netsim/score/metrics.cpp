@@ -133,11 +133,18 @@ constexpr std::array<MetricRow, kMetricCount> kRows{{
     {kLateTicks, kLinkGroup, "late_ticks", "Late ticks", "1", "", 1, kLow, "Late ticks of the device's thread."},
 }};
 
+constexpr double kShownMin = 1e-9;  // in the unit of reports; less is rounding
+
 static_assert([] {
   for (std::size_t i = 0; i < kMetricCount; ++i)
     if (static_cast<std::size_t>(kRows[i].metric) != i) return false;
   return true;
 }());
+
+constexpr std::array kMainMetrics{
+    kTime,      kIdleTime,        kPathLength,      kStraightShare, kLogJerk,          kSparc,
+    kForcePeak, kForceMean,       kExcessTime,      kForceRatePeak, kContactForcePeak, kPenetrationMax,
+    kTracking,  kTrackingNoDelay, kReflectionError, kHandoverJump,  kAuthorityShare};
 
 }  // namespace
 
@@ -148,6 +155,8 @@ std::optional<Metric> metric_named(std::string_view key) noexcept {
   const auto* const found = std::ranges::find(kRows, key, &MetricRow::key);
   return found == kRows.end() ? std::nullopt : std::optional(found->metric);
 }
+
+std::span<const Metric> main_metrics() noexcept { return kMainMetrics; }
 
 std::string_view title_of(MetricGroup group) noexcept {
   constexpr std::string_view kTitles[] = {"Motion of the hand",
@@ -163,7 +172,7 @@ std::string_view title_of(MetricGroup group) noexcept {
 std::string value_text(const MetricRow& row, double value) {
   if (!std::isfinite(value)) return "–";
   const double shown = value * row.factor;
-  if (shown == 0) return "0";
+  if (std::abs(shown) < kShownMin) return "0";
   if (std::abs(shown) >= 1e6 || std::abs(shown) < 1e-3) return format("%.2e", shown);
   const int before = static_cast<int>(std::floor(std::log10(std::abs(shown)) + 1e-12)) + 1;
   return format("%.*f",

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -114,10 +115,14 @@ struct MetricRow {
 [[nodiscard]] std::string_view title_of(MetricGroup group) noexcept;
 
 /// Returns a value in the unit of reports with three significant digits, without unit; an en dash if it is NaN.
+/// Less than 1e-9 is 0.
 /// @param value  SI
 [[nodiscard]] std::string value_text(const MetricRow& row, double value);
 /// The same with its unit, such as `34.1 mm`.
 [[nodiscard]] std::string value_with_unit(const MetricRow& row, double value);
+
+/// The scores that a learner reads first.
+[[nodiscard]] std::span<const Metric> main_metrics() noexcept;
 
 [[nodiscard]] inline double& of(MetricValues& values, Metric metric) noexcept {
   return values[static_cast<std::size_t>(metric)];

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t kPiecesMax = 400;  // of a path; later changes of the holder keep the colour
 constexpr double kBandGap = 0.004;       // of the duration: contacts with less time between them are one band
+constexpr double kPathSpan = 10;         // [mm] smallest range of a plane
+constexpr double kCurveSpan = 0.02;      // of the experts' median: smallest range of a learning curve
 constexpr std::size_t kCurvesOfAuthority = 8;
 
 std::vector<plot::Point2> over_time(const LessonGrid& grid, const std::vector<double>& values, double factor) {
@@ -134,6 +136,7 @@ plot::Figure planes_figure(const SeatView& view) {
     panel.x_label = plane.across;
     panel.y_label = plane.up;
     panel.equal_scale = true;
+    panel.y_span_min = kPathSpan;
     panel.height = 230;
     for (const PathPiece& piece : pieces) {
       std::vector<plot::Point2> points;
@@ -195,7 +198,8 @@ plot::Figure curves_figure(const ScoreResult& result, std::size_t most) {
   figure.columns = 2;
   if (result.lessons.size() < 2) return figure;
   for (const LearningCurve& curve : result.curves) {
-    if (figure.panels.size() >= most || curve.part != "whole") continue;
+    const bool main = std::ranges::find(main_metrics(), curve.metric) != main_metrics().end();
+    if (figure.panels.size() >= most || curve.part != "whole" || !main) continue;
     const MetricRow& row = row_of(curve.metric);
     std::vector<plot::Point2> points;
     for (std::size_t i = 0; i < curve.points.size(); ++i)
@@ -206,6 +210,7 @@ plot::Figure curves_figure(const ScoreResult& result, std::size_t most) {
     panel.x_label = "session";
     panel.y_label = row.unit.empty() ? "" : "[" + std::string(row.unit) + "]";
     panel.height = 130;
+    panel.y_span_min = kCurveSpan * std::abs(curve.threshold.median * row.factor);
     const double last = static_cast<double>(curve.points.size());
     panel.curves.push_back(
         curve_of("experts' median", "slave",

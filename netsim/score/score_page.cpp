@@ -26,10 +26,11 @@ table.all td:nth-child(2), table.all th:nth-child(2), table.links td:nth-child(3
 table.progress th:nth-child(2), table.links th:nth-child(2) { color: var(--fg); } table.links td.met, table.links td.missed { font-weight: 600; }
 table.events, table.sheets { width: auto; } table.events td:first-child { white-space: nowrap; vertical-align: top; }
 td.missed { font-weight: 400; } abbr { text-decoration: none; color: var(--missed); font-weight: 700; cursor: help; }
+dl { columns: 2; column-gap: 32px; } dt { font-weight: 600; } dd { margin: 0 0 6px; break-before: avoid; } dt, dd { break-inside: avoid; }
 svg.isometric { max-width: 640px; margin: 0 auto; } ul.doubts { color: var(--missed); font-size: 14px; padding-left: 20px; }
 .tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 14px 24px; margin: 18px 0 6px; }
 .tile { border-left: 4px solid var(--trainer); padding: 2px 0 2px 12px; } .tile b { font-size: 26px; line-height: 1.15; display: block; } .tile span { color: var(--soft); font-size: 14px; }
-@media (max-width: 640px) { table.scores, table.scores tbody { display: block; } table.scores thead { display: none; }
+@media (max-width: 640px) { dl { columns: 1; } table.scores, table.scores tbody { display: block; } table.scores thead { display: none; }
   table.scores tr { display: grid; grid-template-columns: 1fr auto; gap: 0 10px; padding: 7px 0; border-bottom: 1px solid var(--grid); }
   table.scores td { border: 0; padding: 1px 0; white-space: normal; } table.scores td:first-child { font-weight: 600; }
   table.scores td:nth-child(2) { grid-column: 1 / 3; order: 9; font-size: 13px; max-width: none; }

@@ -17,14 +17,6 @@ using plot::escaped;
 constexpr std::size_t kEventsMax = 200;
 constexpr std::size_t kColumnsMax = 6;  // parts side by side on A4
 
-/// Scores that a learner reads first.
-constexpr std::array kMainMetrics{Metric::kTime,          Metric::kIdleTime,         Metric::kPathLength,
-                                  Metric::kStraightShare, Metric::kLogJerk,          Metric::kSparc,
-                                  Metric::kForcePeak,     Metric::kForceMean,        Metric::kExcessTime,
-                                  Metric::kForceRatePeak, Metric::kContactForcePeak, Metric::kPenetrationMax,
-                                  Metric::kTracking,      Metric::kTrackingNoDelay,  Metric::kReflectionError,
-                                  Metric::kHandoverJump,  Metric::kAuthorityShare};
-
 std::string cell(const std::string& text, const char* kind = "") {
   return "<td" + (*kind == '\0' ? std::string() : " class=\"" + std::string(kind) + "\"") + ">" + text + "</td>";
 }
@@ -80,7 +72,7 @@ std::string main_scores_html(const ScoreResult& result, const SeatScore& seat) {
   if (held != nullptr) html += "<th>While " + escaped(seat.name) + " holds the tool</th>";
   if (compared) html += "<th>Experts' median</th><th>Pass mark</th><th class=\"words\">Compared with the experts</th>";
   html += "</tr></thead><tbody>\n";
-  for (const Metric metric : kMainMetrics) {
+  for (const Metric metric : main_metrics()) {
     if (!exists(seat, metric)) continue;
     const MetricRow& row = row_of(metric);
     html += "<tr><td>" + std::string(row.title) + "</td>" + cell(escaped(row.definition), "words") +
@@ -221,7 +213,7 @@ std::string progress_html(const ScoreResult& result) {
       "<div class=\"scroll\"><table class=\"progress\"><thead><tr><th>Score</th><th>Passed</th><th>Change per session"
       "</th><th>Cumulative sum</th><th>Verdict</th></tr></thead><tbody>\n";
   for (const LearningCurve& curve : result.curves) {
-    if (curve.part != "whole" || std::ranges::find(kMainMetrics, curve.metric) == kMainMetrics.end()) continue;
+    if (curve.part != "whole" || std::ranges::find(main_metrics(), curve.metric) == main_metrics().end()) continue;
     const MetricRow& row = row_of(curve.metric);
     std::size_t passed = 0;
     for (const CurvePoint& point : curve.points) passed += point.passed ? 1 : 0;
