@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   tandem::netsim::add_proxy_command(root);
   tandem::netsim::add_control_command(root);
   tandem::netsim::add_profiles_command(root);
+  tandem::netsim::add_score_command(root);
   tandem::netsim::add_swarm_command(root);
   tandem::netsim::add_trace_command(root);
   tandem::netsim::add_replay_command(root);

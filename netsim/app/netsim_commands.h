@@ -14,6 +14,7 @@ void add_profiles_command(const io::Command& root);  ///< lists or previews netw
 void add_proxy_command(const io::Command& root);     ///< puts a simulated network between live clients and a server
 void add_replay_command(const io::Command& root);    ///< replays the inputs of a recording
 void add_run_command(const io::Command& root);       ///< runs a whole session in virtual time
+void add_score_command(const io::Command& root);     ///< scores recorded sessions
 void add_swarm_command(const io::Command& root);     ///< runs random sessions and checks every invariant
 void add_sweep_command(const io::Command& root);     ///< runs one scene over a grid of networks
 void add_test_command(const io::Command& root);      ///< gives verdicts for CI

@@ -199,6 +199,12 @@ const std::array<Layer, 48> kLayers{{
      {"common/base", "common/mcap", "common/transport", "hal/sim", "netsim/replay", "proto", "server"},
      {},
      "a replay feeds recorded inputs into the session core: no socket, clock or file; those belong to netsim/app"},
+    {"netsim/score",
+     {"common/base", "netsim/demo/captioned_figure.h", "netsim/demo/report_style.h", "netsim/plot", "netsim/score",
+      "proto/spec", "server/console/evaluation_sheets.h"},
+     {"Eigen", "boost", "json"},
+     "scores are computed from recorded lessons by pure functions: no session, files or clocks; those belong to "
+     "netsim/app"},
     {"netsim/testing",
      {"common", "netsim/engine", "netsim/profiles", "netsim/system", "netsim/testing", "proto", "server"},
      {"gtest"},

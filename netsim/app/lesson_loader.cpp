@@ -1,0 +1,110 @@
+#include "netsim/app/lesson_loader.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "common/base/csv.h"
+#include "common/base/raw_bytes.h"
+#include "netsim/score/motion_lesson.h"
+#include "netsim/score/trace_lesson.h"
+#include "proto/io/scene_file.h"
+#include "proto/recording/lesson_reader.h"
+#include "proto/spec/input_error.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+constexpr std::size_t kRecordingMax = std::size_t{1} << 32;  // [bytes]
+constexpr std::array<std::string_view, 2> kEndings{".csv", ".mcap"};
+constexpr std::string_view kMcap = "\x89MCAP";
+
+struct Closing {
+  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+
+/// Pieces of a file; `error` is empty unless a read failed.
+class Pieces {
+ public:
+  explicit Pieces(const std::string& name) : file_(std::fopen(name.c_str(), "rb")), buffer_(kPieceBytes) {
+    if (file_ == nullptr) error_ = name + ": " + std::strerror(errno);
+  }
+  /// Returns the next bytes; empty at the end, or after an error.
+  std::string_view next(const std::string& name) {
+    if (file_ == nullptr) return {};
+    errno = 0;
+    const std::size_t count = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
+    if (count == 0 && std::ferror(file_.get()) != 0) error_ = name + ": " + std::strerror(errno);
+    return {buffer_.data(), count};
+  }
+  [[nodiscard]] const std::string& error() const noexcept { return error_; }
+
+ private:
+  std::unique_ptr<std::FILE, Closing> file_;
+  std::vector<char> buffer_;
+  std::string error_;
+};
+
+std::expected<Lesson, std::string> read_trace(Pieces& pieces, std::string_view piece, const std::string& file,
+                                              const std::string& scene_name) {
+  if (scene_name.empty())
+    return std::unexpected(file + ": a trace does not contain its scene; name it with --scene SCENE");
+  auto scene = load_scene(scene_name);
+  if (!scene) return std::unexpected(to_text(scene.error()));
+  score::TraceReader reader(std::move(*scene), file);
+  for (; !piece.empty(); piece = pieces.next(file))
+    if (const auto read = reader.append(piece); !read) return std::unexpected(read.error());
+  if (!pieces.error().empty()) return std::unexpected(pieces.error());
+  return reader.finish();
+}
+
+}  // namespace
+
+std::expected<Lesson, std::string> load_lesson(const std::string& file, const std::string& scene) {
+  Pieces pieces(file);
+  std::string_view piece = pieces.next(file);
+  if (!pieces.error().empty()) return std::unexpected(pieces.error());
+  if (score::TraceReader::is_trace(piece)) return read_trace(pieces, piece, file, scene);
+  const bool recording = piece.starts_with(kMcap);
+  const std::size_t most = recording ? kRecordingMax : CsvTable::kBytesMax;
+  std::string bytes;
+  for (; !piece.empty(); piece = pieces.next(file)) {
+    if (bytes.size() + piece.size() > most)
+      return std::unexpected(file + ": more than " + std::to_string(most >> 30) + " GiB; cut the recording");
+    bytes += piece;
+  }
+  if (!pieces.error().empty()) return std::unexpected(pieces.error());
+  if (!recording) return score::read_motion(bytes, file);
+  auto lesson = read_lesson(bytes_of(bytes));
+  if (!lesson) return std::unexpected(file + ": " + lesson.error());
+  return lesson;
+}
+
+std::expected<std::vector<std::string>, std::string> lesson_files(const std::vector<std::string>& paths) {
+  std::vector<std::string> out;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error)) {
+      out.push_back(path);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
+      const std::string name = entry.path().string();
+      if (std::ranges::any_of(kEndings, [&](std::string_view ending) { return name.ends_with(ending); }))
+        found.push_back(name);
+    }
+    if (error) return std::unexpected(path + ": " + error.message());
+    if (found.empty()) return std::unexpected(path + ": the folder has no recording");
+    std::ranges::sort(found);
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  return out;
+}
+
+}  // namespace tandem::netsim
