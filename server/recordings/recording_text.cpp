@@ -1,7 +1,7 @@
 #include "server/recordings/recording_text.h"
 
 #include <algorithm>
-#include <ctime>
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
@@ -12,12 +12,14 @@ namespace tandem::server {
 namespace {
 
 std::string time_text(std::int64_t unix_ns) {
-  const std::time_t seconds = static_cast<std::time_t>(unix_ns / 1'000'000'000);
-  std::tm utc{};
-  char text[32] = "";
-  if (gmtime_r(&seconds, &utc) == nullptr || std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &utc) == 0)
-    return "unknown";
-  return text;
+  using namespace std::chrono;
+  const sys_time<minutes> minute = floor<minutes>(sys_time<nanoseconds>(nanoseconds(unix_ns)));
+  const sys_days day = floor<days>(minute);
+  const year_month_day date(day);
+  const hh_mm_ss time(minute - day);
+  return format("%d-%02u-%02u %02lld:%02lld", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                static_cast<unsigned>(date.day()), static_cast<long long>(time.hours().count()),
+                static_cast<long long>(time.minutes().count()));
 }
 
 std::string size_text(std::uint64_t bytes) { return format("%.1f MB", static_cast<double>(bytes) * 1e-6); }

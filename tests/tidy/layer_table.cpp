@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 44> kLayers{{
+const std::array<Layer, 46> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -114,6 +114,16 @@ const std::array<Layer, 44> kLayers{{
      {"common/base", "proto", "server/report"},
      {"json"},
      "server/report works on plain records after the fact: text and JSON, no session, no device"},
+    {"server/export",
+     {"common/base", "proto", "server/export", "server/report"},
+     {"json"},
+     "server/export turns lessons into tables and metadata: plain records and JSON; files, libhdf5 and Node.js belong "
+     "to server/export/app"},
+    {"server/recordings",
+     {"common/base", "proto/spec", "server/recordings"},
+     {"json"},
+     "server/recordings decides from plain rows what a school keeps: no file, no clock; the database belongs to "
+     "server/recordings/app"},
     {"server/session",
      {"common/base", "common/control", "common/setup", "common/transport", "proto", "hal/core/device.h",
       "hal/core/port_map.h", "server/policy", "server/report", "server/session"},
