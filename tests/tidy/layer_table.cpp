@@ -128,11 +128,11 @@ const std::array<Layer, 49> kLayers{{
      {"json"},
      "server/export turns lessons into tables and metadata: plain records and JSON; files, libhdf5 and Node.js belong "
      "to server/export/app"},
-    {"server/recordings",
-     {"common/base", "proto/spec", "server/recordings"},
+    {"server/archive",
+     {"common/base", "proto/spec", "server/archive"},
      {"json"},
-     "server/recordings decides from plain rows what a school keeps: no file, no clock; the database belongs to "
-     "server/recordings/app"},
+     "server/archive decides from plain rows what a school keeps: no file, no clock; the database belongs to "
+     "server/archive/app"},
     {"server/recording",
      {"common/base", "common/mcap", "proto", "server/recording", "server/report"},
      {},

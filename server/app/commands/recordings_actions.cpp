@@ -9,10 +9,10 @@
 #include "common/io/print.h"
 #include "server/app/commands/long_work.h"
 #include "server/app/commands/state_option.h"
-#include "server/recordings/app/lesson_file.h"
-#include "server/recordings/app/recording_deletion.h"
-#include "server/recordings/app/recording_scan.h"
-#include "server/recordings/recording_text.h"
+#include "server/archive/app/lesson_file.h"
+#include "server/archive/app/recording_deletion.h"
+#include "server/archive/app/recording_scan.h"
+#include "server/archive/recording_text.h"
 
 namespace tandem::server {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "server/export/lerobot_meta.h"
-#include "server/recordings/recording_row.h"
+#include "server/archive/recording_row.h"
 
 /// What `tandem-server recordings` does, after its arguments were checked. Each returns the exit code.
 namespace tandem::server {

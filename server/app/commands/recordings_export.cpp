@@ -9,7 +9,7 @@
 #include "server/export/app/hdf5_export.h"
 #include "server/export/app/lerobot_export.h"
 #include "server/export/lesson_records.h"
-#include "server/recordings/app/lesson_file.h"
+#include "server/archive/app/lesson_file.h"
 
 namespace tandem::server {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/recordings/recording_row.h"
+#include "server/archive/recording_row.h"
 
 #include <algorithm>
 #include <numeric>

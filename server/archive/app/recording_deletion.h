@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "server/recordings/app/recording_index.h"
+#include "server/archive/app/recording_index.h"
 
 namespace tandem::server {
 

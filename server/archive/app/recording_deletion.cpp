@@ -1,4 +1,4 @@
-#include "server/recordings/app/recording_deletion.h"
+#include "server/archive/app/recording_deletion.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "server/recordings/app/lesson_file.h"
+#include "server/archive/app/lesson_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

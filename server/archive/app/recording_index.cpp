@@ -1,4 +1,4 @@
-#include "server/recordings/app/recording_index.h"
+#include "server/archive/app/recording_index.h"
 
 #include <fcntl.h>
 #include <sqlite3.h>

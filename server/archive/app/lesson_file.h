@@ -4,7 +4,7 @@
 #include <string>
 
 #include "proto/spec/lesson.h"
-#include "server/recordings/recording_row.h"
+#include "server/archive/recording_row.h"
 
 namespace tandem::server {
 

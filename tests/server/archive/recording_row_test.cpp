@@ -1,11 +1,11 @@
 // What the index keeps of a recording, and which recordings are beyond the limits of a school.
-#include "server/recordings/recording_row.h"
+#include "server/archive/recording_row.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "server/recordings/recording_text.h"
+#include "server/archive/recording_text.h"
 #include "tests/support/lesson_run.h"
 #include "tests/support/simulation_run.h"
 

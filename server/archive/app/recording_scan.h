@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/recordings/app/recording_index.h"
+#include "server/archive/app/recording_index.h"
 
 namespace tandem::server {
 

@@ -1,4 +1,4 @@
-#include "server/recordings/recording_text.h"
+#include "server/archive/recording_text.h"
 
 #include <algorithm>
 #include <chrono>

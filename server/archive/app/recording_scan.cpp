@@ -1,4 +1,4 @@
-#include "server/recordings/app/recording_scan.h"
+#include "server/archive/app/recording_scan.h"
 
 #include <sys/stat.h>
 

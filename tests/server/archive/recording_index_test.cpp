@@ -1,5 +1,5 @@
 // The index as a database: scans, foreign files, kills at any moment, deletions with their audit lines.
-#include "server/recordings/app/recording_index.h"
+#include "server/archive/app/recording_index.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -8,8 +8,8 @@
 
 #include <filesystem>
 
-#include "server/recordings/app/recording_deletion.h"
-#include "server/recordings/app/recording_scan.h"
+#include "server/archive/app/recording_deletion.h"
+#include "server/archive/app/recording_scan.h"
 #include "tests/io/programs.h"
 
 namespace tandem::server {

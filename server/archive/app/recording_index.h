@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/recordings/recording_row.h"
+#include "server/archive/recording_row.h"
 
 struct sqlite3;
 
