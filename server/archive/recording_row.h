@@ -60,6 +60,7 @@ struct RetentionLimits {
                                                      const RetentionLimits& limits, std::int64_t now_ns);
 
 /// Returns the indices of recordings with a person of exactly this name.
-[[nodiscard]] std::vector<std::size_t> recordings_with(const std::vector<RecordingRow>& rows, const std::string& person);
+[[nodiscard]] std::vector<std::size_t> recordings_with(const std::vector<RecordingRow>& rows,
+                                                       const std::string& person);
 
 }  // namespace tandem::server

@@ -46,7 +46,8 @@ struct LerobotPlace {
 /// - `observation.state`: tips of the tools [m], tips [m] and velocities [m/s] of the hands, at the end of the window
 /// - `observation.force`: forces delivered to the hands, and of the environment on the tools [N]
 /// - `observation.alpha`: authority of each hand over the first tool that it follows
-/// - `observation.intervention`: at any tick of the window instructors together had more than half of the authority over
+/// - `observation.intervention`: at any tick of the window instructors together had more than half of the authority
+/// over
 ///   a tool
 /// - `observation.gap`, `observation.missing_ticks`: ticks of the window that were not recorded
 /// - `observation.window`: state and force at every tick of the window; NaN where no row was recorded

@@ -12,9 +12,7 @@ namespace {
 
 using MetaJson = nlohmann::ordered_json;
 
-std::string line(const MetaJson& json) {
-  return json.dump(-1, ' ', false, MetaJson::error_handler_t::replace) + "\n";
-}
+std::string line(const MetaJson& json) { return json.dump(-1, ' ', false, MetaJson::error_handler_t::replace) + "\n"; }
 
 /// Gives flat numbers the shape of the feature.
 MetaJson shaped(const std::vector<double>& flat, const std::vector<std::size_t>& shape) {
@@ -123,15 +121,12 @@ std::string lerobot_stats_json(const LerobotLayout& layout, const std::vector<Le
   return stats_json(layout, total).dump(4) + "\n";
 }
 
-std::string lerobot_tasks_lines(const LerobotDataset& set) {
-  return line({{"task_index", 0}, {"task", set.task}});
-}
+std::string lerobot_tasks_lines(const LerobotDataset& set) { return line({{"task_index", 0}, {"task", set.task}}); }
 
 std::string lerobot_episodes_lines(const LerobotDataset& set) {
   std::string lines;
   for (std::size_t e = 0; e < set.episodes.size(); ++e)
-    lines += line(
-        {{"episode_index", e}, {"tasks", MetaJson::array({set.task})}, {"length", set.episodes[e].frames}});
+    lines += line({{"episode_index", e}, {"tasks", MetaJson::array({set.task})}, {"length", set.episodes[e].frames}});
   return lines;
 }
 

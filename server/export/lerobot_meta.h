@@ -50,8 +50,8 @@ class LerobotStats {
 /// One episode of a data set.
 struct LerobotEpisode {
   std::int64_t frames = 0;
-  std::int64_t from = 0;           ///< number of its first frame in the data set
-  std::int64_t file = 0;           ///< v3.0: number of the data file
+  std::int64_t from = 0;            ///< number of its first frame in the data set
+  std::int64_t file = 0;            ///< v3.0: number of the data file
   std::vector<LerobotStats> stats;  ///< of each feature
 };
 

@@ -14,7 +14,8 @@ class ColumnCheck {
   template <class Value>
   void column(const std::string& of, const char* name, const std::vector<Value>& values) {
     if (values.size() == rows_ || !problem_.empty()) return;
-    problem_ = format("column %s of %s has %zu values, the lesson has %zu rows", name, of.c_str(), values.size(), rows_);
+    problem_ =
+        format("column %s of %s has %zu values, the lesson has %zu rows", name, of.c_str(), values.size(), rows_);
   }
   [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
 

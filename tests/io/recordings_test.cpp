@@ -103,17 +103,16 @@ TEST(Recordings, NameAllMistakesOfTheirArguments) {
   const Folder folder;
   Process wrong = recordings({"export", "--dir", "/no/such", "--to", "/no/such/x", "--fps", "0"});
   EXPECT_EQ(wrong.wait(), 2);
-  for (const char* part : {"--dir: \"/no/such\" is no folder", "NAME is required", "--format is required", "--to:",
-                           "--fps:", "mistakes, nothing was done"})
+  for (const char* part : {"--dir: \"/no/such\" is no folder", "NAME is required", "--format is required",
+                           "--to:", "--fps:", "mistakes, nothing was done"})
     EXPECT_NE(wrong.err().find(part), std::string::npos) << part << " not in " << wrong.err();
-  for (const auto& [words, part] :
-       {std::pair<Words, const char*>{{"lst", "--dir", "."}, "did you mean list?"},
-        {{"list"}, "--dir is required"},
-        {{"list", "x", "--dir", "."}, "list takes no name"},
-        {{"retain", "--dir", "."}, "retain needs --days or --bytes"},
-        {{"retain", "--dir", ".", "--days", "x"}, "--days"},
-        {{"forget-person", "Ada", "Byron", "--dir", "."}, "quotation marks"},
-        {{"export", "a", "b", "--to", "x.csv"}, "csv and hdf5 take one recording"}}) {
+  for (const auto& [words, part] : {std::pair<Words, const char*>{{"lst", "--dir", "."}, "did you mean list?"},
+                                    {{"list"}, "--dir is required"},
+                                    {{"list", "x", "--dir", "."}, "list takes no name"},
+                                    {{"retain", "--dir", "."}, "retain needs --days or --bytes"},
+                                    {{"retain", "--dir", ".", "--days", "x"}, "--days"},
+                                    {{"forget-person", "Ada", "Byron", "--dir", "."}, "quotation marks"},
+                                    {{"export", "a", "b", "--to", "x.csv"}, "csv and hdf5 take one recording"}}) {
     Process process = recordings(words);
     EXPECT_EQ(process.wait(), 2) << words.front();
     EXPECT_NE(process.err().find(part), std::string::npos) << part << " not in " << process.err();

@@ -80,9 +80,8 @@ TEST(WatchLive, StreamsToPlotJugglerAtMost100TimesPerSecond) {
   Process host = hosting("one_axis", {"--duration", "3"});
   Process trainer = client(address_of(host), "trainer");
   const Folder folder;
-  Process seen({"/bin/sh", "-c",
-                "exec \"$0\" watch --server \"$1\" --role recorder --plotjuggler \"$2\" > \"$3\"", TANDEM_CLIENT,
-                address_of(host), io::to_text(plot.local), folder.file("seen")});
+  Process seen({"/bin/sh", "-c", "exec \"$0\" watch --server \"$1\" --role recorder --plotjuggler \"$2\" > \"$3\"",
+                TANDEM_CLIENT, address_of(host), io::to_text(plot.local), folder.file("seen")});
   // Reads while the session runs, so that the socket's buffer never fills.
   std::vector<Json> samples;
   std::vector<char> bytes(65536);

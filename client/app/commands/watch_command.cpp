@@ -149,9 +149,10 @@ void add_watch_command(const io::Command& root) {
   command.add_flag("--json", arguments.json, "every state as one line of JSON, 60 per second");
   arguments.command = command;
   command
-      .add_option("--plotjuggler", arguments.plot,
-                  "also sends the signals as JSON over UDP to PlotJuggler, at most 100 times per second; without a value "
-                  "to 127.0.0.1:9870; default: off")
+      .add_option(
+          "--plotjuggler", arguments.plot,
+          "also sends the signals as JSON over UDP to PlotJuggler, at most 100 times per second; without a value "
+          "to 127.0.0.1:9870; default: off")
       .value_name("[HOST:PORT]")
       .optional_value()
       .group("Output");

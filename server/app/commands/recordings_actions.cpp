@@ -60,7 +60,8 @@ std::vector<std::size_t> find_named(const std::vector<RecordingRow>& rows, const
     const auto at = std::ranges::find(files, name);
     if (at == files.end()) {
       errors.add("NAME", "there is no recording \"" + sanitize(name) + "\"; " + suggest(name, files));
-    } else if (const auto k = static_cast<std::size_t>(at - files.begin()); std::ranges::find(found, k) == found.end()) {
+    } else if (const auto k = static_cast<std::size_t>(at - files.begin());
+               std::ranges::find(found, k) == found.end()) {
       found.push_back(k);
     }
   }
@@ -89,8 +90,8 @@ int delete_chosen(const RecordingsTask& task, OpenIndex& open, const std::vector
   if (!task.yes || chosen.empty()) return print_chosen(picked(open.rows, chosen), false, task.json);
   auto state = open_state(task.state);
   if (!state)
-    return print_error(kCommand, "nothing was deleted, because each deletion needs a line in the audit log: " +
-                                     state.error());
+    return print_error(kCommand,
+                       "nothing was deleted, because each deletion needs a line in the audit log: " + state.error());
   const AuditLine audit = [&state](const char* event, const std::string& name, const std::string& detail) {
     return state->audit(auth::wall_seconds(), event, name, detail);
   };
@@ -144,8 +145,7 @@ int delete_recordings(const RecordingsTask& task) {
 int retain_recordings(const RecordingsTask& task) {
   auto open = open_index(task.folder);
   if (!open) return print_error(kCommand, open.error());
-  const std::int64_t now =
-      std::chrono::duration_cast<std::chrono::nanoseconds>(io::read_clock(CLOCK_REALTIME)).count();
+  const std::int64_t now = std::chrono::duration_cast<std::chrono::nanoseconds>(io::read_clock(CLOCK_REALTIME)).count();
   return delete_chosen(task, *open, beyond_limits(open->rows, task.limits, now), "retention");
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "server/export/lerobot_meta.h"
 #include "server/archive/recording_row.h"
+#include "server/export/lerobot_meta.h"
 
 /// What `tandem-server recordings` does, after its arguments were checked. Each returns the exit code.
 namespace tandem::server {

@@ -26,7 +26,7 @@ struct Action {
   const char* name;
   int (*run)(const RecordingsTask& task);
   Names names;
-  const char* what;    ///< what the names are
+  const char* what;  ///< what the names are
   bool needs_folder;
 };
 
@@ -91,12 +91,13 @@ void parse_retain(const RecordingsArguments& arguments, RecordingsTask& task, io
 
 int recordings_command(const RecordingsArguments& arguments) {
   io::UsageErrors errors;
-  const auto action = std::ranges::find(kActions, arguments.action, [](const Action& a) { return std::string(a.name); });
+  const auto action =
+      std::ranges::find(kActions, arguments.action, [](const Action& a) { return std::string(a.name); });
   if (action == kActions.end()) {
     std::vector<std::string> known;
     for (const Action& a : kActions) known.emplace_back(a.name);
-    return print_usage_error("recordings", "ACTION: \"" + arguments.action + "\" is unknown; " +
-                                               suggest(arguments.action, known));
+    return print_usage_error("recordings",
+                             "ACTION: \"" + arguments.action + "\" is unknown; " + suggest(arguments.action, known));
   }
   RecordingsTask task;
   task.folder = arguments.dir;
@@ -124,8 +125,8 @@ int recordings_command(const RecordingsArguments& arguments) {
 }  // namespace
 
 void add_recordings_command(const io::Command& root) {
-  const auto [command, arguments] = root.add_command(
-      "recordings", "Lists, exports and deletes the recordings of a folder.", recordings_command);
+  const auto [command, arguments] =
+      root.add_command("recordings", "Lists, exports and deletes the recordings of a folder.", recordings_command);
   command.add_option("ACTION", arguments.action, "list, show, export, delete, retain or forget-person")
       .value_name(" ")
       .required();
@@ -135,8 +136,7 @@ void add_recordings_command(const io::Command& root) {
       .value_name("DIR")
       .group("Connection");
   add_state_option(command, arguments.state);
-  command
-      .add_option("--to", arguments.to, "export: the file to write, or for a data set the new folder")
+  command.add_option("--to", arguments.to, "export: the file to write, or for a data set the new folder")
       .value_name("FILE|DIR")
       .group("Export");
   command
@@ -152,8 +152,7 @@ void add_recordings_command(const io::Command& root) {
   command.add_option("--task", arguments.task, "data sets: what the lessons are about; default: the scene")
       .value_name("TEXT")
       .group("Export");
-  command
-      .add_option("--days", arguments.days, "retain: recordings that are older are deleted [days]")
+  command.add_option("--days", arguments.days, "retain: recordings that are older are deleted [days]")
       .value_name("N")
       .group("Retention");
   command

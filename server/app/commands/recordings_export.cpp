@@ -5,11 +5,11 @@
 #include "server/app/commands/long_work.h"
 #include "server/app/commands/recordings_actions.h"
 #include "server/app/commands/state_option.h"
+#include "server/archive/app/lesson_file.h"
 #include "server/export/app/csv_export.h"
 #include "server/export/app/hdf5_export.h"
 #include "server/export/app/lerobot_export.h"
 #include "server/export/lesson_records.h"
-#include "server/archive/app/lesson_file.h"
 
 namespace tandem::server {
 namespace {
@@ -45,8 +45,7 @@ int export_recordings(const RecordingsTask& task) {
   std::vector<std::string> files;
   for (const std::string& name : task.names) files.push_back(task.folder.empty() ? name : task.folder + "/" + name);
   LongWork work("export");
-  const std::string problem =
-      export_files(task, files, [&work](double share) { return work.advance(share); });
+  const std::string problem = export_files(task, files, [&work](double share) { return work.advance(share); });
   work.clear();
   if (!problem.empty()) return print_error("recordings export", problem);
   io::print_formatted(stderr, "%s is complete\n", sanitize(task.to).c_str());

@@ -19,7 +19,7 @@ namespace {
 
 std::expected<std::vector<std::byte>, std::string> read_all(const std::string& path) {
   const io::Fd file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  struct stat facts {};
+  struct stat facts{};
   if (!file.open() || ::fstat(file.get(), &facts) != 0) return std::unexpected(std::strerror(errno));
   if (!S_ISREG(facts.st_mode)) return std::unexpected("it is no file");
   std::vector<std::byte> bytes(static_cast<std::size_t>(facts.st_size));

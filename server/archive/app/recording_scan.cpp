@@ -36,7 +36,7 @@ std::expected<FoundFiles, std::string> find_files(const std::string& folder) {
   for (const fs::recursive_directory_iterator end; !error && it != end; it.increment(error)) {
     const std::string name = it->path().filename().string();
     const std::string file = it->path().lexically_relative(folder).string();
-    struct stat facts {};
+    struct stat facts{};
     if (::lstat(it->path().c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) continue;
     if (name.ends_with(kUnfinished)) found.unfinished.push_back(file);
     if (!name.ends_with(kExtension)) continue;

@@ -100,9 +100,9 @@ void Hdf5File::matrix(const std::string& path, std::size_t rows, std::size_t col
     failed(true, path);
     return;
   }
-  Hdf5Id data(H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space.get(), H5P_DEFAULT, settings.get(),
-                         H5P_DEFAULT),
-              H5Dclose);
+  Hdf5Id data(
+      H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space.get(), H5P_DEFAULT, settings.get(), H5P_DEFAULT),
+      H5Dclose);
   if (failed(!data.good(), path)) return;
   std::vector<Number> buffer;
   for (std::size_t first = 0; first < rows; first += kChunkRows) {
@@ -140,11 +140,11 @@ void Hdf5File::texts(const std::string& path, const std::vector<std::string>& te
   H5Tset_cset(type.get(), H5T_CSET_UTF8);
   const hsize_t size = texts.size();
   const Hdf5Id space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Hdf5Id data(
-      H5Dcreate2(file_, path.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
-  failed(!data.good() ||
-             (size > 0 && H5Dwrite(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0),
-         path);
+  const Hdf5Id data(H5Dcreate2(file_, path.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Dclose);
+  failed(
+      !data.good() || (size > 0 && H5Dwrite(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0),
+      path);
 }
 
 void Hdf5File::attribute(const std::string& path, const std::string& name, const std::string& text) {
@@ -184,8 +184,8 @@ template <class Value>
 void Hdf5File::number_attribute(const std::string& path, const std::string& name, Value number) {
   if (!error_.empty()) return;
   const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Id made(H5Acreate_by_name(file_, path.c_str(), name.c_str(), stored_type<Value>(), space.get(),
-                                      H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+  const Hdf5Id made(H5Acreate_by_name(file_, path.c_str(), name.c_str(), stored_type<Value>(), space.get(), H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
                     H5Aclose);
   failed(!made.good() || H5Awrite(made.get(), memory_type<Value>(), &number) < 0, path + " attribute " + name);
 }

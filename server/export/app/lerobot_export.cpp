@@ -121,8 +121,7 @@ std::string LerobotWriter::add_episode(const Lesson& lesson) {
   const auto episode = static_cast<std::int64_t>(set_.episodes.size());
   const std::size_t frames = layout_->frames(lesson);
   if (frames == 0)
-    return format("it is shorter than one frame: %zu ticks at %u frames per second", layout_->window(),
-                  layout_->fps());
+    return format("it is shorter than one frame: %zu ticks at %u frames per second", layout_->window(), layout_->fps());
   LerobotEpisode made{static_cast<std::int64_t>(frames), set_.frames(), 0, empty_stats()};
   std::size_t numbers = 0;
   for (const LerobotFeature& feature : layout_->features()) numbers += feature.size();
@@ -171,10 +170,14 @@ void LerobotWriter::write_tables() {
 
 void LerobotWriter::write_episodes_table() {
   using Type = ParquetColumn::Type;
-  std::vector<ParquetColumn> columns{{"episode_index", Type::kInt64, {}},      {"tasks", Type::kString, {1}},
-                                     {"length", Type::kInt64, {}},             {"data/chunk_index", Type::kInt64, {}},
-                                     {"data/file_index", Type::kInt64, {}},    {"dataset_from_index", Type::kInt64, {}},
-                                     {"dataset_to_index", Type::kInt64, {}},   {"meta/episodes/chunk_index", Type::kInt64, {}},
+  std::vector<ParquetColumn> columns{{"episode_index", Type::kInt64, {}},
+                                     {"tasks", Type::kString, {1}},
+                                     {"length", Type::kInt64, {}},
+                                     {"data/chunk_index", Type::kInt64, {}},
+                                     {"data/file_index", Type::kInt64, {}},
+                                     {"dataset_from_index", Type::kInt64, {}},
+                                     {"dataset_to_index", Type::kInt64, {}},
+                                     {"meta/episodes/chunk_index", Type::kInt64, {}},
                                      {"meta/episodes/file_index", Type::kInt64, {}}};
   for (const LerobotFeature& feature : layout_->features()) {
     for (const char* value : {"min", "max", "mean", "std"})
@@ -186,10 +189,9 @@ void LerobotWriter::write_episodes_table() {
   for (std::size_t e = 0; e < set_.episodes.size(); ++e) {
     const LerobotEpisode& episode = set_.episodes[e];
     bytes.clear();
-    for (const std::int64_t number :
-         {static_cast<std::int64_t>(e), episode.frames, episode.file / kLerobotFilesPerChunk,
-          episode.file % kLerobotFilesPerChunk, episode.from, episode.from + episode.frames, std::int64_t{0},
-          std::int64_t{0}})
+    for (const std::int64_t number : {static_cast<std::int64_t>(e), episode.frames,
+                                      episode.file / kLerobotFilesPerChunk, episode.file % kLerobotFilesPerChunk,
+                                      episode.from, episode.from + episode.frames, std::int64_t{0}, std::int64_t{0}})
       bytes.put(number);
     for (const LerobotStats& stats : episode.stats) {
       for (const std::vector<double>& numbers : {stats.min(), stats.max(), stats.mean(), stats.deviation()})

@@ -21,8 +21,8 @@ struct LerobotRequest {
   std::function<std::expected<Lesson, std::string>(std::size_t episode)> lesson;
 };
 
-/// Writes a data set into a new folder: `meta`, `data`, and `README.md` for the users of the data. All lessons must have
-/// the seats, tools and rate of the first one.
+/// Writes a data set into a new folder: `meta`, `data`, and `README.md` for the users of the data. All lessons must
+/// have the seats, tools and rate of the first one.
 /// @return the error, empty if the folder is complete
 [[nodiscard]] std::string export_lerobot(const LerobotRequest& request, const std::string& folder,
                                          const ExportProgress& progress);

@@ -157,7 +157,8 @@ void ParquetProcess::reap() {
   words.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
   constexpr std::string_view kErrno = "errno ";
   if (words.starts_with(kErrno)) {
-    error_ = "the Parquet files could not be written: " + io::write_error_text(std::atoi(words.c_str() + kErrno.size()));
+    error_ =
+        "the Parquet files could not be written: " + io::write_error_text(std::atoi(words.c_str() + kErrno.size()));
   } else {
     error_ = "Node.js could not write the Parquet files (version 18 or later is needed): " +
              (words.empty() ? "it was killed" : sanitize(words));

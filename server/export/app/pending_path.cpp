@@ -81,8 +81,9 @@ std::string PendingPath::commit() {
   if (failed != 0) return target_ + " could not be written: " + io::write_error_text(failed);
   committed_ = true;
   failed = put_on_disk(parent_of(target_));
-  return failed == 0 ? std::string{} : target_ + " is complete, but its name may be lost in a power cut: " +
-                                           io::write_error_text(failed);
+  return failed == 0
+             ? std::string{}
+             : target_ + " is complete, but its name may be lost in a power cut: " + io::write_error_text(failed);
 }
 
 }  // namespace tandem::server

@@ -60,15 +60,16 @@ TEST(RecordingIndex, KeepsRowsBetweenProcesses) {
   EXPECT_EQ(index.rows().value()[1], row) << "persons of the old row are gone";
   EXPECT_EQ(index.remove("a.mcap"), "");
   EXPECT_EQ(index.rows().value().size(), 1u);
-  struct stat facts {};
+  struct stat facts{};
   ASSERT_EQ(stat(folder.file(RecordingIndex::kFile).c_str(), &facts), 0);
   EXPECT_EQ(facts.st_mode & 07, 0u) << "names of persons are not for other users";
 }
 
 TEST(RecordingIndex, RefusesForeignAndDamagedFilesWithARemedy) {
   const test::Folder folder;
-  folder.write(RecordingIndex::kFile, "this is no database at all, but a text of more than a hundred bytes, which "
-                                      "SQLite must not take for one of its own files");
+  folder.write(RecordingIndex::kFile,
+               "this is no database at all, but a text of more than a hundred bytes, which "
+               "SQLite must not take for one of its own files");
   auto index = RecordingIndex::open(folder_of(folder));
   ASSERT_FALSE(index);
   EXPECT_NE(index.error().find("move it away and repeat"), std::string::npos) << index.error();

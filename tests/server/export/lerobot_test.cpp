@@ -70,8 +70,9 @@ TEST(LerobotLayout, TakesTheNewestRowOfEachWindow) {
   const std::size_t x = column(layout, "observation.state", seat + ".measured_cp.x[m]");
   EXPECT_EQ(values(layout, lesson, 0, "observation.state")[x], 59);
   EXPECT_EQ(values(layout, lesson, 2, "observation.state")[x], 99);
-  EXPECT_EQ(values(layout, lesson, 1, "observation.force")[column(layout, "observation.force", seat + ".measured_cf.z[N]")],
-            -79);
+  EXPECT_EQ(
+      values(layout, lesson, 1, "observation.force")[column(layout, "observation.force", seat + ".measured_cf.z[N]")],
+      -79);
   EXPECT_EQ(values(layout, lesson, 1, "action")[column(layout, "action", tool + ".setpoint_cp.y[m]")], 79);
   EXPECT_EQ(values(layout, lesson, 1, "observation.alpha"), (std::vector{0.25, 0.75}));
   EXPECT_EQ(values(layout, lesson, 2, "timestamp"), (std::vector{0.04}));
@@ -180,8 +181,9 @@ TEST(LerobotMeta, HasTheKeysOfItsVersion) {
     EXPECT_EQ(info["features"]["action"].contains("fps"), !old);
     for (const auto& [name, feature] : info["features"].items()) {
       EXPECT_EQ(name.find('/'), std::string::npos) << "LeRobot allows no slash";
-      if (feature["shape"].size() == 1 && feature["names"].is_array())
+      if (feature["shape"].size() == 1 && feature["names"].is_array()) {
         EXPECT_EQ(feature["names"].size(), feature["shape"][0]) << name;
+      }
     }
   }
   const LerobotDataset set = set_of(LerobotVersion::k21, layout);
