@@ -86,50 +86,6 @@ std::string lesson_problem(const Lesson& lesson) {
   return {};
 }
 
-TickRecord record_of(const Lesson& lesson, std::size_t row) {
-  TickRecord record;
-  record.tick = lesson.tick[row];
-  record.running = lesson.running[row] != 0;
-  record.stopped_ticks = lesson.stopped_ticks[row];
-  record.dropped_ticks = lesson.dropped_ticks[row];
-  for (std::size_t i = 0; i < lesson.seats.size(); ++i) {
-    const LessonSeat& from = lesson.seats[i];
-    SeatRecord& to = record.seats[i];
-    to.alpha = from.alpha[row];
-    to.q = from.q[row];
-    to.x = from.x[row];
-    to.f_cmd = from.f_cmd[row];
-    to.f_out = from.f[row];
-    to.e_in = from.e_in[row];
-    to.e_out = from.e_out[row];
-    to.dissipated_j = from.dissipated_j[row];
-    to.refused_j = from.refused_j[row];
-    to.margin_min_j = from.margin_min_j[row];
-    to.delivered_j = from.delivered_j[row];
-    to.leader = from.leader[row];
-    to.ghost = from.ghost[row];
-    to.gate = static_cast<wire::GateState>(from.gate[row]);
-    to.engaged = from.engaged[row] != 0;
-    to.sample_tick = from.sample_tick[row];
-  }
-  for (std::size_t j = 0; j < lesson.tools.size(); ++j) {
-    const LessonTool& from = lesson.tools[j];
-    ToolRecord& to = record.tools[j];
-    to.q = from.q[row];
-    to.x = from.x[row];
-    to.x_tool = from.x_tool[row];
-    to.f_cmd = from.f_cmd[row];
-    to.f_env = from.f_env[row];
-    to.penetration = from.penetration[row];
-    to.held = from.held[row] != 0;
-    to.mfs_j = from.mfs_j[row];
-    to.e_p_j = from.e_p_j[row];
-    to.e_p_axis_j = from.e_p_axis_j[row];
-    to.sample_tick = from.sample_tick[row];
-  }
-  return record;
-}
-
 std::vector<LessonGap> gaps_of(const Lesson& lesson) {
   std::vector<LessonGap> gaps;
   for (std::size_t k = 1; k < lesson.rows(); ++k) {

@@ -6,18 +6,13 @@
 #include <vector>
 
 #include "proto/spec/lesson.h"
-#include "server/report/tick_record.h"
 
-/// What every export needs of a lesson: its consistency, its rows as tick records, its gaps.
+/// What every export needs of a lesson: its consistency and its gaps. server/recording/lesson_record.h has its rows.
 namespace tandem::server {
 
 /// Returns why a lesson cannot be exported: no seat, no tool, no row, or a column whose length differs from the number
-/// of rows; empty if it can. The functions below need a lesson without such a problem.
+/// of rows; empty if it can.
 [[nodiscard]] std::string lesson_problem(const Lesson& lesson);
-
-/// Returns row `row` as the session recorded it, so that `TraceCsv` writes the bytes of `--trace`.
-/// @pre lesson_problem(lesson).empty() and row < lesson.rows()
-[[nodiscard]] TickRecord record_of(const Lesson& lesson, std::size_t row);
 
 /// Ticks of the session that have no row.
 struct LessonGap {

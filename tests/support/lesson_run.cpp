@@ -1,6 +1,5 @@
 #include "tests/support/lesson_run.h"
 
-#include <limits>
 #include <stdexcept>
 
 #include "netsim/system/run_simulation.h"
@@ -22,9 +21,8 @@ Lesson empty_lesson(const SceneSpec& scene) {
 }
 
 void append_record(Lesson& lesson, const server::TickRecord& record) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   lesson.tick.push_back(record.tick);
-  lesson.time_ns.push_back(std::int64_t{record.tick} * 1'000'000);
+  lesson.time_ns.push_back(record.time_ns);
   lesson.running.push_back(record.running ? 1 : 0);
   lesson.stopped_ticks.push_back(record.stopped_ticks);
   lesson.dropped_ticks.push_back(record.dropped_ticks);
@@ -35,7 +33,7 @@ void append_record(Lesson& lesson, const server::TickRecord& record) {
     to.sample_tick.push_back(from.sample_tick);
     to.q.push_back(from.q);
     to.x.push_back(from.x);
-    to.v.push_back({kUnknown, kUnknown, kUnknown});
+    to.v.push_back(from.v);
     to.f.push_back(from.f_out);
     to.f_cmd.push_back(from.f_cmd);
     to.alpha.push_back(from.alpha);
@@ -60,8 +58,7 @@ void append_record(Lesson& lesson, const server::TickRecord& record) {
     to.f_env.push_back(from.f_env);
     to.penetration.push_back(from.penetration);
     to.held.push_back(from.held ? 1 : 0);
-    std::array<double, kMastersMax>& alpha = to.alpha.emplace_back();
-    for (std::size_t i = 0; i < lesson.scene.masters(); ++i) alpha[i] = record.seats[i].alpha;
+    to.alpha.push_back(from.alpha);
     to.mfs_j.push_back(from.mfs_j);
     to.e_p_j.push_back(from.e_p_j);
     to.e_p_axis_j.push_back(from.e_p_axis_j);

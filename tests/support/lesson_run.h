@@ -10,7 +10,7 @@ namespace tandem::test {
 
 /// A lesson without rows, with the seats and tools of a scene.
 [[nodiscard]] Lesson empty_lesson(const SceneSpec& scene);
-/// Appends the values of a tick. Velocity and authority over tools, which a record lacks, are NaN and the seat's.
+/// Appends the values of a tick.
 void append_record(Lesson& lesson, const server::TickRecord& record);
 
 /// A session in virtual time: the lesson, and the rows that `--trace` writes of it.

@@ -1,7 +1,7 @@
 #include "server/export/app/csv_export.h"
 
 #include "common/io/output_file.h"
-#include "server/export/lesson_records.h"
+#include "server/recording/lesson_record.h"
 #include "server/report/trace_csv.h"
 
 namespace tandem::server {
@@ -12,9 +12,13 @@ std::string export_csv(const Lesson& lesson, const std::string& file, const Expo
   io::OutputFile out;
   if (std::string problem = out.open(pending.path(), false); !problem.empty()) return problem;
   const TraceCsv csv(lesson.scene);
+  TickRecord record;
   std::string rows = csv.header();
   for (std::size_t row = 0; row < lesson.rows(); ++row) {
-    if (lesson.running[row] != 0) csv.append(record_of(lesson, row), rows);
+    if (lesson.running[row] != 0) {
+      fill_record(lesson, row, record);
+      csv.append(record, rows);
+    }
     if (rows.size() < kBytesAtOnce) continue;
     out.write(rows);
     rows.clear();
