@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kNanosecondsPerDay = 86400e9;
 
+}  // namespace
+
 void add_person(std::vector<RecordedPerson>& persons, const std::string& name, const std::string& part) {
   if (name.empty()) return;
   const RecordedPerson person{name, part};
   if (std::ranges::find(persons, person) == persons.end()) persons.push_back(person);
 }
-
-}  // namespace
 
 RecordingSummary summary_of(const Lesson& lesson) {
   RecordingSummary out;

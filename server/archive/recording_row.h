@@ -16,6 +16,9 @@ struct RecordedPerson {
   friend bool operator==(const RecordedPerson&, const RecordedPerson&) = default;
 };
 
+/// Adds a person unless the name is empty or the person is there already.
+void add_person(std::vector<RecordedPerson>& persons, const std::string& name, const std::string& part);
+
 /// What the index keeps of the content of one recording.
 struct RecordingSummary {
   std::string session, scene;      ///< names of session and scene

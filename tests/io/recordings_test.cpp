@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "server/archive/app/lesson_file.h"
 #include "tests/io/programs.h"
 
 namespace tandem::test {
@@ -62,6 +63,25 @@ TEST(Recordings, AreListedWithDamagedAndForeignFilesNamed) {
   Process unknown = recordings({"show", "b.mcap", "--dir", folder.file("")});
   EXPECT_EQ(unknown.wait(), 2);
   EXPECT_NE(unknown.err().find("did you mean a.mcap?"), std::string::npos) << unknown.err();
+}
+
+TEST(Recordings, HaveTheSummaryOfTheirLessonAlsoWhenCut) {
+  const Folder folder;
+  ASSERT_TRUE(record(folder, "a", "free_motion"));
+  const std::string whole = folder.read("a.mcap");
+  for (const double share : {1.0, 0.97, 0.6, 0.3}) {
+    SCOPED_TRACE(share);
+    folder.write("cut.mcap", whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+    const auto lesson = server::load_lesson(folder.file("cut.mcap"));
+    const auto summary = server::load_summary(folder.file("cut.mcap"));
+    ASSERT_TRUE(lesson) << lesson.error();
+    ASSERT_TRUE(summary) << summary.error();
+    EXPECT_GT(summary->rows, 100u);
+    EXPECT_EQ(*summary, server::summary_of(*lesson));
+  }
+  folder.write("cut.mcap", whole.substr(0, 30));
+  EXPECT_EQ(server::load_summary(folder.file("cut.mcap")).error(),
+            server::load_lesson(folder.file("cut.mcap")).error());
 }
 
 TEST(Recordings, AreDeletedOnlyWithYesAndWithAnAuditLine) {

@@ -129,10 +129,10 @@ const std::array<Layer, 49> kLayers{{
      "server/export turns lessons into tables and metadata: plain records and JSON; files, libhdf5 and Node.js belong "
      "to server/export/app"},
     {"server/archive",
-     {"common/base", "proto/spec", "server/archive"},
+     {"common/base", "common/mcap", "proto/recording", "proto/spec", "server/archive"},
      {"json"},
-     "server/archive decides from plain rows what a school keeps: no file, no clock; the database belongs to "
-     "server/archive/app"},
+     "server/archive reads summaries of recordings and decides what a school keeps: no file, no clock; the database "
+     "belongs to server/archive/app"},
     {"server/recording",
      {"common/base", "common/mcap", "proto", "server/recording", "server/report"},
      {},

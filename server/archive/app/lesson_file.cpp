@@ -12,10 +12,13 @@
 
 #include "common/io/fd.h"
 #include "proto/recording/lesson_reader.h"
+#include "server/archive/summary_reader.h"
 
 namespace tandem::server {
 
 namespace {
+
+constexpr const char* kTooLarge = "it is too large for the memory of this computer";
 
 std::expected<std::vector<std::byte>, std::string> read_all(const std::string& path) {
   const io::Fd file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
@@ -42,13 +45,15 @@ std::expected<Lesson, std::string> load_lesson(const std::string& path) try {
   if (!bytes) return std::unexpected(bytes.error());
   return read_lesson(*bytes);
 } catch (const std::bad_alloc&) {
-  return std::unexpected("it is too large for the memory of this computer");
+  return std::unexpected(kTooLarge);
 }
 
-std::expected<RecordingSummary, std::string> load_summary(const std::string& path) {
-  const auto lesson = load_lesson(path);
-  if (!lesson) return std::unexpected(lesson.error());
-  return summary_of(*lesson);
+std::expected<RecordingSummary, std::string> load_summary(const std::string& path) try {
+  const auto bytes = read_all(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  return read_summary(*bytes);
+} catch (const std::bad_alloc&) {
+  return std::unexpected(kTooLarge);
 }
 
 }  // namespace tandem::server
