@@ -83,7 +83,7 @@ std::expected<ScanReport, std::string> scan_recordings(const std::string& folder
     if (auto summary = reader(folder + "/" + file->file)) {
       row.summary = std::move(*summary);
     } else {
-      row.problem = summary.error();
+      row.problem = summary.error().substr(0, summary.error().find('\n'));  // the first of several mistakes
     }
     if (std::string problem = index.put(row); !problem.empty()) return std::unexpected(problem);
     ++report.added;

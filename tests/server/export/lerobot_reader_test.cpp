@@ -27,7 +27,7 @@ const std::string& reader_problem() {
 }
 
 Json read(const std::string& file) {
-  Process node({"node", TANDEM_READ_PARQUET, file, TANDEM_PARQUET_BUILD});
+  Process node({"/usr/bin/env", "node", TANDEM_READ_PARQUET, file, TANDEM_PARQUET_BUILD});
   EXPECT_EQ(node.wait(), 0) << node.err();
   return Json::parse(node.out());
 }
