@@ -3,6 +3,9 @@
 #include <google/protobuf/stubs/logging.h>
 #include <google/protobuf/text_format.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "proto/text/scene_convert.h"
 #include "proto/text/scene_text.h"
 #include "proto/wire/wire_messages.h"
@@ -31,8 +34,12 @@ std::expected<SceneSpec, InputErrors> decode_scene(std::span<const char> bytes, 
 }
 
 std::string scene_file_text(const SceneSpec& scene) {
+  SceneSpec shortened = scene;
+  std::erase_if(shortened.phases, [&](const PhaseSpec& phase) { return phase.from >= scene.duration; });
+  for (PhaseSpec& phase : shortened.phases) phase.to = std::min(phase.to, scene.duration);
+  std::erase_if(shortened.timeline, [&](const TimedAuthority& step) { return step.at > scene.duration; });
   std::string text;
-  google::protobuf::TextFormat::PrintToString(to_proto(scene), &text);
+  google::protobuf::TextFormat::PrintToString(to_proto(shortened), &text);
   return text;
 }
 

@@ -1,6 +1,7 @@
 // Cut, damaged and foreign files.
 #include <gtest/gtest.h>
 
+#include "common/mcap/mcap_reader.h"
 #include "common/mcap/mcap_repair.h"
 #include "common/mcap/mcap_writer.h"
 #include "tests/common/base/counts.h"
@@ -19,7 +20,9 @@ std::string sample_recording(const SceneSpec& scene, std::uint32_t ticks) {
 
 TEST(RecordingCut, AnyCutOfTheLastChunkGivesAllChunksBeforeAndTheirCounts) {
   const SceneSpec scene = shipped_scene("contact");
-  const std::string file = sample_recording(scene, 1000);
+  std::vector<TickRecord> records;  // ten per chunk
+  for (std::uint32_t tick = 0; tick < 1000; tick += 25) records.push_back(smooth_record(scene, tick));
+  const std::string file = recording_of(scene, records);
   const auto parts = mcap::Reader::open(bytes_of(file))->parts();
   ASSERT_EQ(parts.size(), 4u);
   const std::size_t chunk_end = mcap::record_at(bytes_of(file), parts.back())->end();
@@ -27,7 +30,7 @@ TEST(RecordingCut, AnyCutOfTheLastChunkGivesAllChunksBeforeAndTheirCounts) {
     SCOPED_TRACE(size);
     const auto lesson = read_lesson(bytes_of(std::string_view{file}.substr(0, size)));
     ASSERT_TRUE(lesson) << lesson.error();
-    const std::size_t rows = size < chunk_end ? 750 : 1000;
+    const std::size_t rows = size < chunk_end ? 30 : 40;
     ASSERT_EQ(lesson->rows(), rows);
     ASSERT_FALSE(lesson->complete);
     ASSERT_EQ(lesson->counts.at("/authority").recorded, rows);
@@ -71,7 +74,8 @@ TEST(RecordingCut, FlippedBitsAreSafe) {
       bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << bit % 8));
     }
     const auto lesson = read_lesson(bytes_of(bytes));
-    if (lesson) ASSERT_LE(lesson->rows(), 300u) << "seed " << seed;
+    if (!lesson) continue;
+    ASSERT_LE(lesson->rows(), 300u) << "seed " << seed;
   }
 }
 
