@@ -19,7 +19,7 @@ struct RecordedPerson {
 /// Adds a person unless the name is empty or the person is there already.
 void add_person(std::vector<RecordedPerson>& persons, const std::string& name, const std::string& part);
 
-/// What the index keeps of the content of one recording.
+/// Content of one recording, as the index keeps it.
 struct RecordingSummary {
   std::string session, scene;      ///< names of session and scene
   std::int64_t start_unix_ns = 0;  ///< wall clock at the first tick; 0: unknown

@@ -58,7 +58,7 @@ struct LerobotEpisode {
 /// A data set.
 struct LerobotDataset {
   LerobotVersion version = LerobotVersion::k30;
-  std::string task;  ///< what the lessons are about, in words
+  std::string task;  ///< subject of the lessons, in words
   std::vector<LerobotEpisode> episodes;
 
   [[nodiscard]] std::int64_t frames() const noexcept {

@@ -7,7 +7,7 @@
 
 #include "proto/spec/lesson.h"
 
-/// What every export needs of a lesson: its consistency and its gaps. server/recording/lesson_record.h has its rows.
+/// Consistency and gaps of a lesson, for every export. server/recording/lesson_record.h has its rows.
 namespace tandem::server {
 
 /// Returns why a lesson cannot be exported: no seat, no tool, no row, or a column whose length differs from the number

@@ -7,7 +7,7 @@
 #include "server/archive/recording_row.h"
 #include "server/export/lerobot_meta.h"
 
-/// What `tandem-server recordings` does, after its arguments were checked. Each returns the exit code.
+/// The actions of `tandem-server recordings`, called after the arguments were checked. Each returns the exit code.
 namespace tandem::server {
 
 /// Formats of an export.

@@ -26,7 +26,7 @@ struct Action {
   const char* name;
   int (*run)(const RecordingsTask& task);
   Names names;
-  const char* what;  ///< what the names are
+  const char* what;  ///< meaning of the names
   bool needs_folder;
 };
 
@@ -149,7 +149,7 @@ void add_recordings_command(const io::Command& root) {
       .add_option("--fps", arguments.fps, "data sets: frames per second, a divisor of the session's rate; default 50")
       .value_name("N")
       .group("Export");
-  command.add_option("--task", arguments.task, "data sets: what the lessons are about; default: the scene")
+  command.add_option("--task", arguments.task, "data sets: subject of the lessons; default: the scene")
       .value_name("TEXT")
       .group("Export");
   command.add_option("--days", arguments.days, "retain: recordings that are older are deleted [days]")

@@ -15,7 +15,7 @@ namespace tandem::server {
 struct LerobotRequest {
   LerobotVersion version = LerobotVersion::k30;
   unsigned fps = 50;
-  std::string task;          ///< what the lessons are about; empty: named after the scene of the first one
+  std::string task;          ///< subject of the lessons; empty: named after the scene of the first one
   std::size_t episodes = 0;  ///< at least 1
   /// Reads one lesson, in order. @return the lesson, or the error with the name of its file
   std::function<std::expected<Lesson, std::string>(std::size_t episode)> lesson;

@@ -1,4 +1,4 @@
-// What the index keeps of a recording, and which recordings are beyond the limits of a school.
+// Summaries of recordings, and which recordings are beyond the limits of a school.
 #include "server/archive/recording_row.h"
 
 #include <gtest/gtest.h>
