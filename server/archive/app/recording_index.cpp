@@ -83,12 +83,9 @@ void RecordingIndex::Close::operator()(sqlite3* database) const noexcept { sqlit
 std::string RecordingIndex::error() const {
   const int code = sqlite3_errcode(database_.get());
   std::string text = path_ + ": ";
+  const int reason = code == SQLITE_FULL ? ENOSPC : code == SQLITE_READONLY || code == SQLITE_PERM ? EACCES : 0;
+  if (reason != 0) return text + io::write_error_text(reason);
   switch (code) {
-    case SQLITE_FULL:
-      return text + io::write_error_text(ENOSPC);
-    case SQLITE_READONLY:
-    case SQLITE_PERM:
-      return text + io::write_error_text(EACCES);
     case SQLITE_BUSY:
       return text + "another process uses the index for longer than 5 s; repeat the command";
     case SQLITE_NOTADB:

@@ -162,7 +162,8 @@ void Hdf5File::attribute(const std::string& path, const std::string& name, const
                                       H5P_DEFAULT, H5P_DEFAULT),
                     H5Aclose);
   const char* const value = text.c_str();
-  failed(!made.good() || H5Awrite(made.get(), type.get(), &value) < 0, path + " attribute " + name);
+  failed(!made.good() || H5Awrite(made.get(), type.get(), static_cast<const void*>(&value)) < 0,
+         path + " attribute " + name);
 }
 
 void Hdf5File::attribute(const std::string& path, const std::string& name, const std::vector<std::string>& texts) {
@@ -177,7 +178,8 @@ void Hdf5File::attribute(const std::string& path, const std::string& name, const
                     H5Aclose);
   std::vector<const char*> values;
   for (const std::string& text : texts) values.push_back(text.c_str());
-  failed(!made.good() || H5Awrite(made.get(), type.get(), values.data()) < 0, path + " attribute " + name);
+  failed(!made.good() || H5Awrite(made.get(), type.get(), static_cast<const void*>(values.data())) < 0,
+         path + " attribute " + name);
 }
 
 template <class Value>
