@@ -68,10 +68,11 @@ function schemaOf({ name, type, shape }) {
 }
 
 function writeFile({ file, columns, metadata }) {
+  const pairs = Object.entries(metadata).map(([key, value]) => ({ key, value }))
   const writer = new ParquetWriter({
     writer: fileWriter(file),
     schema: [{ name: 'schema', num_children: columns.length }, ...columns.flatMap(schemaOf)],
-    kvMetadata: Object.entries(metadata).map(([key, value]) => ({ key, value })),
+    kvMetadata: pairs.length > 0 ? pairs : undefined, // an empty list has a type that strict readers reject
     createdBy: 'tandem-server',
     statistics: false, // readers use none of lists of numbers, and NaN has no order
   })
