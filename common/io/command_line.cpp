@@ -232,6 +232,11 @@ Option& Option::one_value() {
   return *this;
 }
 
+Option& Option::optional_value() {
+  option_->expected(0, 1);
+  return *this;
+}
+
 Command Command::add_command(const std::string& name, const std::string& description,
                              const std::function<int()>& run) const {
   CLI::App* const command = app_->add_subcommand(name, description);

@@ -31,6 +31,8 @@ class Option {
   Option& check(const OptionCheck& check);
   /// Takes one value each time that the option is given. Default of a list: all words up to the next option.
   Option& one_value();
+  /// Allows the option without a value, which then stays as it was; `Command::given` reports that it was there.
+  Option& optional_value();
 
  private:
   CLI::Option* option_;

@@ -15,6 +15,8 @@ TANDEM_PACKAGES=(
   "libspdlog-dev: log lines for people"
   "libcli11-dev: command lines and --help"
   "nlohmann-json3-dev: writes the JSON reports"
+  "libhdf5-dev: exports recordings as HDF5"
+  "libsqlite3-dev: the index of recordings"
   "libasio-dev: the control connection's sockets and timers"
   "libboost-dev: HTTP and WebSocket of tandem-console"
   "libssl-dev: TLS of the control connection, keys, SHA-256 of traces"
@@ -62,6 +64,8 @@ TANDEM_PACKAGES_FULL=(
   "man-db: checks the manual pages"
   "systemd: judges the service's unit"
   "libxml2-utils: checks the JUnit files"
+  "python3-h5py: reads exported HDF5 files"
+  "octave: reads them too"
 )
 
 # Further packages of ./test --fuzz.

@@ -1,10 +1,14 @@
 // `tandem-client watch` with real programs: its output, its ends, and the number of watchers.
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/socket.h>
 
+#include <algorithm>
 #include <list>
 #include <sstream>
 
+#include "common/io/udp_socket.h"
 #include "tests/io/programs.h"
 
 namespace tandem::test {
@@ -70,6 +74,42 @@ TEST(WatchLive, GivesARecorderMoreThanAConsole) {
   EXPECT_GT(static_cast<double>(recorded) / static_cast<double>(seen), 5) << "every tick against every 17th";
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
+TEST(WatchLive, StreamsToPlotJugglerAtMost100TimesPerSecond) {
+  const io::UdpSocket plot = io::bind_udp(io::parse_address("127.0.0.1:0", 0).value()).value();
+  Process host = hosting("one_axis", {"--duration", "3"});
+  Process trainer = client(address_of(host), "trainer");
+  const Folder folder;
+  Process seen({"/bin/sh", "-c", "exec \"$0\" watch --server \"$1\" --role recorder --plotjuggler \"$2\" > \"$3\"",
+                TANDEM_CLIENT, address_of(host), io::to_text(plot.local), folder.file("seen")});
+  // Reads while the session runs, so that the socket's buffer never fills.
+  std::vector<Json> samples;
+  std::vector<char> bytes(65536);
+  while (true) {
+    pollfd ready{plot.fd.get(), POLLIN, 0};
+    if (poll(&ready, 1, 3000) != 1) break;  // nothing for 3 s: the session is over
+    const ssize_t size = recv(plot.fd.get(), bytes.data(), bytes.size(), 0);
+    ASSERT_GT(size, 0);
+    samples.push_back(Json::parse(bytes.data(), bytes.data() + size));
+  }
+  EXPECT_EQ(seen.wait(), 0) << seen.err();
+  EXPECT_NE(seen.err().find("JSON over UDP to " + io::to_text(plot.local)), std::string::npos) << seen.err();
+  EXPECT_EQ(seen.err().find("readable for everyone"), std::string::npos) << "this computer";
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  ASSERT_GT(samples.size(), 100u);
+  const Json& last = samples.back();
+  EXPECT_TRUE(last["seats"]["trainer"]["measured_cp"]["x"].is_number()) << last;
+  EXPECT_TRUE(last["seats"]["trainer"]["measured_cf"]["norm"].is_number()) << last;
+  EXPECT_TRUE(last["seats"]["trainer"]["rtt_ms"].is_number()) << last;
+  EXPECT_TRUE(
+      std::ranges::any_of(samples, [](const Json& j) { return j["tools"]["tool"]["alpha"]["trainer"] == 1.0; }));
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    const double step = samples[k]["timestamp"].get<double>() - samples[k - 1]["timestamp"].get<double>();
+    EXPECT_GE(step, 0.01 - 1e-6) << "at most 100 per second";
+  }
+  EXPECT_GT(last["session"]["t"].get<double>(), 1);
 }
 
 TEST(WatchLive, EndsCleanlyOnCtrlCAndFreesItsPlace) {

@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 48> kLayers{{
+const std::array<Layer, 51> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -123,6 +123,16 @@ const std::array<Layer, 48> kLayers{{
      {"common/base", "proto", "server/report"},
      {"json"},
      "server/report works on plain records after the fact: text and JSON, no session, no device"},
+    {"server/export",
+     {"common/base", "proto", "server/export", "server/report"},
+     {"json"},
+     "server/export turns lessons into tables and metadata: plain records and JSON; files, libhdf5 and Node.js belong "
+     "to server/export/app"},
+    {"server/archive",
+     {"common/base", "common/mcap", "proto/recording", "proto/spec", "server/archive"},
+     {"json"},
+     "server/archive reads summaries of recordings and decides what a school keeps: no file, no clock; the database "
+     "belongs to server/archive/app"},
     {"server/recording",
      {"common/base", "common/mcap", "proto", "server/recording", "server/report"},
      {},

@@ -5,8 +5,11 @@
 
 #include "client/app/commands/client_commands.h"
 #include "client/app/commands/connection_options.h"
+#include "client/app/plot_json.h"
+#include "client/app/plot_stream.h"
 #include "client/app/telemetry_feed.h"
 #include "client/app/telemetry_text.h"
+#include "common/auth/io/control_client.h"
 #include "common/io/clock.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
@@ -24,8 +27,9 @@ constexpr Duration kLostAfter = 3s;  // silence of the server that ends the watc
 
 struct WatchArguments {
   ConnectionArguments connection;
-  std::string role;
+  std::string role, plot;
   bool json = false;
+  io::Command command;
 };
 
 int end_watch(const std::string& why) {
@@ -46,7 +50,8 @@ std::string text_of(wire::CloseReason why) {
 }
 
 /// Prints what the feed shows until a signal, the end of the session, or the loss of the server. @return exit code
-int show(TelemetryFeed& feed, int signals, bool json) {
+/// @param plot  nullptr: no stream to a plot program
+int show(TelemetryFeed& feed, int signals, bool json, PlotStream* plot) {
   Time next_line = io::monotonic_now();
   while (true) {
     pollfd files[] = {{feed.fd(), POLLIN, 0}, {signals, POLLIN, 0}, {feed.console().connection->fd(), POLLRDHUP, 0}};
@@ -54,6 +59,8 @@ int show(TelemetryFeed& feed, int signals, bool json) {
     const Time now = io::monotonic_now();
     const bool newer = feed.serve(now);
     const SessionWatch& watch = feed.watch();
+    if (plot != nullptr && newer && plot->due(now))
+      plot->send(now, plot_json(feed.scene(), watch, plot->timestamp(now)));
     const bool due = json ? newer : watch.newest() && now >= next_line;
     if (due) {
       if (!json) next_line = std::max(next_line + kLineInterval, now);
@@ -78,6 +85,20 @@ int show(TelemetryFeed& feed, int signals, bool json) {
   }
 }
 
+std::optional<PlotStream> plot_stream_of(const std::string& typed, io::UsageErrors& errors) {
+  const auto address = io::parse_address(typed.empty() ? PlotStream::kDefaultAddress : typed, 1);
+  if (!address) {
+    errors.add("--plotjuggler", address.error());
+    return std::nullopt;
+  }
+  auto stream = PlotStream::open(*address, io::monotonic_now(), io::read_clock(CLOCK_REALTIME));
+  if (!stream) {
+    errors.add("--plotjuggler", stream.error());
+    return std::nullopt;
+  }
+  return std::move(*stream);
+}
+
 int watch_command(const WatchArguments& arguments) {
   io::UsageErrors errors;
   JoinOptions asking = connection_of(arguments.connection, errors);
@@ -94,12 +115,17 @@ int watch_command(const WatchArguments& arguments) {
     }
   }
   asking.ticket = ticket_of(arguments.connection.ticket, errors);
+  std::optional<PlotStream> plot;
+  if (arguments.command.given("--plotjuggler")) plot = plot_stream_of(arguments.plot, errors);
   if (!errors.empty()) return errors.print("tandem-client watch: ");
   const io::Fd signals = io::make_signalfd();
   asking.signals = signals.get();
   auto feed = TelemetryFeed::open(asking);
   if (!feed) return feed.error().interrupted ? io::kExitDone : end_watch(feed.error().reason);
-  return show(*feed, signals.get(), arguments.json);
+  if (plot)
+    io::print_formatted(stderr, "tandem-client watch: JSON over UDP to %s, at most 100 datagrams per second%s\n",
+                        plot->to().c_str(), plot->on_this_computer() ? "" : ", readable for everyone on that network");
+  return show(*feed, signals.get(), arguments.json, plot ? &*plot : nullptr);
 }
 
 }  // namespace
@@ -121,13 +147,24 @@ void add_watch_command(const io::Command& root) {
   add_state_option(command, arguments.connection.state);
   add_timeout_option(command, arguments.connection.timeout);
   command.add_flag("--json", arguments.json, "every state as one line of JSON, 60 per second");
+  arguments.command = command;
+  command
+      .add_option(
+          "--plotjuggler", arguments.plot,
+          "also sends the signals as JSON over UDP to PlotJuggler, at most 100 times per second; without a value "
+          "to 127.0.0.1:9870; default: off")
+      .value_name("[HOST:PORT]")
+      .optional_value()
+      .group("Output");
   command.footer(
       "Prints one line per second until Ctrl-C or the end of the session. Eight consoles may watch a session; they "
       "disturb no hand.\n"
+      "In PlotJuggler: Streaming, UDP Server, message protocol json, and use the field `timestamp`.\n"
       "Exit: 0 done; 1 refused, with the reason, or server not reachable or lost; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-client watch --server 127.0.0.1:7000\n"
-      "  tandem-client watch --server lab-server:7000 --ticket-file operator.ticket --json");
+      "  tandem-client watch --server lab-server:7000 --ticket-file operator.ticket --json\n"
+      "  tandem-client watch --server 127.0.0.1:7000 --role recorder --plotjuggler");
 }
 
 }  // namespace tandem::client

@@ -1,0 +1,55 @@
+#include <cstdio>
+
+#include "common/base/sanitize.h"
+#include "common/io/print.h"
+#include "server/app/commands/long_work.h"
+#include "server/app/commands/recordings_actions.h"
+#include "server/app/commands/state_option.h"
+#include "server/archive/app/lesson_file.h"
+#include "server/export/app/csv_export.h"
+#include "server/export/app/hdf5_export.h"
+#include "server/export/app/lerobot_export.h"
+#include "server/export/lesson_records.h"
+
+namespace tandem::server {
+namespace {
+
+/// Reads a lesson that can be exported. @return the lesson, or the error with the name of the file
+std::expected<Lesson, std::string> read_exportable(const std::string& file) {
+  auto lesson = load_lesson(file);
+  if (!lesson) return std::unexpected(sanitize(file) + ": " + lesson.error());
+  if (const std::string problem = lesson_problem(*lesson); !problem.empty())
+    return std::unexpected(sanitize(file) + ": " + problem);
+  return lesson;
+}
+
+std::string export_files(const RecordingsTask& task, const std::vector<std::string>& files,
+                         const ExportProgress& progress) {
+  if (task.format == ExportFormat::kLerobot21 || task.format == ExportFormat::kLerobot30) {
+    LerobotRequest request;
+    request.version = task.format == ExportFormat::kLerobot21 ? LerobotVersion::k21 : LerobotVersion::k30;
+    request.fps = task.fps;
+    request.task = task.task;
+    request.episodes = files.size();
+    request.lesson = [&files](std::size_t episode) { return read_exportable(files[episode]); };
+    return export_lerobot(request, task.to, progress);
+  }
+  const auto lesson = read_exportable(files.front());
+  if (!lesson) return lesson.error();
+  return (task.format == ExportFormat::kCsv ? export_csv : export_hdf5)(*lesson, task.to, progress);
+}
+
+}  // namespace
+
+int export_recordings(const RecordingsTask& task) {
+  std::vector<std::string> files;
+  for (const std::string& name : task.names) files.push_back(task.folder.empty() ? name : task.folder + "/" + name);
+  LongWork work("export");
+  const std::string problem = export_files(task, files, [&work](double share) { return work.advance(share); });
+  work.clear();
+  if (!problem.empty()) return print_error("recordings export", problem);
+  io::print_formatted(stderr, "%s is complete\n", sanitize(task.to).c_str());
+  return io::kExitDone;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <expected>
+#include <string>
+
+#include "proto/spec/lesson.h"
+#include "server/archive/recording_row.h"
+
+namespace tandem::server {
+
+/// Reads a recording. @return the lesson, or why it cannot be read, without the name of the file
+[[nodiscard]] std::expected<Lesson, std::string> load_lesson(const std::string& path);
+
+/// Reads what the index keeps of a recording. @return the summary, or the error as above
+[[nodiscard]] std::expected<RecordingSummary, std::string> load_summary(const std::string& path);
+
+}  // namespace tandem::server

@@ -1,0 +1,86 @@
+#include "server/archive/summary_reader.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "common/mcap/mcap_reader.h"
+#include "common/mcap/message_cursor.h"
+#include "proto/recording/event_messages.h"
+#include "proto/recording/lesson_reader.h"
+#include "proto/recording/recording_format.h"
+
+namespace tandem::server {
+
+namespace {
+
+/// The parts of a lesson that its summary needs: everything but the values of rows.
+class SummaryBuilder {
+ public:
+  explicit SummaryBuilder(Lesson& lesson) : lesson_(&lesson) {}
+
+  void add(const mcap::Message& message, const std::string& topic) {
+    if (topic == rec::kMarksTopic) {
+      keep(lesson_->marks, rec::decode_mark(message.data));
+    } else if (topic == rec::kSheetsTopic) {
+      keep(lesson_->sheets, rec::decode_sheet(message.data));
+    } else if (topic == rec::kAuthorityTopic) {  // every tick has this message
+      if (lesson_->tick.empty() || message.sequence > lesson_->tick.back()) lesson_->tick.push_back(message.sequence);
+    }
+  }
+  /// Whether every message was whole.
+  [[nodiscard]] bool whole() const noexcept { return whole_; }
+
+ private:
+  template <class Note>
+  void keep(std::vector<Note>& notes, std::optional<Note> note) {
+    constexpr std::size_t kNotesMax = 1'000'000;
+    whole_ = whole_ && note && notes.size() < kNotesMax;
+    if (note && notes.size() < kNotesMax) notes.push_back(std::move(*note));
+  }
+
+  Lesson* lesson_;
+  bool whole_ = true;
+};
+
+/// Adds the persons of every record of participants: a file has several if seats changed hands.
+void add_participants(const mcap::Reader& reader, RecordingSummary& summary) {
+  for (const mcap::Metadata& record : reader.metadata())
+    if (record.name == rec::kParticipantsRecord)
+      for (const auto& [seat, person] : record.values) add_person(summary.persons, person, seat);
+}
+
+/// The part of the file before the first message is a recording whose lesson has all metadata and no row.
+std::expected<Lesson, std::string> read_head(std::span<const std::byte> bytes, const mcap::Reader& reader) {
+  const std::uint64_t begin = reader.parts().empty() ? bytes.size() : reader.parts().front();
+  return read_lesson(bytes.first(static_cast<std::size_t>(begin)));
+}
+
+}  // namespace
+
+std::expected<RecordingSummary, std::string> read_summary(std::span<const std::byte> bytes) {
+  const auto reader = mcap::Reader::open(bytes);
+  if (!reader) return std::unexpected(reader.error().message);
+  auto lesson = read_head(bytes, *reader);
+  if (!lesson) return std::unexpected(lesson.error());
+  SummaryBuilder builder(*lesson);
+  mcap::MessageCursor cursor{*reader};
+  std::map<std::uint16_t, std::string> topics;
+  bool known = true;
+  while (const auto message = cursor.next()) {
+    auto topic = topics.find(message->channel);
+    if (topic == topics.end()) {
+      const mcap::Channel* const channel = cursor.channel(message->channel);
+      known = known && channel != nullptr;
+      topic = topics.emplace(message->channel, channel == nullptr ? "" : channel->topic).first;
+    }
+    builder.add(*message, topic->second);
+  }
+  lesson->complete = known && builder.whole() && reader->complete() && cursor.damaged() == 0 &&
+                     reader->metadata(rec::kCountsRecord) != nullptr;
+  RecordingSummary summary = summary_of(*lesson);
+  add_participants(*reader, summary);
+  return summary;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "proto/spec/lesson.h"
+#include "server/export/app/pending_path.h"
+
+namespace tandem::server {
+
+/// Writes the ticks of a lesson in which the session clock advanced as CSV, with the columns and the bytes of `--trace`
+/// of the same session.
+/// @pre lesson_problem(lesson).empty()
+/// @return the error, empty if the file is complete
+[[nodiscard]] std::string export_csv(const Lesson& lesson, const std::string& file, const ExportProgress& progress);
+
+}  // namespace tandem::server

@@ -1,0 +1,208 @@
+#include "server/export/app/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "common/io/output_file.h"
+
+namespace tandem::server {
+
+namespace {
+
+static_assert(std::is_same_v<hid_t, std::int64_t>);
+
+/// Owns an identifier of libhdf5.
+class Hdf5Id {
+ public:
+  Hdf5Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Hdf5Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  Hdf5Id(const Hdf5Id&) = delete;
+  Hdf5Id& operator=(const Hdf5Id&) = delete;
+  [[nodiscard]] hid_t get() const noexcept { return id_; }
+  [[nodiscard]] bool good() const noexcept { return id_ >= 0; }
+  /// Closes now. @return whether that failed
+  [[nodiscard]] bool close_fails() { return close_(std::exchange(id_, -1)) < 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// Finds `errno = N` in the descriptions of libhdf5's error stack.
+herr_t find_errno(unsigned /*number*/, const H5E_error2_t* error, void* found) {
+  constexpr std::string_view kMark = "errno = ";
+  const std::string_view text = error->desc == nullptr ? "" : error->desc;
+  const std::size_t at = text.find(kMark);
+  if (at != std::string_view::npos) *static_cast<int*>(found) = std::atoi(text.data() + at + kMark.size());
+  return 0;
+}
+
+std::string hdf5_reason() {
+  int code = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &code);
+  return code != 0 ? io::write_error_text(code) : "libhdf5 gives no reason";
+}
+
+template <class Number>
+hid_t stored_type() {
+  return std::is_same_v<Number, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE;
+}
+template <class Number>
+hid_t memory_type() {
+  return std::is_same_v<Number, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(const std::string& path) : path_(path) {
+  H5dont_atexit();  // at exit libhdf5 would try again to write a file that could not be closed
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  failed(file_ < 0, "");
+}
+
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+bool Hdf5File::failed(bool wrong, const std::string& what) {
+  if (wrong && error_.empty())
+    error_ = path_ + (what.empty() ? "" : ", " + what) + " could not be written: " + hdf5_reason();
+  return wrong;
+}
+
+void Hdf5File::group(const std::string& path) {
+  if (!error_.empty()) return;
+  const Hdf5Id made(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  failed(!made.good(), path);
+}
+
+template <class Number>
+void Hdf5File::matrix(const std::string& path, std::size_t rows, std::size_t columns, const Source<Number>& source) {
+  if (!error_.empty()) return;
+  const int rank = columns > 0 ? 2 : 1;
+  const std::size_t width = std::max<std::size_t>(columns, 1);
+  const std::array<hsize_t, 2> size{rows, columns};
+  const std::array<hsize_t, 2> chunk{std::min(std::max<std::size_t>(rows, 1), kChunkRows), columns};
+  const Hdf5Id space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose);
+  const Hdf5Id settings(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  if (rows > 0 && (H5Pset_chunk(settings.get(), rank, chunk.data()) < 0 || H5Pset_shuffle(settings.get()) < 0 ||
+                   H5Pset_deflate(settings.get(), 1) < 0)) {
+    failed(true, path);
+    return;
+  }
+  Hdf5Id data(
+      H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space.get(), H5P_DEFAULT, settings.get(), H5P_DEFAULT),
+      H5Dclose);
+  if (failed(!data.good(), path)) return;
+  std::vector<Number> buffer;
+  for (std::size_t first = 0; first < rows; first += kChunkRows) {
+    const std::size_t count = std::min(kChunkRows, rows - first);
+    buffer.resize(count * width);
+    source(first, count, buffer);
+    const std::array<hsize_t, 2> start{first, 0}, block{count, columns};
+    const Hdf5Id part(H5Screate_simple(rank, block.data(), nullptr), H5Sclose);
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
+    if (failed(H5Dwrite(data.get(), memory_type<Number>(), part.get(), space.get(), H5P_DEFAULT, buffer.data()) < 0,
+               path))
+      return;
+  }
+  failed(data.close_fails(), path);
+}
+
+void Hdf5File::real(const std::string& path, std::size_t rows, std::size_t columns, const Source<double>& source) {
+  matrix(path, rows, columns, source);
+}
+
+void Hdf5File::whole(const std::string& path, std::size_t rows, std::size_t columns,
+                     const Source<std::int64_t>& source) {
+  matrix(path, rows, columns, source);
+}
+
+void Hdf5File::texts(const std::string& path, const std::vector<std::string>& texts) {
+  if (!error_.empty()) return;
+  std::size_t longest = 1;
+  for (const std::string& text : texts) longest = std::max(longest, text.size());
+  std::vector<char> bytes(longest * texts.size());
+  for (std::size_t k = 0; k < texts.size(); ++k) std::ranges::copy(texts[k], bytes.data() + k * longest);
+  const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), longest);
+  H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const hsize_t size = texts.size();
+  const Hdf5Id space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const Hdf5Id data(H5Dcreate2(file_, path.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Dclose);
+  failed(
+      !data.good() || (size > 0 && H5Dwrite(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0),
+      path);
+}
+
+void Hdf5File::attribute(const std::string& path, const std::string& name, const std::string& text) {
+  if (!error_.empty()) return;
+  if (text.size() > kAttributeMax) {
+    error_ = path_ + ", attribute " + name + " of " + path + " has " + std::to_string(text.size()) +
+             " bytes; HDF5 stores at most " + std::to_string(kAttributeMax) + " there";
+    return;
+  }
+  const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Id made(H5Acreate_by_name(file_, path.c_str(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
+  const char* const value = text.c_str();
+  failed(!made.good() || H5Awrite(made.get(), type.get(), static_cast<const void*>(&value)) < 0,
+         path + " attribute " + name);
+}
+
+void Hdf5File::attribute(const std::string& path, const std::string& name, const std::vector<std::string>& texts) {
+  if (!error_.empty()) return;
+  const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const hsize_t size = texts.size();
+  const Hdf5Id space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const Hdf5Id made(H5Acreate_by_name(file_, path.c_str(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
+  std::vector<const char*> values;
+  for (const std::string& text : texts) values.push_back(text.c_str());
+  failed(!made.good() || H5Awrite(made.get(), type.get(), static_cast<const void*>(values.data())) < 0,
+         path + " attribute " + name);
+}
+
+template <class Value>
+void Hdf5File::number_attribute(const std::string& path, const std::string& name, Value number) {
+  if (!error_.empty()) return;
+  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Id made(H5Acreate_by_name(file_, path.c_str(), name.c_str(), stored_type<Value>(), space.get(), H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
+  failed(!made.good() || H5Awrite(made.get(), memory_type<Value>(), &number) < 0, path + " attribute " + name);
+}
+
+void Hdf5File::attribute(const std::string& path, const std::string& name, double number) {
+  number_attribute(path, name, number);
+}
+
+void Hdf5File::attribute(const std::string& path, const std::string& name, std::int64_t number) {
+  number_attribute(path, name, number);
+}
+
+std::string Hdf5File::close() {
+  if (file_ >= 0) failed(H5Fclose(std::exchange(file_, -1)) < 0, "");
+  return error_;
+}
+
+}  // namespace tandem::server

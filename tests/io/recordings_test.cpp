@@ -1,0 +1,147 @@
+// `tandem-server recordings` with recordings of real programs: index, exports, deletions with their audit lines.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "server/archive/app/lesson_file.h"
+#include "tests/io/programs.h"
+
+namespace tandem::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+Process recordings(Words arguments) {
+  arguments.insert(arguments.begin(), "recordings");
+  return server(std::move(arguments));
+}
+
+/// Runs a session in virtual time. @return whether it left `NAME.mcap` and `NAME.csv` in the folder
+bool record(const Folder& folder, const std::string& name, const std::string& scene = "one_axis") {
+  Process run({TANDEM_NETSIM, "run", scene, "--duration", "2", "--quiet", "--record", folder.file(name + ".mcap"),
+               "--trace", folder.file(name + ".csv")});
+  const auto code = run.wait();
+  EXPECT_TRUE(code == 0 || code == 1) << run.err();  // 1: the verdict of the short session
+  return fs::exists(folder.file(name + ".mcap")) && fs::exists(folder.file(name + ".csv"));
+}
+
+TEST(Recordings, ExportTheBytesOfTheTrace) {
+  const Folder folder;
+  for (const std::string scene : {"one_axis", "contact"}) {
+    ASSERT_TRUE(record(folder, scene, scene));
+    Process out = recordings({"export", folder.file(scene + ".mcap"), "--to", folder.file("out.csv")});
+    EXPECT_EQ(out.wait(), 0) << out.err();
+    EXPECT_NE(out.err().find("out.csv is complete"), std::string::npos) << out.err();
+    EXPECT_TRUE(folder.read("out.csv") == folder.read(scene + ".csv")) << scene << ": the files differ";
+  }
+}
+
+TEST(Recordings, AreListedWithDamagedAndForeignFilesNamed) {
+  const Folder folder;
+  ASSERT_TRUE(record(folder, "a"));
+  folder.write("foreign.mcap", "no recording");
+  const std::string whole = folder.read("a.mcap");
+  folder.write("cut.mcap", whole.substr(0, whole.size() / 2));
+  Process text = recordings({"list", "--dir", folder.file("")});
+  EXPECT_EQ(text.wait(), 0) << text.err();
+  EXPECT_NE(text.out().find("2 recordings"), std::string::npos) << text.out();
+  EXPECT_NE(text.out().find("(no end)"), std::string::npos) << "the cut file: " << text.out();
+  EXPECT_NE(text.out().find("foreign.mcap: skipped, "), std::string::npos) << text.out();
+  Process list = recordings({"list", "--dir", folder.file(""), "--json"});
+  EXPECT_EQ(list.wait(), 0) << list.err();
+  const Json rows = Json::parse(list.out());
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0]["file"], "a.mcap");
+  EXPECT_EQ(rows[0]["complete"], true);
+  EXPECT_EQ(rows[0]["missing_ticks"], 0);
+  EXPECT_NEAR(rows[0]["duration_s"].get<double>(), 2, 0.1);
+  EXPECT_EQ(rows[1]["complete"], false);
+  EXPECT_TRUE(rows[2]["problem"].is_string());
+  Process show = recordings({"show", "a.mcap", "--dir", folder.file("")});
+  EXPECT_EQ(show.wait(), 0) << show.err();
+  EXPECT_NE(show.out().find("scene     one_axis"), std::string::npos) << show.out();
+  Process unknown = recordings({"show", "b.mcap", "--dir", folder.file("")});
+  EXPECT_EQ(unknown.wait(), 2);
+  EXPECT_NE(unknown.err().find("did you mean a.mcap?"), std::string::npos) << unknown.err();
+}
+
+TEST(Recordings, HaveTheSummaryOfTheirLessonAlsoWhenCut) {
+  const Folder folder;
+  ASSERT_TRUE(record(folder, "a", "free_motion"));
+  const std::string whole = folder.read("a.mcap");
+  for (const double share : {1.0, 0.97, 0.6, 0.3}) {
+    SCOPED_TRACE(share);
+    folder.write("cut.mcap", whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+    const auto lesson = server::load_lesson(folder.file("cut.mcap"));
+    const auto summary = server::load_summary(folder.file("cut.mcap"));
+    ASSERT_TRUE(lesson) << lesson.error();
+    ASSERT_TRUE(summary) << summary.error();
+    EXPECT_GT(summary->rows, 100u);
+    EXPECT_EQ(*summary, server::summary_of(*lesson));
+  }
+  folder.write("cut.mcap", whole.substr(0, 30));
+  EXPECT_EQ(server::load_summary(folder.file("cut.mcap")).error(),
+            server::load_lesson(folder.file("cut.mcap")).error());
+}
+
+TEST(Recordings, AreDeletedOnlyWithYesAndWithAnAuditLine) {
+  const Folder folder, state;
+  ASSERT_TRUE(record(folder, "a"));
+  fs::copy(folder.file("a.mcap"), folder.file("b.mcap"));
+  const std::string keys = state.file("state");
+  Process init = server({"init", "--state", keys});
+  ASSERT_EQ(init.wait(), 0) << init.err();
+  Process dry = recordings({"delete", "a.mcap", "--dir", folder.file("")});
+  EXPECT_EQ(dry.wait(), 0) << dry.err();
+  EXPECT_NE(dry.out().find("nothing was deleted: repeat with --yes"), std::string::npos) << dry.out();
+  EXPECT_TRUE(fs::exists(folder.file("a.mcap")));
+  Process without = recordings({"delete", "a.mcap", "--dir", folder.file(""), "--yes", "--state", state.file("none")});
+  EXPECT_EQ(without.wait(), 1);
+  EXPECT_NE(without.err().find("each deletion needs a line in the audit log"), std::string::npos) << without.err();
+  EXPECT_TRUE(fs::exists(folder.file("a.mcap")));
+  Process gone = recordings({"delete", "a.mcap", "--dir", folder.file(""), "--yes", "--state", keys});
+  EXPECT_EQ(gone.wait(), 0) << gone.err();
+  EXPECT_FALSE(fs::exists(folder.file("a.mcap")));
+  Process retain = recordings({"retain", "--bytes", "1", "--dir", folder.file(""), "--yes", "--state", keys, "--json"});
+  EXPECT_EQ(retain.wait(), 0) << retain.err();
+  EXPECT_EQ(Json::parse(retain.out())["recordings"][0]["file"], "b.mcap");
+  EXPECT_FALSE(fs::exists(folder.file("b.mcap")));
+  std::istringstream log(state.read("state/audit.log"));
+  std::vector<Json> lines;
+  for (std::string line; std::getline(log, line);)
+    if (Json entry = Json::parse(line); entry["event"] == "recording_deleted") lines.push_back(std::move(entry));
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0]["name"], "a.mcap");
+  EXPECT_TRUE(lines[0]["detail"].get<std::string>().starts_with("on request; "));
+  EXPECT_TRUE(lines[1]["detail"].get<std::string>().starts_with("retention; "));
+  Process person = recordings({"forget-person", "Ada", "--dir", folder.file(""), "--yes", "--state", keys});
+  EXPECT_EQ(person.wait(), 0) << person.err();
+  EXPECT_NE(person.err().find("no recording has a person \"Ada\""), std::string::npos) << person.err();
+}
+
+TEST(Recordings, NameAllMistakesOfTheirArguments) {
+  const Folder folder;
+  Process wrong = recordings({"export", "--dir", "/no/such", "--to", "/no/such/x", "--fps", "0"});
+  EXPECT_EQ(wrong.wait(), 2);
+  for (const char* part : {"--dir: \"/no/such\" is no folder", "NAME is required", "--format is required",
+                           "--to:", "--fps:", "mistakes, nothing was done"})
+    EXPECT_NE(wrong.err().find(part), std::string::npos) << part << " not in " << wrong.err();
+  for (const auto& [words, part] : {std::pair<Words, const char*>{{"lst", "--dir", "."}, "did you mean list?"},
+                                    {{"list"}, "--dir is required"},
+                                    {{"list", "x", "--dir", "."}, "list takes no name"},
+                                    {{"retain", "--dir", "."}, "retain needs --days or --bytes"},
+                                    {{"retain", "--dir", ".", "--days", "x"}, "--days"},
+                                    {{"forget-person", "Ada", "Byron", "--dir", "."}, "quotation marks"},
+                                    {{"export", "a", "b", "--to", "x.csv"}, "csv and hdf5 take one recording"}}) {
+    Process process = recordings(words);
+    EXPECT_EQ(process.wait(), 2) << words.front();
+    EXPECT_NE(process.err().find(part), std::string::npos) << part << " not in " << process.err();
+  }
+  Process missing = recordings({"export", folder.file("no.mcap"), "--to", folder.file("x.csv")});
+  EXPECT_EQ(missing.wait(), 1);
+  EXPECT_NE(missing.err().find("no.mcap: No such file"), std::string::npos) << missing.err();
+  EXPECT_FALSE(fs::exists(folder.file("x.csv")));
+}
+
+}  // namespace
+}  // namespace tandem::test
