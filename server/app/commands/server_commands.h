@@ -12,6 +12,7 @@ void add_serve_command(const io::Command& root);     ///< hosts all sessions of 
 void add_sessions_command(const io::Command& root);  ///< lists the sessions of the running server
 void add_stop_command(const io::Command& root);      ///< asks the running server to end
 void add_scenes_command(const io::Command& root);    ///< lists or prints the shipped scenes
+void add_repair_command(const io::Command& root);    ///< closes recordings that were cut
 
 // Administration of the state folder: keys, workstations, codes and tickets.
 void add_init_command(const io::Command& root);    ///< creates the keys, or replaces the one that signs tickets

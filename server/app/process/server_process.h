@@ -20,6 +20,7 @@ struct ServerOptions {
   std::size_t created_max = kCreatedSessionsDefault;  ///< sessions created at run time that are open at a time
   std::string scenes{};   ///< folder of scenes for created sessions, NAME.textproto; empty: shipped scenes only
   std::string reports{};  ///< folder for reports of created sessions; empty: none
+  RecordingOptions record{};  ///< of created sessions
   bool quiet = false;
   bool no_restore = false;       ///< ignores all checkpoints
   bool sessions_resume = false;  ///< a signal ends the server but keeps its sessions: the next start restores them

@@ -11,6 +11,8 @@
 #include "server/app/monitor/session_ending.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/recorder.h"
+#include "server/app/recording/live_recording.h"
+#include "server/app/recording/recording_target.h"
 #include "server/session/session_snapshot.h"
 
 namespace tandem::server {
@@ -22,6 +24,7 @@ struct SessionOptions {
   std::string json{}, trace{};  ///< file names; `-` (JSON only) is standard output; empty: none
   std::string reports{};        ///< directory for a report of every run; empty: none
   std::uint64_t seed = 1;       ///< for the report only: a live session draws nothing from it
+  RecordingOptions record{};
   bool tickets_only = false;
   bool restart = false;  ///< when the session is over, a new one replaces it
 };
@@ -60,11 +63,25 @@ class SessionInstance {
   }
   [[nodiscard]] std::optional<Time> ends_at() const noexcept { return ends_at_; }
 
+  /// Notes and participants for a recording, and its state; it exists without one too.
+  [[nodiscard]] const std::shared_ptr<RecordingDesk>& recording_desk() const noexcept { return desk_; }
+  /// The recording that runs; null: none.
+  [[nodiscard]] LiveRecording* recording() noexcept { return recording_.get(); }
+  /// Starts a recording in a new file. @return the error; empty: it runs
+  [[nodiscard]] std::string start_recording();
+  /// Ends the recording, if one runs. Its last file is complete when `recordings_busy` is false.
+  void end_recording();
+  /// Messages of all recordings since the last call. A recording that reached its limit is ended.
+  [[nodiscard]] std::vector<LiveRecording::Message> service_recordings();
+  /// A recording runs, or its last file is not complete: this must not be destroyed.
+  [[nodiscard]] bool recordings_busy() const noexcept { return recording_ != nullptr || !ending_.empty(); }
+
   PresenceTracker presence;
   std::string missing_seats;     ///< seats it waited for, as of the last check while it waited
   std::optional<EndReason> end;  ///< set when the server ended the session
 
-  /// Builds the report and writes the files. Call it when the session is over.
+  /// Builds the report and writes the files. Call it when the session is over; a recording goes on until
+  /// `end_recording`.
   struct Verdict {
     RunReport report;
     std::string problem;  ///< error of a report that could not be written; empty: none
@@ -89,6 +106,9 @@ class SessionInstance {
   TickQueue queue_;
   Recorder recorder_;
   std::unique_ptr<LiveSession> live_session_;
+  std::shared_ptr<RecordingDesk> desk_;
+  std::unique_ptr<LiveRecording> recording_;
+  std::vector<std::unique_ptr<LiveRecording>> ending_;  ///< whose last file is not complete
 };
 
 }  // namespace tandem::server
