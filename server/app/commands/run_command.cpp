@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 
 #include "common/io/command_line.h"
 #include "common/io/output_file.h"

@@ -4,6 +4,7 @@
 #include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
 #include "common/base/format.h"
+#include "common/base/sanitize.h"
 #include "common/io/log.h"
 #include "server/app/control/session_commands.h"
 

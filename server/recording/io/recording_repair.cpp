@@ -129,7 +129,7 @@ RecordingRepair repair_recording(const std::string& path, const Progress& on_pro
   auto bytes = read_all(file.get(), static_cast<std::uint64_t>(status.st_size), on_progress);
   if (!bytes) return failed(bytes.error());
   auto repaired = mcap::repair(std::as_bytes(std::span(*bytes)));
-  if (!repaired) return failed("is not repaired: " + std::string(to_text(repaired.error())));
+  if (!repaired) return {Kind::kFailed, path, repaired.error().text(path)};
   const std::string target = target_of(path);
   if (repaired->was_complete) {
     if (target != path && std::rename(path.c_str(), target.c_str()) != 0)
