@@ -27,5 +27,6 @@ int main(int argc, char** argv) {
   tandem::netsim::add_control_command(root);
   tandem::netsim::add_profiles_command(root);
   tandem::netsim::add_swarm_command(root);
+  tandem::netsim::add_trace_command(root);
   return program.run({argv + 1, argv + argc});
 }

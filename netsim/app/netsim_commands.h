@@ -15,6 +15,7 @@ void add_run_command(const io::Command& root);       ///< runs a whole session i
 void add_swarm_command(const io::Command& root);     ///< runs random sessions and checks every invariant
 void add_sweep_command(const io::Command& root);     ///< runs one scene over a grid of networks
 void add_test_command(const io::Command& root);      ///< gives verdicts for CI
+void add_trace_command(const io::Command& root);     ///< writes the trace of a recording
 void add_tradeoff_command(const io::Command& root);  ///< measures cost and error of numerics
 
 }  // namespace tandem::netsim

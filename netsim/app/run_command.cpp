@@ -15,6 +15,7 @@
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/run_json.h"
 #include "netsim/app/run_log.h"
+#include "netsim/app/run_recording.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/profiles/app/network_options.h"
 #include "netsim/system/run_simulation.h"
@@ -28,7 +29,7 @@ namespace tandem::netsim {
 namespace {
 
 struct RunArguments {
-  std::string scene, channel, coupling, mfs, json, trace, log, replay;
+  std::string scene, channel, coupling, mfs, json, trace, record, log, replay;
   std::vector<std::string> hands;
   double duration_s = 0;
   bool check = false, quiet = false, verbose = false, no_quality = false;
@@ -90,6 +91,11 @@ void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
       mistakes.add("--log: is the same file as another result");
     if (arguments.log == arguments.replay) mistakes.add("--log: would overwrite what --replay reads");
   }
+  if (arguments.record.empty()) return;
+  mistakes.add("--record", io::OutputFile::problem(arguments.record));
+  if (arguments.record == "-") mistakes.add("--record: standard output is for --json; name a file");
+  for (const std::string& other : {arguments.json, arguments.trace, arguments.log, arguments.replay})
+    if (arguments.record == other) mistakes.add("--record: is the same file as another result or input");
 }
 
 /// Makes the configuration from the arguments; collects all errors.
@@ -182,6 +188,10 @@ int run_command(const RunArguments& arguments) {
   RunLog log;
   if (const auto problem = log.open(arguments.log); !problem.empty()) return run_usage_error("--log: " + problem);
   log.attach(simulation.network());
+  RunRecording recording{setup};
+  if (const auto problem = recording.open(arguments.record); !problem.empty())
+    return run_usage_error("--record: " + problem);
+  recording.attach(simulation);
 
   const SignalWatcher interruption;
   const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
@@ -193,7 +203,11 @@ int run_command(const RunArguments& arguments) {
                                                return !interruption.signalled();
                                              },
                                          .trace = [&](std::string_view rows) { trace_file.write(rows); },
-                                         .tick = [&](Simulation&) { log.on_tick(simulation.now()); }});
+                                         .tick =
+                                             [&](Simulation&) {
+                                               log.on_tick(simulation.now());
+                                               recording.on_tick(simulation);
+                                             }});
   if (progress) std::fprintf(stderr, "\r\x1b[K");
   if (!run.trouble.empty()) {
     io::print_formatted(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
@@ -221,7 +235,7 @@ int run_command(const RunArguments& arguments) {
   if (interrupted)
     SignalWatcher::report("run", format("%.3f of %g s of the session", report.duration_s, setup.scene.duration));
   if (json_file.is_open()) json_file.write(run_json(report, links, notes, interrupted));
-  for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
+  for (const auto& problem : {trace_file.close(), log.close(), recording.close(), json_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim run: %s\n", problem.c_str());
       return io::kExitTrouble;
@@ -261,6 +275,10 @@ void add_run_command(const io::Command& root) {
   command.add_option("--trace", arguments.trace, "writes one row per tick; the same seed and build give the same bytes")
       .value_name("FILE.csv");
   command
+      .add_option("--record", arguments.record,
+                  "writes the recording of the session (MCAP); the same seed and build give the same bytes")
+      .value_name("FILE.mcap");
+  command
       .add_option(
           "--log", arguments.log,
           "writes the verdict of every datagram and copy: t_in_ns,link,dir,flow,idx,size,verdict,t_out_ns,cause")
@@ -289,6 +307,7 @@ void add_run_command(const io::Command& root) {
       "  tandem-netsim run contact --delay 20 --jitter 5 --loss 5 --json -\n"
       "  tandem-netsim run free_motion --profile 5g --seed 7 --trace out.csv\n"
       "  tandem-netsim run contact --profile wifi-busy --log net.csv\n"
+      "  tandem-netsim run contact --delay 20 --record lesson.mcap\n"
       "  tandem-netsim run contact --replay net.csv --channel raw\n"
       "  tandem-netsim run contact --delay 10 --script bad_day.textproto\n"
       "  tandem-netsim run free_motion --hand trainer=motion.csv,columns=baton");

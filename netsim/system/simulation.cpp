@@ -65,7 +65,8 @@ void update_record(const SceneSpec& scene, const server::Session& session, const
   for (std::size_t i = 0; i < clients.size(); ++i) {
     const client::Seat* seat = clients[i].seat();
     if (seat == nullptr) continue;
-    server::record_seat(seat->sample(), seat->sample().telemetry, seat->setup().seat.motion_scale, record.seats[i]);
+    server::record_seat(seat->sample(), seat->sample().telemetry, scene.port, seat->setup().seat.motion_scale,
+                        record.seats[i]);
     if (clients[i].ran_in_tick()) record.seats[i].sample_tick = record.tick;  // else of the program's last tick
   }
   for (std::size_t j = 0; j < scene.tools.size(); ++j) {

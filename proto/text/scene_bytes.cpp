@@ -30,4 +30,10 @@ std::expected<SceneSpec, InputErrors> decode_scene(std::span<const char> bytes, 
   return parse_scene(text, name + ".textproto");
 }
 
+std::string scene_file_text(const SceneSpec& scene) {
+  std::string text;
+  google::protobuf::TextFormat::PrintToString(to_proto(scene), &text);
+  return text;
+}
+
 }  // namespace tandem

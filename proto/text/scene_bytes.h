@@ -20,4 +20,8 @@ namespace tandem {
 /// @return the scene, or every error, by key path
 [[nodiscard]] std::expected<SceneSpec, InputErrors> decode_scene(std::span<const char> bytes, const std::string& name);
 
+/// Writes the scene as a scene file in text format, with every value in force. parse_scene reads the same scene from
+/// it.
+[[nodiscard]] std::string scene_file_text(const SceneSpec& scene);
+
 }  // namespace tandem

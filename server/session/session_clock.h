@@ -41,6 +41,8 @@ class SessionClock {
   /// Number of the server's tick; 0 for the first.
   [[nodiscard]] std::uint32_t tick() const noexcept { return tick_; }
   [[nodiscard]] Time last_tick() const noexcept { return last_tick_; }
+  /// Time from the server's first tick to the last one.
+  [[nodiscard]] Duration elapsed() const noexcept { return started_ ? last_tick_ - *started_ : Duration{0}; }
   /// Missed ticks that were not run.
   [[nodiscard]] std::uint64_t dropped_ticks() const noexcept { return dropped_ticks_; }
 

@@ -1,10 +1,11 @@
 #include "server/session/session_record.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tandem::server {
 
-void record_seat(const wire::StateMessage& said, const wire::Telemetry& telemetry, double scale,
+void record_seat(const wire::StateMessage& said, const wire::Telemetry& telemetry, PortSpace port, double scale,
                  SeatRecord& r) noexcept {
   r.q = telemetry.q;
   r.x = telemetry.x;
@@ -15,6 +16,9 @@ void record_seat(const wire::StateMessage& said, const wire::Telemetry& telemetr
     r.f_cmd[k] /= scale;
     r.f_out[k] /= scale;
   }
+  // The port's values are already those of the tool.
+  for (std::size_t k = 0; k < 3; ++k)
+    r.v[k] = port == PortSpace::kTip ? said.port.v[k] : std::numeric_limits<double>::quiet_NaN();
   r.e_in = said.port.e_in;
   r.e_out = telemetry.e_out;
   r.dissipated_j = telemetry.dissipated_j;
@@ -38,6 +42,7 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
   const SceneSpec& scene = session.scene();
   const std::size_t masters = scene.masters();
   record.tick = session.clock().session_tick();
+  record.time_ns = session.clock().elapsed().count();
   const wire::SessionState state = session.state();
   const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped ||
                        state == wire::SessionState::kOverloaded;
@@ -54,7 +59,7 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
       for (std::size_t k = 0; k < 3; ++k) r.ghost[k] = ghost.x[k];
       r.alpha = session.hub().authority(i);
     }
-    record_seat(session.seat(i).last_state(), session.seat(i).telemetry(), scene.seats[i].motion_scale, r);
+    record_seat(session.seat(i).last_state(), session.seat(i).telemetry(), scene.port, scene.seats[i].motion_scale, r);
   }
   for (std::size_t j = 0; j < scene.tools.size(); ++j) {
     const Tool& tool = session.tool(j);
@@ -83,6 +88,7 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
       r.sample_tick = session.seat(tool.spec().seat).last_state().seat_tick;
     }
     r.held = tool.authority.held();
+    for (std::size_t i = 0; i < masters; ++i) r.alpha[i] = tool.authority.alpha(i);
     const control::FlowSources& sources = session.hub().sources(j);
     r.mfs_j = sources.granted();
     r.e_p_j = 0;

@@ -42,6 +42,23 @@ wire::WatchedToolState tool_state(const Session& session, Time now, std::size_t 
   return out;
 }
 
+wire::WatchedAuthority authority_of(const Session& session, std::size_t j) noexcept {
+  const Tool& tool = session.tool(j);
+  wire::WatchedAuthority out;
+  out.tool = static_cast<std::uint32_t>(j);
+  if (tool.transfer.pending()) {
+    out.transfer_ticks = tool.transfer.ticks_left();
+    out.transfer_by = session.authority().origin(j);
+  }
+  for (std::size_t k = 0; k < session.scene().masters(); ++k) {
+    out.wanted[k] = std::clamp(tool.transfer.scheduled()[k], 0.0, 1.0);
+    out.applied[k] = std::clamp(tool.authority.alpha(k), 0.0, 1.0);  // a ramp may round to a little below 0
+  }
+  return out;
+}
+
+}  // namespace
+
 /// A seat that was left keeps no link: its values would look like those of the present.
 wire::WatchedLink link_of(const Session& session, Time now, std::size_t i) noexcept {
   const SeatEndpoint& seat = session.seat(i);
@@ -62,23 +79,6 @@ wire::WatchedLink link_of(const Session& session, Time now, std::size_t i) noexc
   out.late_ticks = said.late_ticks;
   return out;
 }
-
-wire::WatchedAuthority authority_of(const Session& session, std::size_t j) noexcept {
-  const Tool& tool = session.tool(j);
-  wire::WatchedAuthority out;
-  out.tool = static_cast<std::uint32_t>(j);
-  if (tool.transfer.pending()) {
-    out.transfer_ticks = tool.transfer.ticks_left();
-    out.transfer_by = session.authority().origin(j);
-  }
-  for (std::size_t k = 0; k < session.scene().masters(); ++k) {
-    out.wanted[k] = std::clamp(tool.transfer.scheduled()[k], 0.0, 1.0);
-    out.applied[k] = std::clamp(tool.authority.alpha(k), 0.0, 1.0);  // a ramp may round to a little below 0
-  }
-  return out;
-}
-
-}  // namespace
 
 void fill_telemetry(const Session& session, Time now, std::uint32_t turn, wire::SessionTelemetry& out) noexcept {
   const SceneSpec& scene = session.scene();

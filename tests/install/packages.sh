@@ -19,6 +19,8 @@ TANDEM_PACKAGES=(
   "libboost-dev: HTTP and WebSocket of tandem-console"
   "libssl-dev: TLS of the control connection, keys, SHA-256 of traces"
   "libsodium-dev: keys of datagrams, and their cipher for processors without AES"
+  "libzstd-dev: compresses recordings"
+  "zlib1g-dev: checksums of recordings"
   "prometheus-cpp-dev: writes the server's metrics"
   "libusb-1.0-0-dev: talks to USB devices"
   "libhidapi-dev: talks to HID devices"

@@ -16,7 +16,7 @@ struct Library {
   std::string_view prefix;
   std::string_view name;
 };
-constexpr std::array<Library, 22> kLibraries{{{"Eigen/", "Eigen"},
+constexpr std::array<Library, 23> kLibraries{{{"Eigen/", "Eigen"},
                                               {"unsupported/Eigen/", "Eigen"},
                                               {"asio/", "asio"},
                                               {"asio.hpp", "asio"},
@@ -35,6 +35,7 @@ constexpr std::array<Library, 22> kLibraries{{{"Eigen/", "Eigen"},
                                               {"sodium.h", "sodium"},
                                               {"intel-ipsec-mb.h", "ipsec-mb"},
                                               {"zstd.h", "zstd"},
+                                              {"zlib.h", "zlib"},
                                               {"sqlite3.h", "sqlite"},
                                               {"prometheus/", "prometheus"},
                                               {"boost/", "boost"}}};

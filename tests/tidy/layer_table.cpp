@@ -10,12 +10,16 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 44> kLayers{{
+const std::array<Layer, 47> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
      {"Eigen"},
      "common/control sees fixed-size numbers only: base and Eigen, no bytes, peers, clocks"},
+    {"common/mcap",
+     {"common/base", "common/mcap"},
+     {"zstd", "zlib"},
+     "common/mcap turns records into bytes and back: base, zstd and zlib, no file and no protobuf"},
     {"common/transport",
      {"common/base", "common/transport", "proto/wire"},
      {"openssl", "sodium", "ipsec-mb"},
@@ -60,6 +64,11 @@ const std::array<Layer, 44> kLayers{{
      {"common/base", "proto/spec", "proto/wire", "proto/rpc", "proto/schema"},
      {"protobuf"},
      "proto/rpc encodes control frames: base, plain structs, limits of datagrams, its generated schema"},
+    {"proto/recording",
+     {"common/base", "common/mcap", "proto/recording", "proto/schema", "proto/spec", "proto/text"},
+     {"protobuf"},
+     "proto/recording turns messages of recordings into plain structs and back: base, the container, its schemas, "
+     "scenes, protobuf; no file access"},
     {"proto/text",
      {"common/base", "netsim/models/path_spec.h", "proto/spec", "proto/wire", "proto/text", "proto/schema"},
      {"protobuf"},
@@ -114,6 +123,11 @@ const std::array<Layer, 44> kLayers{{
      {"common/base", "proto", "server/report"},
      {"json"},
      "server/report works on plain records after the fact: text and JSON, no session, no device"},
+    {"server/recording",
+     {"common/base", "common/mcap", "proto", "server/recording", "server/report"},
+     {},
+     "server/recording turns records of a session into the bytes of a recording: the container, messages, plain "
+     "records; no session, no file"},
     {"server/session",
      {"common/base", "common/control", "common/setup", "common/transport", "proto", "hal/core/device.h",
       "hal/core/port_map.h", "server/policy", "server/report", "server/session"},

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/io/output_file.h"
+#include "netsim/system/simulation.h"
+#include "netsim/system/simulation_config.h"
+#include "server/recording/recording_writer.h"
+
+namespace tandem::netsim {
+
+/// Writes the recording of a simulated session: option --record of `run`. Seats have their values of each tick without
+/// the delay of the network, as in the trace.
+class RunRecording {
+ public:
+  /// @param setup  of the simulation; outlives this object
+  explicit RunRecording(const SimulationConfig& setup) : setup_(&setup) {}
+
+  /// Opens the file. @param name  empty: nothing is recorded
+  /// @return the error; empty if there is none
+  [[nodiscard]] std::string open(const std::string& name);
+  /// Receives the session's events from now on. @param simulation  outlives this object
+  void attach(Simulation& simulation);
+  /// Records a tick. Call it after every step.
+  void on_tick(const Simulation& simulation);
+  /// Ends the recording and closes the file. @return the error; empty if every byte was written
+  [[nodiscard]] std::string close();
+
+ private:
+  const SimulationConfig* setup_;
+  io::OutputFile file_;
+  std::unique_ptr<server::RecordingWriter> writer_;
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace tandem::netsim

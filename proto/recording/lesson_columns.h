@@ -1,0 +1,21 @@
+#pragma once
+
+#include "proto/recording/tick_messages.h"
+#include "proto/spec/lesson.h"
+
+/// Rows of a lesson, built from the messages of a recording. Private to proto/recording.
+namespace tandem::rec {
+
+/// Takes memory for `rows` rows in all columns.
+void reserve_rows(Lesson& lesson, std::size_t rows);
+/// Appends a row with the values of the last one; in the first row numbers are NaN and counts 0. No sample is fresh.
+/// @pre lesson.seats and lesson.tools have the sizes of the scene
+void append_row(Lesson& lesson, std::uint32_t tick, std::int64_t time_ns);
+/// Set values of the last row. @pre there is a row; `i` and `j` are indices of the scene
+void set_seat(Lesson& lesson, std::size_t i, const SeatSample& sample);
+void set_tool(Lesson& lesson, std::size_t j, const ToolSample& sample);
+void set_authority(Lesson& lesson, const AuthoritySample& sample);
+void set_energy(Lesson& lesson, const EnergySample& sample);
+void set_session(Lesson& lesson, const SessionSample& sample);
+
+}  // namespace tandem::rec

@@ -1,0 +1,236 @@
+#include "proto/recording/lesson_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "common/mcap/mcap_reader.h"
+#include "common/mcap/message_cursor.h"
+#include "proto/recording/event_messages.h"
+#include "proto/recording/lesson_columns.h"
+#include "proto/recording/recording_format.h"
+#include "proto/recording/tick_messages.h"
+#include "proto/text/scene_text.h"
+
+namespace tandem {
+namespace {
+
+using namespace rec;
+
+enum class ChannelUse : std::uint8_t {
+  kNone,
+  kSeat,
+  kTool,
+  kAuthority,
+  kEnergy,
+  kSession,
+  kLink,
+  kEvent,
+  kMark,
+  kSheet,
+  kCounts
+};
+
+constexpr std::uint8_t kGateMax = 6;         // message Seat, `gate`
+constexpr std::size_t kBytesPerRow = 16;     // every tick has an entry of this size in the index of /authority
+constexpr std::size_t kRowsOfACutChunk = 100'000;  // the index of the last chunk may be missing
+constexpr std::size_t kNotesMax = 1'000'000;  // events, marks, sheets or links that are read
+
+/// Fills a lesson from the messages of a file.
+class LessonBuilder {
+ public:
+  LessonBuilder(Lesson& lesson, std::size_t rows_max) : lesson_(&lesson), rows_max_(rows_max) {}
+
+  /// @return false if the message is damaged or does not fit the scene
+  bool add(const mcap::Message& message, const mcap::Channel& channel) {
+    if (message.channel >= uses_.size()) uses_.resize(message.channel + std::size_t{1});
+    std::optional<Use>& use = uses_[message.channel];
+    if (!use) use = use_of(channel);
+    switch (use->what) {
+      case ChannelUse::kNone:
+        return true;
+      case ChannelUse::kSeat:
+        return decode(message.data, seat_) && seat_.gate <= kGateMax && seat_.leader <= lesson_->seats.size() &&
+               to_row(message, [&] { set_seat(*lesson_, use->index, seat_); });
+      case ChannelUse::kTool:
+        return decode(message.data, tool_) && to_row(message, [&] { set_tool(*lesson_, use->index, tool_); });
+      case ChannelUse::kAuthority:
+        return decode(message.data, authority_) && to_row(message, [&] { set_authority(*lesson_, authority_); });
+      case ChannelUse::kEnergy:
+        return decode(message.data, energy_) && to_row(message, [&] { set_energy(*lesson_, energy_); });
+      case ChannelUse::kSession:
+        return decode(message.data, session_) && to_row(message, [&] { set_session(*lesson_, session_); });
+      case ChannelUse::kLink:
+        return add_link(message);
+      case ChannelUse::kEvent: {
+        auto event = decode_event(message.data);
+        if (event) {
+          event->tick = message.sequence;
+          event->time_ns = since_start(message.log_time);
+        }
+        return keep(lesson_->events, std::move(event));
+      }
+      case ChannelUse::kMark:
+        return keep(lesson_->marks, decode_mark(message.data));
+      case ChannelUse::kSheet:
+        return keep(lesson_->sheets, decode_sheet(message.data));
+      case ChannelUse::kCounts:
+        return add_counts(message);
+    }
+    return false;
+  }
+
+ private:
+  struct Use {
+    ChannelUse what = ChannelUse::kNone;
+    std::size_t index = 0;  ///< of the seat or tool
+  };
+
+  [[nodiscard]] Use use_of(const mcap::Channel& channel) const {
+    constexpr std::pair<std::string_view, ChannelUse> kTopics[] = {
+        {kAuthorityTopic, ChannelUse::kAuthority}, {kEnergyTopic, ChannelUse::kEnergy},
+        {kSessionTopic, ChannelUse::kSession},     {kLinkTopic, ChannelUse::kLink},
+        {kEventsTopic, ChannelUse::kEvent},        {kMarksTopic, ChannelUse::kMark},
+        {kSheetsTopic, ChannelUse::kSheet},        {kCountsTopic, ChannelUse::kCounts}};
+    const auto kind = channel.metadata.find(kKindKey);
+    if (kind == channel.metadata.end()) return {};
+    if (kind->second == kSessionKind) {
+      for (const auto& [topic, what] : kTopics)
+        if (channel.topic == topic) return {what, 0};
+      return {};
+    }
+    const auto name = channel.metadata.find(kNameKey);
+    if (name == channel.metadata.end()) return {};
+    if (kind->second == kSeatKind)
+      if (const auto index = index_of(lesson_->scene.seats, name->second)) return {ChannelUse::kSeat, *index};
+    if (kind->second == kToolKind)
+      if (const auto index = index_of(lesson_->scene.tools, name->second)) return {ChannelUse::kTool, *index};
+    return {};
+  }
+
+  template <class Part>
+  static std::optional<std::size_t> index_of(const std::vector<Part>& parts, const std::string& name) {
+    const auto found = std::ranges::find(parts, name, &Part::name);
+    return found == parts.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - parts.begin()));
+  }
+
+  [[nodiscard]] std::int64_t since_start(std::uint64_t log_time) const noexcept {
+    return static_cast<std::int64_t>(log_time - static_cast<std::uint64_t>(lesson_->start_unix_ns));
+  }
+
+  /// Sets values in the row of the message's tick; a later tick than the last begins a row.
+  template <class Set>
+  bool to_row(const mcap::Message& message, Set set) {
+    const std::uint32_t tick = message.sequence;
+    if (lesson_->tick.empty() || tick > lesson_->tick.back()) {
+      if (lesson_->rows() >= rows_max_) return false;
+      append_row(*lesson_, tick, since_start(message.log_time));
+    } else if (tick < lesson_->tick.back()) {
+      return false;
+    }
+    set();
+    return true;
+  }
+
+  template <class Note>
+  static bool keep(std::vector<Note>& notes, std::optional<Note> note) {
+    if (!note || notes.size() >= kNotesMax) return false;
+    notes.push_back(std::move(*note));
+    return true;
+  }
+
+  bool add_link(const mcap::Message& message) {
+    std::string seat;
+    auto link = decode_link(message.data, seat);
+    if (!link) return false;
+    const auto index = index_of(lesson_->scene.seats, seat);
+    if (!index) return false;
+    link->tick = message.sequence;
+    link->seat = static_cast<std::uint32_t>(*index);
+    return keep(lesson_->links, std::move(link));
+  }
+
+  bool add_counts(const mcap::Message& message) {
+    const auto counts = decode_counts(message.data);
+    if (!counts) return false;
+    for (const CountsMessage::Channel& channel : counts->channels) {
+      if (lesson_->counts.size() > mcap::kDefinitionsMax) return false;
+      lesson_->counts[channel.topic] = channel.count;
+    }
+    return true;
+  }
+
+  Lesson* lesson_;
+  std::size_t rows_max_;
+  std::vector<std::optional<Use>> uses_;  ///< by number of the channel
+  SeatSample seat_;
+  ToolSample tool_;
+  AuthoritySample authority_;
+  EnergySample energy_;
+  SessionSample session_;
+};
+
+/// Sets what the metadata records say. @return why this is no recording that can be read; empty: it is
+std::string read_metadata(const mcap::Reader& reader, Lesson& lesson) {
+  const mcap::TextMap* const session = reader.metadata(kSessionRecord);
+  const mcap::TextMap* const scene = reader.metadata(kSceneRecord);
+  if (reader.profile() != kProfile || session == nullptr || scene == nullptr)
+    return "is an MCAP file, but no recording of Tandem: profile \"" + reader.profile().substr(0, 64) + "\"";
+  const auto value = [](const mcap::TextMap& map, const char* key) {
+    const auto found = map.find(key);
+    return found == map.end() ? std::string() : found->second;
+  };
+  if (const std::string format = value(*session, "format"); format != kFormat)
+    return "has format \"" + format.substr(0, 32) + "\" of recordings; this program reads format " +
+           std::string(kFormat);
+  lesson.metadata = *session;
+  lesson.session = value(*session, "session");
+  const std::string start = value(*session, "start_unix_ns");
+  const auto parsed = std::from_chars(start.data(), start.data() + start.size(), lesson.start_unix_ns);
+  if (parsed.ec != std::errc{} || parsed.ptr != start.data() + start.size() || lesson.start_unix_ns < 0)
+    return "has no valid start_unix_ns: \"" + start.substr(0, 32) + "\"";
+  lesson.scene_text = value(*scene, "text");
+  auto parsed_scene = parse_scene(lesson.scene_text, value(*scene, "name") + ".textproto");
+  if (!parsed_scene) return "has a scene that is not valid: " + to_text(parsed_scene.error());
+  lesson.scene = std::move(*parsed_scene);
+  lesson.seats.resize(lesson.scene.seats.size());
+  lesson.tools.resize(lesson.scene.tools.size());
+  if (const mcap::TextMap* const persons = reader.metadata(kParticipantsRecord))
+    for (std::size_t i = 0; i < lesson.seats.size(); ++i)
+      lesson.seats[i].person = value(*persons, lesson.scene.seats[i].name.c_str());
+  return {};
+}
+
+/// Number of rows to take memory for.
+std::size_t expected_rows(const mcap::Reader& reader, std::size_t rows_max) {
+  if (!reader.statistics()) return 0;
+  for (const mcap::Channel& channel : reader.channels())
+    if (channel.topic == kAuthorityTopic)
+      if (const auto count = reader.statistics()->channel_messages.find(channel.id);
+          count != reader.statistics()->channel_messages.end())
+        return static_cast<std::size_t>(std::min<std::uint64_t>(count->second, rows_max));
+  return 0;
+}
+
+}  // namespace
+
+std::expected<Lesson, std::string> read_lesson(std::span<const std::byte> bytes) {
+  const auto reader = mcap::Reader::open(bytes);
+  if (!reader) return std::unexpected(reader.error().message);
+  Lesson lesson;
+  if (std::string problem = read_metadata(*reader, lesson); !problem.empty()) return std::unexpected(problem);
+  const std::size_t rows_max = bytes.size() / kBytesPerRow + kRowsOfACutChunk;
+  reserve_rows(lesson, expected_rows(*reader, bytes.size() / kBytesPerRow));
+  LessonBuilder builder{lesson, rows_max};
+  mcap::MessageCursor cursor{*reader};
+  bool whole = true;
+  while (const auto message = cursor.next()) {
+    const mcap::Channel* const channel = cursor.channel(message->channel);
+    whole &= channel != nullptr && builder.add(*message, *channel);
+  }
+  lesson.complete =
+      whole && reader->complete() && cursor.damaged() == 0 && reader->metadata(kCountsRecord) != nullptr;
+  return lesson;
+}
+
+}  // namespace tandem

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+/// Names that the writer and the reader of a recording share (server/recording/README.md).
+namespace tandem::rec {
+
+inline constexpr std::string_view kProfile = "x-tandem";  ///< of the MCAP header
+inline constexpr std::string_view kFormat = "1";          ///< value of `format` in the metadata record `session`
+inline constexpr std::string_view kEncoding = "protobuf";  ///< of schemas and messages
+
+/// Metadata records.
+inline constexpr const char* kSessionRecord = "session";
+inline constexpr const char* kSceneRecord = "scene";
+inline constexpr const char* kParticipantsRecord = "participants";
+inline constexpr const char* kRolesRecord = "roles";
+inline constexpr const char* kCountsRecord = "counts";
+
+/// Keys of the metadata of a channel: what it shows, and the seat or tool that it shows.
+inline constexpr const char* kKindKey = "kind";
+inline constexpr const char* kNameKey = "name";
+inline constexpr std::string_view kSeatKind = "seat", kToolKind = "tool", kSessionKind = "session", kViewKind = "view";
+
+inline constexpr std::string_view kAuthorityTopic = "/authority", kEnergyTopic = "/energy", kSessionTopic = "/session",
+                                  kInputsTopic = "/inputs", kLinkTopic = "/link", kEventsTopic = "/events",
+                                  kMarksTopic = "/marks", kSheetsTopic = "/sheets", kCountsTopic = "/counts",
+                                  kSceneTopic = "/view/scene", kTransformTopic = "/tf", kLogTopic = "/log";
+
+}  // namespace tandem::rec

@@ -1,0 +1,284 @@
+#include "proto/recording/tick_messages.h"
+
+#include <bit>
+#include <cstring>
+
+#include "proto/recording/protobuf_fields.h"
+
+namespace tandem::rec {
+namespace {
+
+/// Returns the values up to the last one whose bits are not all 0.
+template <class Value, std::size_t kSize>
+std::span<const Value> without_zeros(const std::array<Value, kSize>& values) noexcept {
+  std::size_t size = kSize;
+  while (size > 0 && std::bit_cast<std::uint64_t>(values[size - 1]) == 0) --size;
+  return std::span{values}.first(size);
+}
+
+bool read_vector(std::span<const std::byte> bytes, Triple& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  while (scanner.next(field))
+    if (field.number >= 1 && field.number <= 3) out[field.number - 1] = field.number_value();
+  return scanner.ok();
+}
+
+/// Reads packed or single values of eight bytes. @param count  of values so far; more than fit are ignored
+template <class Value, std::size_t kSize>
+bool read_values(const Field& field, std::array<Value, kSize>& out, std::size_t& count) noexcept {
+  if (field.type == FieldType::kFixed64) {
+    if (count < kSize) out[count++] = std::bit_cast<Value>(field.value);
+    return true;
+  }
+  if (field.bytes.size() % sizeof(Value) != 0) return false;
+  const std::size_t room = kSize - count, given = field.bytes.size() / sizeof(Value);
+  const std::size_t taken = given < room ? given : room;
+  if (taken > 0) std::memcpy(out.data() + count, field.bytes.data(), taken * sizeof(Value));
+  count += taken;
+  return true;
+}
+
+void write_seat_energy(FieldWriter& fields, const SeatEnergySample& sample) {
+  fields.packed(1, without_zeros(sample.e_in));
+  fields.packed(2, without_zeros(sample.e_out));
+  fields.number(3, sample.dissipated_j);
+  fields.number(4, sample.refused_j);
+  fields.number(5, sample.margin_min_j);
+  fields.number(6, sample.delivered_j);
+}
+
+void write_tool_energy(FieldWriter& fields, const ToolEnergySample& sample) {
+  fields.number(1, sample.mfs_j);
+  fields.number(2, sample.e_p_j);
+  fields.packed(3, without_zeros(sample.e_p_axis_j));
+}
+
+bool read_seat_energy(std::span<const std::byte> bytes, SeatEnergySample& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  std::size_t in = 0, given = 0;
+  bool ok = true;
+  while (scanner.next(field)) switch (field.number) {
+      case 1:
+        ok &= read_values(field, out.e_in, in);
+        break;
+      case 2:
+        ok &= read_values(field, out.e_out, given);
+        break;
+      case 3:
+        out.dissipated_j = field.number_value();
+        break;
+      case 4:
+        out.refused_j = field.number_value();
+        break;
+      case 5:
+        out.margin_min_j = field.number_value();
+        break;
+      case 6:
+        out.delivered_j = field.number_value();
+        break;
+      default:
+        break;
+    }
+  return ok && scanner.ok();
+}
+
+bool read_tool_energy(std::span<const std::byte> bytes, ToolEnergySample& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  std::size_t axes = 0;
+  bool ok = true;
+  while (scanner.next(field)) {
+    if (field.number == 1) out.mfs_j = field.number_value();
+    if (field.number == 2) out.e_p_j = field.number_value();
+    if (field.number == 3) ok &= read_values(field, out.e_p_axis_j, axes);
+  }
+  return ok && scanner.ok();
+}
+
+}  // namespace
+
+void encode(const SeatSample& sample, std::string& out) {
+  out.clear();
+  FieldWriter fields{out};
+  fields.vector(1, sample.measured_cp);
+  fields.vector(2, sample.measured_cv);
+  fields.vector(3, sample.measured_cf);
+  fields.vector(4, sample.servo_cf);
+  fields.packed(5, without_zeros(sample.measured_jp));
+  fields.fixed32(6, sample.sample_tick);
+  fields.number(7, sample.alpha);
+  fields.varint(8, sample.gate);
+  fields.varint(9, sample.engaged ? 1 : 0);
+  fields.varint(10, sample.leader);
+  if (!without_zeros(sample.ghost).empty()) fields.vector(11, sample.ghost);
+}
+
+void encode(const ToolSample& sample, std::string& out) {
+  out.clear();
+  FieldWriter fields{out};
+  fields.vector(1, sample.measured_cp);
+  fields.vector(2, sample.setpoint_cp);
+  fields.vector(3, sample.measured_cf);
+  fields.vector(4, sample.servo_cf);
+  fields.packed(5, without_zeros(sample.measured_jp));
+  fields.fixed32(6, sample.sample_tick);
+  fields.number(7, sample.penetration);
+  fields.varint(8, sample.braked ? 1 : 0);
+}
+
+void encode(const AuthoritySample& sample, std::string& out) {
+  out.clear();
+  FieldWriter fields{out};
+  for (std::size_t j = 0; j < sample.tools; ++j)
+    fields.message(1, [&](FieldWriter& row) { row.packed(1, std::span{sample.alpha[j]}.first(sample.masters)); });
+}
+
+void encode(const EnergySample& sample, std::string& out) {
+  out.clear();
+  FieldWriter fields{out};
+  for (std::size_t i = 0; i < sample.seats; ++i)
+    fields.message(1, [&](FieldWriter& row) { write_seat_energy(row, sample.seat[i]); });
+  for (std::size_t j = 0; j < sample.tools; ++j)
+    fields.message(2, [&](FieldWriter& row) { write_tool_energy(row, sample.tool[j]); });
+}
+
+void encode(const SessionSample& sample, std::string& out) {
+  out.clear();
+  FieldWriter fields{out};
+  fields.varint(1, sample.running ? 1 : 0);
+  fields.varint(2, sample.stopped_ticks);
+  fields.varint(3, sample.dropped_ticks);
+}
+
+bool decode(std::span<const std::byte> bytes, SeatSample& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  std::size_t joints = 0;
+  bool ok = true;
+  while (scanner.next(field)) switch (field.number) {
+      case 1:
+        ok &= read_vector(field.bytes, out.measured_cp);
+        break;
+      case 2:
+        ok &= read_vector(field.bytes, out.measured_cv);
+        break;
+      case 3:
+        ok &= read_vector(field.bytes, out.measured_cf);
+        break;
+      case 4:
+        ok &= read_vector(field.bytes, out.servo_cf);
+        break;
+      case 5:
+        ok &= read_values(field, out.measured_jp, joints);
+        break;
+      case 6:
+        out.sample_tick = static_cast<std::uint32_t>(field.value);
+        break;
+      case 7:
+        out.alpha = field.number_value();
+        break;
+      case 8:
+        out.gate = static_cast<std::uint8_t>(field.value);
+        break;
+      case 9:
+        out.engaged = field.value != 0;
+        break;
+      case 10:
+        out.leader = static_cast<std::uint32_t>(field.value);
+        break;
+      case 11:
+        ok &= read_vector(field.bytes, out.ghost);
+        break;
+      default:
+        break;
+    }
+  return ok && scanner.ok();
+}
+
+bool decode(std::span<const std::byte> bytes, ToolSample& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  std::size_t joints = 0;
+  bool ok = true;
+  while (scanner.next(field)) switch (field.number) {
+      case 1:
+        ok &= read_vector(field.bytes, out.measured_cp);
+        break;
+      case 2:
+        ok &= read_vector(field.bytes, out.setpoint_cp);
+        break;
+      case 3:
+        ok &= read_vector(field.bytes, out.measured_cf);
+        break;
+      case 4:
+        ok &= read_vector(field.bytes, out.servo_cf);
+        break;
+      case 5:
+        ok &= read_values(field, out.measured_jp, joints);
+        break;
+      case 6:
+        out.sample_tick = static_cast<std::uint32_t>(field.value);
+        break;
+      case 7:
+        out.penetration = field.number_value();
+        break;
+      case 8:
+        out.braked = field.value != 0;
+        break;
+      default:
+        break;
+    }
+  return ok && scanner.ok();
+}
+
+bool decode(std::span<const std::byte> bytes, AuthoritySample& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  while (scanner.next(field)) {
+    if (field.number != 1 || out.tools == kToolsMax) continue;
+    FieldScanner row{field.bytes};
+    Field value;
+    std::size_t masters = 0;
+    while (row.next(value))
+      if (value.number == 1 && !read_values(value, out.alpha[out.tools], masters)) return false;
+    if (!row.ok()) return false;
+    out.masters = masters;
+    ++out.tools;
+  }
+  return scanner.ok();
+}
+
+bool decode(std::span<const std::byte> bytes, EnergySample& out) noexcept {
+  out.seats = out.tools = 0;
+  FieldScanner scanner{bytes};
+  Field field;
+  while (scanner.next(field)) {
+    if (field.number == 1 && out.seats < kSeatsMax && !read_seat_energy(field.bytes, out.seat[out.seats++]))
+      return false;
+    if (field.number == 2 && out.tools < kToolsMax && !read_tool_energy(field.bytes, out.tool[out.tools++]))
+      return false;
+  }
+  return scanner.ok();
+}
+
+bool decode(std::span<const std::byte> bytes, SessionSample& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  while (scanner.next(field)) {
+    if (field.number == 1) out.running = field.value != 0;
+    if (field.number == 2) out.stopped_ticks = field.value;
+    if (field.number == 3) out.dropped_ticks = field.value;
+  }
+  return scanner.ok();
+}
+
+}  // namespace tandem::rec

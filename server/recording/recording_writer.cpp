@@ -1,0 +1,219 @@
+#include "server/recording/recording_writer.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "proto/recording/event_messages.h"
+#include "proto/recording/recording_format.h"
+#include "server/recording/build_identity.h"
+
+namespace tandem::server {
+namespace {
+
+constexpr const char* kClock =
+    "log_time = start_unix_ns + nanoseconds of the server's monotonic clock since its first tick; start_unix_ns is the "
+    "server's wall clock at that tick, 0 if it has none";
+
+std::string library_text() {
+  const BuildIdentity build = build_identity();
+  return "tandem " + std::string(build.version) + " (" + std::string(build.commit) + ")";
+}
+
+mcap::TextMap session_metadata(const SceneSpec& scene, const RecordingInfo& info) {
+  const BuildIdentity build = build_identity();
+  mcap::TextMap values{{"version", std::string(build.version)}, {"commit", std::string(build.commit)}};
+  for (const auto& [key, value] : info.metadata) values[key] = value;
+  values["format"] = rec::kFormat;
+  values["session"] = info.session;
+  values["start_unix_ns"] = std::to_string(info.start_unix_ns);
+  values["clock"] = kClock;
+  values["tick_hz"] = std::to_string(scene.tick_hz);
+  return values;
+}
+
+const char* role_text(const SeatSpec& seat) {
+  if (seat.kind == SeatKind::kSlave) return "SLAVE";
+  switch (seat.role) {
+    case Role::kInstructor:
+      return "INSTRUCTOR";
+    case Role::kTrainee:
+      return "TRAINEE";
+    case Role::kEvaluator:
+      return "EVALUATOR";
+    case Role::kObserver:
+      return "OBSERVER";
+  }
+  return "";
+}
+
+rec::SeatSample sample_of(const SeatRecord& r) {
+  return {.measured_cp = r.x,
+          .measured_cv = r.v,
+          .measured_cf = r.f_out,
+          .servo_cf = r.f_cmd,
+          .measured_jp = r.q,
+          .sample_tick = r.sample_tick,
+          .alpha = r.alpha,
+          .gate = static_cast<std::uint8_t>(r.gate),
+          .engaged = r.engaged,
+          .leader = r.leader,
+          .ghost = r.ghost};
+}
+
+rec::ToolSample sample_of(const ToolRecord& r) {
+  return {.measured_cp = r.x,
+          .setpoint_cp = r.x_tool,
+          .measured_cf = r.f_env,
+          .servo_cf = r.f_cmd,
+          .measured_jp = r.q,
+          .sample_tick = r.sample_tick,
+          .penetration = r.penetration,
+          .braked = r.held};
+}
+
+void fill_energy(const SceneSpec& scene, const TickRecord& record, rec::EnergySample& out) {
+  out.seats = scene.seats.size();
+  out.tools = scene.tools.size();
+  for (std::size_t i = 0; i < out.seats; ++i) {
+    const SeatRecord& r = record.seats[i];
+    out.seat[i] = {r.e_in, r.e_out, r.dissipated_j, r.refused_j, r.margin_min_j, r.delivered_j};
+  }
+  for (std::size_t j = 0; j < out.tools; ++j) {
+    const ToolRecord& r = record.tools[j];
+    out.tool[j] = {r.mfs_j, r.e_p_j, r.e_p_axis_j};
+  }
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const SceneSpec& scene, const RecordingInfo& info)
+    : scene_(&scene),
+      masters_(scene.masters()),
+      start_unix_ns_(info.start_unix_ns),
+      file_(rec::kProfile, library_text()),
+      channels_(scene, file_),
+      notes_(add_note_channels(file_)),
+      view_(scene, file_) {
+  file_.add_metadata({rec::kSessionRecord, session_metadata(scene, info)});
+  file_.add_metadata({rec::kSceneRecord, {{"name", scene.name}, {"text", info.scene_text}}});
+  mcap::TextMap persons, roles;
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
+    roles[scene.seats[i].name] = role_text(scene.seats[i]);
+    if (i < info.persons.size()) persons[scene.seats[i].name] = info.persons[i];
+  }
+  file_.add_metadata({rec::kParticipantsRecord, std::move(persons)});
+  file_.add_metadata({rec::kRolesRecord, std::move(roles)});
+}
+
+std::uint64_t RecordingWriter::log_time(std::int64_t time_ns) const noexcept {
+  return static_cast<std::uint64_t>(start_unix_ns_ + std::max<std::int64_t>(time_ns, 0));
+}
+
+/// Ends the open chunk if a message of this time does not belong to it.
+void RecordingWriter::begin_message(std::int64_t time_ns) {
+  if (chunk_begin_ && (time_ns - *chunk_begin_ >= kChunkNs || file_.open_bytes() >= kChunkBytes)) flush();
+  if (!chunk_begin_) chunk_begin_ = time_ns;
+}
+
+void RecordingWriter::add(const TickRecord& record) {
+  if (account_.begun() ? record.tick <= account_.last_tick() : !record.running) return;
+  begin_message(record.time_ns);
+  time_ns_ = record.time_ns;
+  account_.add(record.tick);
+  const rec::SessionSample session{record.running, record.stopped_ticks, record.dropped_ticks};
+  if (session != session_) {
+    encode(session, message_);
+    note(notes_.session, message_);
+    session_ = session;
+  }
+  rec::AuthoritySample authority;
+  authority.tools = scene_->tools.size();
+  authority.masters = masters_;
+  for (std::size_t j = 0; j < authority.tools; ++j) authority.alpha[j] = record.tools[j].alpha;
+  encode(authority, message_);
+  add_always(channels_.authority());
+  fill_energy(*scene_, record, energy_);
+  encode(energy_, message_);
+  add_always(channels_.energy());
+  for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
+    encode(sample_of(record.seats[i]), message_);
+    add_if_new(channels_.seat(i));
+  }
+  for (std::size_t j = 0; j < scene_->tools.size(); ++j) {
+    encode(sample_of(record.tools[j]), message_);
+    add_if_new(channels_.tool(j));
+  }
+  view_.add(record, log_time(time_ns_), file_);
+}
+
+void RecordingWriter::add_always(TickChannels::Channel& channel) {
+  file_.add_message(channel.id, account_.last_tick(), log_time(time_ns_), message_);
+  ++channel.recorded;
+}
+
+void RecordingWriter::add_if_new(TickChannels::Channel& channel) {
+  if (message_ == channel.last) return;
+  add_always(channel);
+  std::swap(channel.last, message_);
+}
+
+void RecordingWriter::note(std::uint16_t channel, std::string_view data) {
+  file_.add_message(channel, account_.last_tick(), log_time(time_ns_), data);
+}
+
+void RecordingWriter::add_inputs(std::uint32_t tick, std::span<const std::byte> bytes) {
+  begin_message(time_ns_);
+  rec::encode_inputs(tick, bytes, message_);
+  note(notes_.inputs, message_);
+}
+
+void RecordingWriter::add_event(const LessonEvent& event) {
+  begin_message(event.time_ns);
+  const std::uint64_t time = log_time(event.time_ns);
+  file_.add_message(notes_.events, event.tick, time, rec::encode_event(event));
+  view_.log(rec::LogLevel::kInfo, event.seat, event.what + ": " + event.text, event.tick, time, file_);
+}
+
+void RecordingWriter::add_mark(const LessonMark& mark) {
+  begin_message(time_ns_);
+  note(notes_.marks, rec::encode_mark(mark));
+  view_.log(rec::LogLevel::kInfo, mark.by, "mark: " + mark.text, account_.last_tick(), log_time(time_ns_), file_);
+}
+
+void RecordingWriter::add_sheet(const LessonSheet& sheet) {
+  begin_message(time_ns_);
+  note(notes_.sheets, rec::encode_sheet(sheet));
+}
+
+void RecordingWriter::add_link(const LessonLink& link) {
+  begin_message(time_ns_);
+  file_.add_message(notes_.link, link.tick, log_time(time_ns_), rec::encode_link(link, scene_->seats[link.seat].name));
+}
+
+void RecordingWriter::flush() {
+  if (!chunk_begin_) return;
+  rec::CountsMessage counts;
+  counts.ticks = account_.ticks();
+  for (const TickChannels::Channel& channel : channels_.all())
+    counts.channels.push_back({channel.topic, account_.of(channel.recorded)});
+  note(notes_.counts, rec::encode_counts(counts));
+  file_.close_chunk();
+  chunk_begin_.reset();
+  view_.begin_chunk();
+}
+
+void RecordingWriter::finish() {
+  account_.finish();
+  flush();
+  mcap::TextMap counts{{"ticks", std::to_string(account_.ticks())}};
+  for (const TickChannels::Channel& channel : channels_.all()) {
+    const LessonCount count = account_.of(channel.recorded);
+    counts[channel.topic] = "recorded " + std::to_string(count.recorded) + " dropped " + std::to_string(count.dropped) +
+                            " never_received " + std::to_string(count.never_received);
+  }
+  file_.add_metadata({rec::kCountsRecord, std::move(counts)});
+  file_.finish();
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "common/mcap/mcap_writer.h"
+#include "proto/recording/tick_messages.h"
+#include "proto/spec/lesson.h"
+#include "proto/spec/scene_spec.h"
+#include "server/recording/recording_channels.h"
+#include "server/recording/recording_info.h"
+#include "server/recording/view_channels.h"
+#include "server/report/tick_record.h"
+
+namespace tandem::server {
+
+/// Turns the records of a session into the bytes of an MCAP file (server/recording/README.md). It opens no file and
+/// reads no clock: the caller appends what `take` returns to a file. What was taken consists of whole chunks, so a file
+/// that ends there is readable. The same calls and build give the same bytes.
+///
+/// Memory: one open chunk of kChunkNs or kChunkBytes, the bytes since the last `take`, and some 0.5 kB per chunk for
+/// the index, up to DataSection::kChunksIndexed chunks. Used by an ordinary thread; throws std::bad_alloc only.
+class RecordingWriter {
+ public:
+  static constexpr std::int64_t kChunkNs = 250'000'000;        ///< length of a chunk [ns]
+  static constexpr std::size_t kChunkBytes = 8 * 1024 * 1024;  ///< size at which a chunk ends earlier [bytes]
+
+  /// @param scene  outlives the writer
+  RecordingWriter(const SceneSpec& scene, const RecordingInfo& info);
+
+  /// Adds a tick. Records whose tick is not later than the last one are ignored, because the session clock stood still;
+  /// so are those from before the session runs.
+  void add(const TickRecord& record);
+  /// Adds the inputs of a server's tick, for replay. @param bytes  in the encoding of the replay, opaque here
+  void add_inputs(std::uint32_t tick, std::span<const std::byte> bytes);
+  void add_event(const LessonEvent& event);
+  void add_mark(const LessonMark& mark);
+  void add_sheet(const LessonSheet& sheet);
+  /// @pre link.seat is an index of the scene's seats
+  void add_link(const LessonLink& link);
+  /// States that `n` records were dropped since the last `add`, because a queue was full.
+  void count_dropped(std::uint64_t n) noexcept { account_.drop(n); }
+
+  /// Returns the whole records since the last call, to be appended to the file.
+  [[nodiscard]] std::string take() { return file_.take(); }
+  /// Ends the open chunk now, so that `take` returns everything so far.
+  void flush();
+  /// Ends the file: last chunk, counts, summary, footer. Nothing may follow but `take`.
+  void finish();
+
+  /// Size of the file without the open chunk [bytes].
+  [[nodiscard]] std::uint64_t size() const noexcept { return file_.size(); }
+  /// Ticks so far, and the messages of /authority among them.
+  [[nodiscard]] LessonCount counts() const noexcept { return account_.of(channels_.all().front().recorded); }
+
+ private:
+  /// Adds a message of this tick unless it is that of the tick before.
+  void add_if_new(TickChannels::Channel& channel);
+  void add_always(TickChannels::Channel& channel);
+  void note(std::uint16_t channel, std::string_view data);
+  void begin_message(std::int64_t time_ns);
+  [[nodiscard]] std::uint64_t log_time(std::int64_t time_ns) const noexcept;
+
+  const SceneSpec* scene_;
+  std::size_t masters_;
+  std::int64_t start_unix_ns_;
+  mcap::Writer file_;
+  TickChannels channels_;
+  NoteChannels notes_;
+  ViewChannels view_;
+  TickAccount account_;
+  std::int64_t time_ns_ = 0;  ///< of the last record
+  std::optional<std::int64_t> chunk_begin_;
+  std::optional<rec::SessionSample> session_;
+  std::string message_;
+  rec::EnergySample energy_;
+};
+
+}  // namespace tandem::server

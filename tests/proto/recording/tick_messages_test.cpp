@@ -1,0 +1,247 @@
+// The codec of the messages that a recording has for every tick, beside protobuf's own code.
+#include "proto/recording/tick_messages.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+
+#include "common/base/raw_bytes.h"
+#include "common/base/rng.h"
+#include "proto/recording/event_messages.h"
+#include "proto/schema/recording.pb.h"
+#include "tests/common/base/counts.h"
+
+namespace tandem::rec {
+namespace {
+
+using test::seeds;
+
+/// Numbers of all kinds: special ones, and any bits.
+double any_double(RandomStream& random) {
+  constexpr double kSpecial[] = {0.0,
+                                 -0.0,
+                                 1.0,
+                                 -1e-300,
+                                 5e-324,
+                                 1e300,
+                                 std::numeric_limits<double>::infinity(),
+                                 -std::numeric_limits<double>::infinity(),
+                                 std::numeric_limits<double>::quiet_NaN()};
+  return random.below(3) == 0 ? kSpecial[random.below(std::size(kSpecial))] : std::bit_cast<double>(random.bits());
+}
+
+template <std::size_t kSize>
+void fill(std::array<double, kSize>& out, RandomStream& random, std::size_t used = kSize) {
+  for (std::size_t k = 0; k < used; ++k) out[k] = any_double(random);
+}
+
+std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
+template <std::size_t kSize>
+bool same(const std::array<double, kSize>& a, const std::array<double, kSize>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return bits(x) == bits(y); });
+}
+bool same(const Triple& a, const recording::Vector3& b) {
+  return bits(a[0]) == bits(b.x()) && bits(a[1]) == bits(b.y()) && bits(a[2]) == bits(b.z());
+}
+
+SeatSample any_seat(RandomStream& random) {
+  SeatSample s;
+  for (Triple* v : {&s.measured_cp, &s.measured_cv, &s.measured_cf, &s.servo_cf}) fill(*v, random);
+  fill(s.measured_jp, random, random.below(8));
+  if (random.below(2) == 0) fill(s.ghost, random);
+  s.sample_tick = static_cast<std::uint32_t>(random.bits());
+  s.alpha = any_double(random);
+  s.gate = static_cast<std::uint8_t>(random.below(7));
+  s.engaged = random.below(2) == 0;
+  s.leader = static_cast<std::uint32_t>(random.below(17));
+  return s;
+}
+
+TEST(TickMessages, MatchTheLibraryForAnySeat) {
+  const std::uint64_t count = seeds(300);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream random{RandomKey{seed}};
+    const SeatSample in = any_seat(random);
+    std::string bytes;
+    encode(in, bytes);
+    recording::Seat library;
+    ASSERT_TRUE(library.ParseFromString(bytes));
+    EXPECT_TRUE(same(in.measured_cp, library.measured_cp()));
+    EXPECT_TRUE(same(in.measured_cv, library.measured_cv()));
+    EXPECT_TRUE(same(in.measured_cf, library.measured_cf()));
+    EXPECT_TRUE(same(in.servo_cf, library.servo_cf()));
+    EXPECT_TRUE(same(in.ghost, library.ghost()));
+    for (std::size_t k = 0; k < in.measured_jp.size(); ++k)
+      EXPECT_EQ(bits(in.measured_jp[k]), static_cast<int>(k) < library.measured_jp_size()
+                                             ? bits(library.measured_jp(static_cast<int>(k)))
+                                             : 0);
+    EXPECT_EQ(in.sample_tick, library.sample_tick());
+    EXPECT_EQ(bits(in.alpha), bits(library.alpha()));
+    EXPECT_EQ(in.gate, library.gate());
+    EXPECT_EQ(in.engaged, library.engaged());
+    EXPECT_EQ(in.leader, library.leader());
+    for (const std::string& encoded : {bytes, library.SerializeAsString()}) {
+      SeatSample out;
+      ASSERT_TRUE(decode(bytes_of(encoded), out));
+      std::string again;
+      encode(out, again);
+      EXPECT_EQ(again, bytes);
+      EXPECT_TRUE(same(in.measured_jp, out.measured_jp) && same(in.ghost, out.ghost));
+    }
+  }
+}
+
+TEST(TickMessages, MatchTheLibraryForAnyTool) {
+  const std::uint64_t count = seeds(300);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream random{RandomKey{seed}};
+    ToolSample in;
+    for (Triple* v : {&in.measured_cp, &in.setpoint_cp, &in.measured_cf, &in.servo_cf}) fill(*v, random);
+    fill(in.measured_jp, random, random.below(8));
+    in.sample_tick = static_cast<std::uint32_t>(random.bits());
+    in.penetration = any_double(random);
+    in.braked = random.below(2) == 0;
+    std::string bytes;
+    encode(in, bytes);
+    recording::Tool library;
+    ASSERT_TRUE(library.ParseFromString(bytes));
+    EXPECT_TRUE(same(in.measured_cp, library.measured_cp()));
+    EXPECT_TRUE(same(in.setpoint_cp, library.setpoint_cp()));
+    EXPECT_TRUE(same(in.measured_cf, library.measured_cf()));
+    EXPECT_TRUE(same(in.servo_cf, library.servo_cf()));
+    EXPECT_EQ(in.sample_tick, library.sample_tick());
+    EXPECT_EQ(bits(in.penetration), bits(library.penetration()));
+    EXPECT_EQ(in.braked, library.braked());
+    ToolSample out;
+    ASSERT_TRUE(decode(bytes_of(library.SerializeAsString()), out));
+    std::string again;
+    encode(out, again);
+    EXPECT_EQ(again, bytes);
+  }
+}
+
+TEST(TickMessages, MatchTheLibraryForAnyEnergyAndAuthority) {
+  const std::uint64_t count = seeds(100);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream random{RandomKey{seed}};
+    EnergySample energy;
+    energy.seats = random.below(kSeatsMax + 1);
+    energy.tools = random.below(kToolsMax + 1);
+    for (std::size_t i = 0; i < energy.seats; ++i) {
+      SeatEnergySample& s = energy.seat[i];
+      for (EnergyArray* e : {&s.e_in, &s.e_out})
+        for (std::uint64_t& axis : *e) axis = random.below(3) == 0 ? 0 : random.bits();
+      for (double* x : {&s.dissipated_j, &s.refused_j, &s.margin_min_j, &s.delivered_j}) *x = any_double(random);
+    }
+    for (std::size_t j = 0; j < energy.tools; ++j) {
+      energy.tool[j].mfs_j = any_double(random);
+      energy.tool[j].e_p_j = any_double(random);
+      fill(energy.tool[j].e_p_axis_j, random);
+    }
+    std::string bytes;
+    encode(energy, bytes);
+    recording::Energy library;
+    ASSERT_TRUE(library.ParseFromString(bytes));
+    ASSERT_EQ(static_cast<std::size_t>(library.seats_size()), energy.seats);
+    for (std::size_t i = 0; i < energy.seats; ++i) {
+      const recording::SeatEnergy& s = library.seats(static_cast<int>(i));
+      for (int k = 0; k < s.e_in_size(); ++k) EXPECT_EQ(s.e_in(k), energy.seat[i].e_in[static_cast<std::size_t>(k)]);
+      EXPECT_EQ(bits(s.margin_min_j()), bits(energy.seat[i].margin_min_j));
+    }
+    EnergySample out;
+    ASSERT_TRUE(decode(bytes_of(library.SerializeAsString()), out));
+    std::string again;
+    encode(out, again);
+    EXPECT_EQ(again, bytes);
+
+    AuthoritySample authority;
+    authority.tools = random.below(kToolsMax + 1);
+    authority.masters = random.below(kMastersMax + 1);
+    for (std::size_t j = 0; j < authority.tools; ++j) fill(authority.alpha[j], random, authority.masters);
+    encode(authority, bytes);
+    recording::Authority rows;
+    ASSERT_TRUE(rows.ParseFromString(bytes));
+    ASSERT_EQ(static_cast<std::size_t>(rows.tools_size()), authority.tools);
+    AuthoritySample read;
+    ASSERT_TRUE(decode(bytes_of(rows.SerializeAsString()), read));
+    ASSERT_EQ(read.tools, authority.tools);
+    for (std::size_t j = 0; j < authority.tools; ++j) EXPECT_TRUE(same(read.alpha[j], authority.alpha[j]));
+  }
+}
+
+TEST(TickMessages, RefuseOrSurviveEveryCutAndFlippedBit) {
+  RandomStream random{RandomKey{1}};
+  std::string bytes;
+  encode(any_seat(random), bytes);
+  SeatSample out;
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    static_cast<void>(decode(bytes_of(std::string_view{bytes}.substr(0, size)), out));
+  for (std::size_t i = 0; i < bytes.size() * 8; ++i) {
+    std::string flipped = bytes;
+    flipped[i / 8] = static_cast<char>(flipped[i / 8] ^ (1 << i % 8));
+    recording::Seat library;
+    const bool accepted = decode(bytes_of(flipped), out);
+    // Own code accepts all that the library accepts; fields of another type than the schema's are ignored by both.
+    if (library.ParseFromString(flipped)) EXPECT_TRUE(accepted) << i;
+  }
+}
+
+TEST(TickMessages, IgnoreUnknownFields) {
+  std::string bytes;
+  encode(SessionSample{true, 3, 4}, bytes);
+  bytes += std::string("\xf8\x7f\x01", 3);                  // field 2047, varint
+  bytes += std::string("\xa2\x06\x02hi", 5);                // field 100, bytes
+  SessionSample out;
+  ASSERT_TRUE(decode(bytes_of(bytes), out));
+  EXPECT_EQ(out, (SessionSample{true, 3, 4}));
+}
+
+TEST(EventMessages, SurviveTheirEncoding) {
+  const auto event = decode_event(bytes_of(encode_event({1, 2, "join", "trainer", "by desk-1"})));
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->what + event->seat + event->text, "jointrainerby desk-1");
+  const auto mark = decode_mark(bytes_of(encode_mark({1.5, "trainer", "look"})));
+  ASSERT_TRUE(mark);
+  EXPECT_EQ(mark->t_s, 1.5);
+  EXPECT_EQ(mark->by + mark->text, "trainerlook");
+  const auto sheet = decode_sheet(bytes_of(encode_sheet({"OSATS", "trainee", "eva", {{"flow", 4}, {"time", -1}}, true})));
+  ASSERT_TRUE(sheet);
+  EXPECT_EQ(sheet->scores, (std::map<std::string, int>{{"flow", 4}, {"time", -1}}));
+  EXPECT_TRUE(sheet->closed);
+  LessonLink in;
+  in.rtt_p50_ms = 20;
+  in.gate_trips = 3;
+  std::string seat;
+  const auto link = decode_link(bytes_of(encode_link(in, "trainee")), seat);
+  ASSERT_TRUE(link);
+  EXPECT_EQ(seat, "trainee");
+  EXPECT_EQ(link->rtt_p50_ms, 20);
+  EXPECT_EQ(link->gate_trips, 3u);
+  EXPECT_TRUE(std::isnan(link->age_p99_ms)) << "unknown stays unknown";
+  const auto counts = decode_counts(bytes_of(encode_counts({9, {{"/a", {7, 1, 1}}}})));
+  ASSERT_TRUE(counts);
+  EXPECT_EQ(counts->ticks, 9u);
+  EXPECT_EQ(counts->channels.at(0).count.recorded, 7u);
+  std::string bytes;
+  encode_inputs(5, bytes_of("datagram"), bytes);
+  const auto inputs = decode_inputs(bytes_of(bytes));
+  ASSERT_TRUE(inputs);
+  EXPECT_EQ(inputs->tick, 5u);
+  EXPECT_EQ(text_of(inputs->data), "datagram");
+  recording::Inputs library;
+  ASSERT_TRUE(library.ParseFromString(bytes));
+  EXPECT_EQ(library.data(), "datagram");
+}
+
+TEST(EventMessages, RefuseDamagedBytesAndEndlessTexts) {
+  EXPECT_FALSE(decode_event(bytes_of("\xff\xff")));
+  EXPECT_FALSE(decode_mark(bytes_of(encode_mark({0, "", std::string(kTextMax + 1, 'x')}))));
+  EXPECT_TRUE(decode_mark(bytes_of(encode_mark({0, "", std::string(kTextMax, 'x')}))));
+}
+
+}  // namespace
+}  // namespace tandem::rec

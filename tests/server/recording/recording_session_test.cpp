@@ -1,0 +1,84 @@
+// Recordings of whole sessions: their size, and that reading gives back what the session recorded.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/server/recording/recording_sample.h"
+#include "tests/support/simulation_run.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace server::test;
+
+constexpr double kBytesPerSeatMinute = 8e6;
+
+/// Records the session as a server does: values of the newest datagrams, in single precision. The inputs are those
+/// datagrams' numbers.
+struct Recorded {
+  std::string file;
+  std::vector<TickRecord> records;
+  double seat_minutes = 0;
+};
+
+Recorded record_session(const SceneSpec& scene, double delay_ms) {
+  Recorded out;
+  RecordingWriter writer{scene, sample_info(scene)};
+  tandem::test::run(scene, tandem::test::delayed(delay_ms), 1, [&](netsim::Simulation& simulation) {
+    const TickRecord& record = simulation.session().record();
+    writer.add(record);
+    out.file += writer.take();
+    if (record.running && (out.records.empty() || record.tick > out.records.back().tick)) out.records.push_back(record);
+  });
+  writer.finish();
+  out.file += writer.take();
+  out.seat_minutes = static_cast<double>(out.records.size()) / scene.tick_hz / 60 * static_cast<double>(scene.seats.size());
+  return out;
+}
+
+TEST(RecordingSession, GivesBackWhatTheServerRecorded) {
+  SceneSpec scene = tandem::test::shipped("two_by_two");
+  scene.duration = 5;
+  const Recorded recorded = record_session(scene, 20);
+  const auto lesson = read_lesson(bytes_of(recorded.file));
+  ASSERT_TRUE(lesson) << lesson.error();
+  ASSERT_EQ(lesson->rows(), recorded.records.size());
+  for (std::size_t row = 0; row < lesson->rows(); ++row) {
+    TickRecord read;
+    fill_record(*lesson, row, read);
+    ASSERT_TRUE(same_bits(read, recorded.records[row])) << "row " << row;
+  }
+}
+
+TEST(RecordingSession, StatesTheAuthorityOfEveryMasterAndTheVelocityOfEverySeat) {
+  SceneSpec scene = tandem::test::shipped("contact");
+  scene.duration = 5;
+  const auto lesson = read_lesson(bytes_of(record_session(scene, 0).file));
+  ASSERT_TRUE(lesson);
+  double fastest = 0, error = 0;
+  for (std::size_t row = 1; row < lesson->rows(); ++row) {
+    double sum = 0;
+    for (std::size_t i = 0; i < scene.masters(); ++i) sum += lesson->tools[0].alpha[row][i];
+    if (lesson->tools[0].held[row] == 0) error = std::max(error, std::abs(sum - 1));
+    EXPECT_GT(lesson->time_ns[row], lesson->time_ns[row - 1]);
+    fastest = std::max(fastest, std::abs(lesson->seats[0].v[row][0]));
+  }
+  EXPECT_LT(error, 1e-9);
+  EXPECT_GT(fastest, 0.005);
+  EXPECT_LT(fastest, 5);
+}
+
+TEST(RecordingSession, TakesAtMostEightMegabytesPerSeatAndMinute) {
+  for (const char* name : {"lesson", "eight_seats", "two_by_two"}) {
+    SceneSpec scene = tandem::test::shipped(name);
+    scene.duration = 10;
+    const Recorded recorded = record_session(scene, 20);
+    const double size = static_cast<double>(recorded.file.size()) / recorded.seat_minutes;
+    std::printf("[  size    ] %s: %.2f MB per seat and minute (%zu seats, %zu tools)\n", name, size / 1e6,
+                scene.seats.size(), scene.tools.size());
+    EXPECT_LE(size, kBytesPerSeatMinute) << name;
+  }
+}
+
+}  // namespace
+}  // namespace tandem::server
