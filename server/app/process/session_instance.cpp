@@ -14,6 +14,7 @@
 #include "common/setup/channel_factory.h"
 #include "proto/text/scene_bytes.h"
 #include "server/app/control/session_registry.h"
+#include "server/session/build_text.h"
 #include "server/session/checkpoint.h"
 
 namespace tandem::server {
@@ -86,6 +87,7 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
   auto slaves = make_local_slaves(plan.scene, now, kept != nullptr ? &kept->checkpoint : nullptr);
   if (!slaves) return std::unexpected(OpenError{io::kExitUsage, slaves.error()});
   std::unique_ptr<SessionInstance> run{new SessionInstance(plan, std::move(*slaves), slot, kept)};
+  if (!plan.record.target.empty() && plan.record.from_start) run->attach_journal(now, kept);
   run->epoch_ = kept != nullptr ? kept->checkpoint.epoch + 1 : epoch;
   if (kept != nullptr) {
     run->snapshot_ = *kept;
@@ -99,6 +101,15 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
   if (const auto problem = run->trace_.open(plan.trace, false); !problem.empty())
     return std::unexpected(OpenError{io::kExitUsage, {"--trace: " + problem}});
   return run;
+}
+
+void SessionInstance::attach_journal(Time start, const SessionSnapshot* kept) {
+  transport::HashKey key;
+  auth::fill_random(key);
+  journal_ = std::make_unique<InputJournal>(key);
+  unrecorded_ = journal_.get();
+  live_session_->session().attach_journal(*journal_, start, build_text(),
+                                          kept != nullptr ? &kept->checkpoint : nullptr);
 }
 
 std::string SessionInstance::outcome_text(const RunReport& report) const {
@@ -118,13 +129,14 @@ std::string SessionInstance::start_recording() {
                    {"session_id", id},
                    {"epoch", std::to_string(epoch_)},
                    {"seed", std::to_string(options_->seed)},
+                   {"build", std::string(build_text())},
                    {"law", std::string(setup::law_name(scene.channel.law))},
                    {"scene_hash", to_hex(scene_hash(scene))},
                    {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
   info.persons = desk_->persons();
   auto started = LiveRecording::start(
       recording_path(wanted.target, options_->name, id.substr(0, 8), auth::wall_seconds()), *live_session_, info,
-      wanted.limits, wanted.pseudonyms, desk_);
+      wanted.limits, wanted.pseudonyms, desk_, std::exchange(unrecorded_, nullptr));
   if (!started) return started.error();
   recording_ = std::move(*started);
   recorder_.copy_to(recording_->ticks());

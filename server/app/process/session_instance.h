@@ -93,6 +93,8 @@ class SessionInstance {
 
  private:
   SessionInstance(const SessionOptions& plan, LocalSlaves slaves, std::uint8_t slot, const SessionSnapshot* kept);
+  /// Begins the journal of the session's inputs. @param start  time at which its slaves were made
+  void attach_journal(Time start, const SessionSnapshot* kept);
 
   std::shared_ptr<const SessionOptions> created_;  ///< first, because the other members refer to it
   const SessionOptions* options_;
@@ -105,7 +107,9 @@ class SessionInstance {
   io::OutputFile json_, trace_;
   TickQueue queue_;
   Recorder recorder_;
+  std::unique_ptr<InputJournal> journal_;  ///< of a session that is recorded from its start; before the session
   std::unique_ptr<LiveSession> live_session_;
+  InputJournal* unrecorded_ = nullptr;  ///< journal that no recording has taken; it belongs to the first one
   std::shared_ptr<RecordingDesk> desk_;
   std::unique_ptr<LiveRecording> recording_;
   std::vector<std::unique_ptr<LiveRecording>> ending_;  ///< whose last file is not complete

@@ -11,6 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kQueueTicks = 2048;  // 2 s at 1 kHz: the thread may be delayed for so long
+constexpr std::size_t kPiece = 65536;      // [bytes] of the input journal in one message
 constexpr Duration kPause = 20ms;          // between two looks at the queues
 constexpr Duration kFilesInterval = 250ms, kLinksInterval = 64ms;
 
@@ -18,18 +19,20 @@ constexpr Duration kFilesInterval = 250ms, kLinksInterval = 64ms;
 
 std::expected<std::unique_ptr<LiveRecording>, std::string> LiveRecording::start(
     const std::string& path, const LiveSession& session, const RecordingInfo& info, const RecordingLimits& limits,
-    bool pseudonyms, std::shared_ptr<RecordingDesk> desk) {
+    bool pseudonyms, std::shared_ptr<RecordingDesk> desk, InputJournal* inputs) {
   auto files = RecordingFiles::open(path, session.scene(), info, limits, io::monotonic_now());
   if (!files) return std::unexpected(std::move(files.error()));
   desk->set_status(rpc::StatusRecording{.by_server = true, .pseudonyms = pseudonyms});
-  return std::unique_ptr<LiveRecording>(new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk)));
+  return std::unique_ptr<LiveRecording>(new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk), inputs));
 }
 
 LiveRecording::LiveRecording(std::unique_ptr<RecordingFiles> files, const LiveSession& session, bool pseudonyms,
-                             std::shared_ptr<RecordingDesk> desk)
+                             std::shared_ptr<RecordingDesk> desk, InputJournal* inputs)
     : session_(&session),
       pseudonyms_(pseudonyms),
       desk_(std::move(desk)),
+      inputs_(inputs),
+      piece_(kPiece),
       ticks_(std::make_shared<TickFeed>(kQueueTicks)),
       files_(std::move(files)),
       thread_([this] { run(); }) {}
@@ -78,6 +81,7 @@ void LiveRecording::step(Time now) {
   begin(now);
   if (!files_->begun()) return;
   add_ticks();
+  add_inputs();
   const RecordingDesk::Items items = desk_->take();
   RecordingWriter& writer = files_->writer();
   for (const LessonEvent& event : items.events) writer.add_event(event);
@@ -103,6 +107,12 @@ void LiveRecording::add_ticks() {
     const std::uint64_t dropped = ticks.dropped();
     files_->count_dropped(dropped - std::exchange(unqueued_, dropped));
   }
+}
+
+void LiveRecording::add_inputs() {
+  if (inputs_ == nullptr) return;
+  while (const std::size_t size = inputs_->drain(piece_))
+    files_->add_inputs(tick_, std::span<const std::byte>(piece_).first(size));
 }
 
 void LiveRecording::add_links() {

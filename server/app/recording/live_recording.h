@@ -13,6 +13,7 @@
 #include "server/app/process/tick_feed.h"
 #include "server/app/recording/recording_desk.h"
 #include "server/recording/io/recording_files.h"
+#include "server/session/input_journal.h"
 
 namespace tandem::server {
 
@@ -30,9 +31,11 @@ class LiveRecording {
 
   /// @param path  of the first file, NAME.mcap, which does not exist
   /// @param session  must outlive this
+  /// @param inputs   journal of the session from its start, which nothing else drains; must outlive this. Null: the file
+  /// has no inputs, so that it cannot be replayed bit for bit
   [[nodiscard]] static std::expected<std::unique_ptr<LiveRecording>, std::string> start(
       const std::string& path, const LiveSession& session, const RecordingInfo& info, const RecordingLimits& limits,
-      bool pseudonyms, std::shared_ptr<RecordingDesk> desk);
+      bool pseudonyms, std::shared_ptr<RecordingDesk> desk, InputJournal* inputs);
   /// Ends the recording; what the disk has not accepted is lost.
   ~LiveRecording();
 
@@ -57,12 +60,13 @@ class LiveRecording {
 
  private:
   LiveRecording(std::unique_ptr<RecordingFiles> files, const LiveSession& session, bool pseudonyms,
-                std::shared_ptr<RecordingDesk> desk);
+                std::shared_ptr<RecordingDesk> desk, InputJournal* inputs);
   void run();
   void step(Time now);
   /// Begins the file at the first tick of the session.
   void begin(Time now);
   void add_ticks();
+  void add_inputs();
   void add_links();
   void report();
   void say(bool warning, const char* event, std::string text);
@@ -70,6 +74,8 @@ class LiveRecording {
   const LiveSession* session_;
   bool pseudonyms_;
   std::shared_ptr<RecordingDesk> desk_;
+  InputJournal* inputs_;
+  std::vector<std::byte> piece_;
   std::shared_ptr<TickFeed> ticks_;
   std::unique_ptr<RecordingFiles> files_;
   Time next_links_{}, next_files_{};
