@@ -28,7 +28,9 @@ class TelemetryFeed {
   [[nodiscard]] int fd() const noexcept { return socket_.fd.get(); }
   /// Receives the waiting datagrams and sends those that are due. Call it when `fd` is readable, and every
   /// kServeIntervalMs. @return a newer TELEMETRY arrived
-  bool serve(Time now) { return serve(now, [](const SessionWatch&) {}); }
+  bool serve(Time now) {
+    return serve(now, [](const SessionWatch&) {});
+  }
   /// @param on_newer  called after each TELEMETRY that is newer than all before, while `watch` has it
   bool serve(Time now, const std::function<void(const SessionWatch&)>& on_newer);
   [[nodiscard]] const SessionWatch& watch() const noexcept { return *watch_; }

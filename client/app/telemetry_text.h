@@ -19,7 +19,8 @@ namespace tandem::client {
 /// [{"name", "taken", "heard", "engaged", "stopped", "gate", "x_m", "f_n", "rtt_ms", "loss_up_percent", "gap_up_ms",
 /// "loss_down_percent", "gap_down_ms", "age_p99_ms", "margin_j", "trips", "late_ticks"}], "tools": [{"name",
 /// "touching", "braked", "x_m", "f_n", "depth_m", "wanted": {SEAT: AUTHORITY}, "applied": {SEAT: AUTHORITY},
-/// "transfer": null or {"by", "ticks"}}], "recording": null or as `recording_json`}`. Values that are not known are null.
+/// "transfer": null or {"by", "ticks"}}], "recording": null or as `recording_json`}`. Values that are not known are
+/// null.
 [[nodiscard]] std::string telemetry_json(const SceneSpec& scene, const SessionWatch& watch,
                                          const std::optional<rpc::StatusRecording>& recording);
 

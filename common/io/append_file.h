@@ -44,11 +44,11 @@ class AppendFile {
   [[nodiscard]] bool accepts() const;
 
   struct State {
-    std::uint64_t written = 0;    ///< [bytes] that the system accepted
-    std::uint64_t backlog = 0;    ///< [bytes] that wait
-    int error = 0;                ///< errno of the last write, if it failed; 0: the disk accepts
-    std::uint64_t failures = 0;   ///< failed attempts to write or to reserve space, so far
-    std::uint64_t unsynced = 0;   ///< failed fdatasync so far: a second may be missing after a power cut
+    std::uint64_t written = 0;       ///< [bytes] that the system accepted
+    std::uint64_t backlog = 0;       ///< [bytes] that wait
+    int error = 0;                   ///< errno of the last write, if it failed; 0: the disk accepts
+    std::uint64_t failures = 0;      ///< failed attempts to write or to reserve space, so far
+    std::uint64_t unsynced = 0;      ///< failed fdatasync so far: a second may be missing after a power cut
     std::chrono::nanoseconds cpu{};  ///< processor time of the thread
     bool closed = false;             ///< the file has its name, or `close_error`
     std::string close_error{};       ///< why the complete file did not get its name

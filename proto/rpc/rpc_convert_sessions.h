@@ -3,8 +3,8 @@
 #include "proto/rpc/rpc_messages.h"
 #include "proto/schema/rpc.pb.h"
 
-/// Private to proto/rpc: conversion of the messages that list, create, end, assess and record sessions. `read` returns false if
-/// a value is out of its bound.
+/// Private to proto/rpc: conversion of the messages that list, create, end, assess and record sessions. `read` returns
+/// false if a value is out of its bound.
 namespace tandem::rpc {
 
 [[nodiscard]] bool read_listed(const pb::rpc::Session& in, ListedSession& out);

@@ -342,10 +342,10 @@ struct RecordSession {
 };
 
 /// The message of a frame, in the order of Kind.
-using Body = std::variant<Hello, Welcome, ErrorReply, Enroll, EnrollAck, SessionListRequest, SessionList, StopSession,
-                          ResumeSession, PauseSession, SetAuthority, AuthorityReply, Drain, Ping, Pong, Ok,
-                          RemoveParticipant, StatusRequest, Status, CreateSession, SessionCreated, EndSession, Note,
-                          RecordSession>;
+using Body =
+    std::variant<Hello, Welcome, ErrorReply, Enroll, EnrollAck, SessionListRequest, SessionList, StopSession,
+                 ResumeSession, PauseSession, SetAuthority, AuthorityReply, Drain, Ping, Pong, Ok, RemoveParticipant,
+                 StatusRequest, Status, CreateSession, SessionCreated, EndSession, Note, RecordSession>;
 
 /// Kind of the message in a frame. It is readable before the payload, so that roles are checked first. The number is
 /// the field's number in ControlFrame.

@@ -230,7 +230,10 @@ std::string scene_json(const LivePicture& picture) {
 }
 
 std::string state_members(const LivePicture& picture) {
-  json state{{"held", picture.status.held}, {"recording", recording_of(picture.status.recording)}, {"seats", json::array()}, {"tools", json::array()}};
+  json state{{"held", picture.status.held},
+             {"recording", recording_of(picture.status.recording)},
+             {"seats", json::array()},
+             {"tools", json::array()}};
   if (picture.live && picture.scene) {
     add_live(*picture.scene, *picture.live, state);
   } else {

@@ -1,9 +1,8 @@
 // The cost of a recording: processor time of its threads and bytes on the disk for eight hands on three tools at 1 kHz,
 // each hand on its own motion through a simulated session.
-#include <ctime>
-
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -77,8 +76,10 @@ int measure() {
   const double session_s = static_cast<double>(records.size()) / 1000;
   const double mib_min = static_cast<double>((*files)->bytes()) / (1 << 20) / kSeats / (session_s / 60);
   std::printf(
-      "recording of %d seats and %d tools at 1 kHz, %.0f s: processor time %.1f %% of a core (encoding %.1f, disk %.1f; "
-      "asked: at most 10); %.2f MiB per minute and seat without inputs (asked: at most 8 with inputs); %llu ticks, %llu "
+      "recording of %d seats and %d tools at 1 kHz, %.0f s: processor time %.1f %% of a core (encoding %.1f, disk "
+      "%.1f; "
+      "asked: at most 10); %.2f MiB per minute and seat without inputs (asked: at most 8 with inputs); %llu ticks, "
+      "%llu "
       "lost\n",
       kSeats, kTools, session_s, 100 * seconds(encoding + disk) / session_s, 100 * seconds(encoding) / session_s,
       100 * seconds(disk) / session_s, mib_min, static_cast<unsigned long long>((*files)->recorded()),

@@ -259,9 +259,9 @@ double share(const Ticks& from, const Ticks& to) { return (to.late - from.late) 
 TEST(LiveRecording, DisturbsNoSessionOnASlowOrFullDisk) {
   const Folder folder;
   const std::string disk = folder.write("disk", "ok");
-  Process host({"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + disk, TANDEM_SERVER, "run",
-                "free_motion", "--duration", "14", "--record", folder.file("a.mcap"), "--json", folder.file("s.json"),
-                "--metrics", "127.0.0.1:0"});
+  Process host({"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + disk, TANDEM_SERVER,
+                "run", "free_motion", "--duration", "14", "--record", folder.file("a.mcap"), "--json",
+                folder.file("s.json"), "--metrics", "127.0.0.1:0"});
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   const std::string metrics = host.after("metrics on http://");
   const std::string at = metrics.substr(0, metrics.find('/'));
@@ -318,10 +318,11 @@ TEST(LiveRecording, RejectsTargetsThatCannotBeWritten) {
 TEST(LiveRecording, FollowsTheConfigurationOfAServer) {
   const Folder folder, films;
   const std::string config = folder.write(
-      "s.textproto", "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + films.file("") +
-                         "\" recording { pseudonyms: true file_minutes: 0.1 }\n"
-                         "session { name: \"lab\" scene: \"one_axis\" duration_s: 2 restart: false }\n"
-                         "session { name: \"own\" scene: \"one_axis\" duration_s: 2 restart: false record: \"own.mcap\" }\n");
+      "s.textproto",
+      "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + films.file("") +
+          "\" recording { pseudonyms: true file_minutes: 0.1 }\n"
+          "session { name: \"lab\" scene: \"one_axis\" duration_s: 2 restart: false }\n"
+          "session { name: \"own\" scene: \"one_axis\" duration_s: 2 restart: false record: \"own.mcap\" }\n");
   Process check = server({"serve", config, "--check"});
   EXPECT_EQ(check.wait(), 0) << check.err();
   EXPECT_NE(check.out().find("recording.pseudonyms"), std::string::npos) << check.out();
@@ -337,8 +338,9 @@ TEST(LiveRecording, FollowsTheConfigurationOfAServer) {
   EXPECT_TRUE(named[0].starts_with("lab-")) << named[0];
   EXPECT_EQ(account_problem(read(films, named[0])), "");
   EXPECT_EQ(account_problem(read(folder, "own.mcap")), "");
-  folder.write("bad.textproto", "version: 1 listen: \"127.0.0.1:0\" record: \"absent\"\n"
-                                "session { name: \"lab\" scene: \"one_axis\" record: \"a.csv\" }\n");
+  folder.write("bad.textproto",
+               "version: 1 listen: \"127.0.0.1:0\" record: \"absent\"\n"
+               "session { name: \"lab\" scene: \"one_axis\" record: \"a.csv\" }\n");
   Process bad = server({"serve", folder.file("bad.textproto"), "--check"});
   EXPECT_EQ(bad.wait(), 2);
   EXPECT_NE(bad.err().find("session[0].record"), std::string::npos) << bad.err();

@@ -103,7 +103,8 @@ TEST(RecordingFiles, GoOnInAnotherFileAtTheirLimits) {
   Recording recording(folder, {.file_s = 1});
   recording.run(10);
   const auto completed = recording.close();
-  EXPECT_EQ(completed, (std::vector<std::string>{folder.file("a.mcap"), folder.file("a-3.mcap"), folder.file("a-4.mcap")}));
+  EXPECT_EQ(completed,
+            (std::vector<std::string>{folder.file("a.mcap"), folder.file("a-3.mcap"), folder.file("a-4.mcap")}));
   std::uint32_t next = 1;
   for (const char* name : {"a.mcap", "a-3.mcap", "a-4.mcap"}) {
     const Lesson lesson = read(folder, name);

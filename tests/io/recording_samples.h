@@ -67,7 +67,8 @@ inline std::string account_problem(const Lesson& lesson) {
   for (const auto& [topic, count] : lesson.counts) {
     const std::uint64_t sum = count.recorded + count.dropped + count.never_received;
     // Ticks that were lost behind the last row count, too.
-    if (sum < ticks) return topic + ": " + std::to_string(sum) + " of " + std::to_string(ticks) + " ticks are accounted";
+    if (sum < ticks)
+      return topic + ": " + std::to_string(sum) + " of " + std::to_string(ticks) + " ticks are accounted";
     if (topic == "/authority" && count.recorded != lesson.rows())
       return topic + ": " + std::to_string(count.recorded) + " recorded, " + std::to_string(lesson.rows()) + " rows";
   }

@@ -54,8 +54,7 @@ std::string problem_of(const std::string& path) {
 /// Records what a feed shows until a signal, the end of the session or the loss of the server.
 class RemoteRecording {
  public:
-  RemoteRecording(TelemetryFeed& feed, RecordingFiles& files, bool quiet)
-      : feed_(feed), files_(files), line_(quiet) {}
+  RemoteRecording(TelemetryFeed& feed, RecordingFiles& files, bool quiet) : feed_(feed), files_(files), line_(quiet) {}
 
   int run(int signals) {
     std::string why;
@@ -115,8 +114,7 @@ class RemoteRecording {
     next_line_ = now + std::chrono::milliseconds(line_.interval_ms());
     line_.show(format("%llu ticks, %llu not received or lost, %.1f MiB",
                       static_cast<unsigned long long>(files_.recorded()),
-                      static_cast<unsigned long long>(files_.lost()),
-                      static_cast<double>(files_.bytes()) / (1 << 20)));
+                      static_cast<unsigned long long>(files_.lost()), static_cast<double>(files_.bytes()) / (1 << 20)));
   }
 
   int finish(const std::string& why, bool lost) {

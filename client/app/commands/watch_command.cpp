@@ -68,8 +68,7 @@ int show(TelemetryFeed& feed, int signals, bool json) {
     if (due) {
       if (!json) next_line = std::max(next_line + kLineInterval, now);
       const std::string line = (json ? telemetry_json : telemetry_text)(feed.scene(), watch, recording) + "\n";
-      if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
-        return stop_asking(io::kExitTrouble);
+      if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return stop_asking(io::kExitTrouble);
     }
     if (files[1].revents != 0) {
       feed.leave(now);
@@ -83,10 +82,10 @@ int show(TelemetryFeed& feed, int signals, bool json) {
     if ((files[2].revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0 && watch.silence(now) > 300ms)
       return stop_asking(end_watch("the server ended this connection: it was stopped or is being restarted"));
     if (watch.silence(now) > kLostAfter)
-      return stop_asking(
-          end_watch(watch.newest() ? "the server was lost: no datagram for 3 s"
-                                   : "no datagram arrived, although the server accepted the join; a firewall may "
-                                     "block UDP. `tandem-client link-test` judges the link"));
+      return stop_asking(end_watch(watch.newest()
+                                       ? "the server was lost: no datagram for 3 s"
+                                       : "no datagram arrived, although the server accepted the join; a firewall may "
+                                         "block UDP. `tandem-client link-test` judges the link"));
   }
 }
 

@@ -30,9 +30,8 @@ int repair_command(const RepairArguments& arguments) {
 }  // namespace
 
 void add_repair_command(const io::Command& root) {
-  const auto [command, arguments] =
-      root.add_command("repair", "Closes recordings that were cut by a power failure or a killed program.",
-                       repair_command);
+  const auto [command, arguments] = root.add_command(
+      "repair", "Closes recordings that were cut by a power failure or a killed program.", repair_command);
   command.add_option("FILE", arguments.files, "recordings, NAME.mcap.part or NAME.mcap").value_name("...").required();
   command.footer(
       "Keeps all whole chunks and gives the file a new index and end. The original stays until the repaired file is\n"

@@ -17,7 +17,8 @@ namespace {
 
 /// Arguments as given. Numbers stay text until `parse_options`, so that all errors are reported together.
 struct RunArguments {
-  std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace, record, metrics, log = "text";
+  std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace, record, metrics,
+                     log = "text";
   bool check = false, quiet = false, fresh = false, pseudonyms = false, on_order = false;
 };
 
@@ -67,10 +68,8 @@ ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& erro
   if (problem.empty()) session.seed = std::stoull(seed);
   errors.output_file("--json", session.json);
   if (!session.trace.empty()) errors.add("--trace", io::OutputFile::problem(session.trace));
-  session.record = {.target = arguments.record,
-                    .pseudonyms = arguments.pseudonyms,
-                    .from_start = !arguments.on_order,
-                    .limits = {}};
+  session.record = {
+      .target = arguments.record, .pseudonyms = arguments.pseudonyms, .from_start = !arguments.on_order, .limits = {}};
   if (!arguments.record.empty()) errors.add("--record " + arguments.record, record_problem(arguments.record));
   if (arguments.record.empty() && (arguments.pseudonyms || arguments.on_order))
     errors.add(arguments.pseudonyms ? "--pseudonyms" : "--record-on-order", "needs --record");

@@ -33,9 +33,8 @@ const rpc::Id* session_of(const rpc::Body& command) {
 /// Who records the session: the server, and connected recorders.
 std::optional<rpc::StatusRecording> recording_of(const SessionEntry& entry) {
   auto recording = entry.registration.recording ? entry.registration.recording->status() : std::nullopt;
-  const auto recorders = std::ranges::count_if(entry.watchers.slots(), [](const WatcherSlots::Slot& slot) {
-    return slot.owner && slot.recorder;
-  });
+  const auto recorders = std::ranges::count_if(
+      entry.watchers.slots(), [](const WatcherSlots::Slot& slot) { return slot.owner && slot.recorder; });
   if (recorders == 0) return recording;
   if (!recording) recording.emplace();
   recording->by_recorders = static_cast<std::uint32_t>(recorders);

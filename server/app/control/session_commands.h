@@ -24,7 +24,8 @@ class SessionCommands {
   SessionCommands(SessionRegistry& registry, auth::ServerKeystore& audit,
                   std::function<void(const std::string&)> on_message = {});
 
-  /// Sets the queue of orders to create, end and record sessions, before any command. Without it, such orders are rejected.
+  /// Sets the queue of orders to create, end and record sessions, before any command. Without it, such orders are
+  /// rejected.
   void set_orders(SessionOrders& orders) noexcept { orders_ = &orders; }
   /// Sets the receiver of marks and sheets, called on the control plane's thread. It returns why a note could not be
   /// stored; then the note is rejected.

@@ -14,8 +14,8 @@
 #include "server/app/control/slot_reservations.h"
 #include "server/app/control/status_notices.h"
 #include "server/app/process/live_session.h"
-#include "server/app/recording/recording_desk.h"
 #include "server/app/process/shard.h"
+#include "server/app/recording/recording_desk.h"
 
 namespace tandem::server {
 
@@ -32,7 +32,7 @@ struct SessionRegistration {
   /// Receives the full list of removed workstations whenever one is added; null: the list is not stored.
   std::function<void(const std::vector<RemovedWorkstations::Key>&)> on_removed{};
   std::shared_ptr<RecordingDesk> recording{};  ///< tells of the recording and takes notes for it; null: none
-  Time resume_until{};  ///< former participants can resume until then; only with `snapshot`
+  Time resume_until{};                         ///< former participants can resume until then; only with `snapshot`
 };
 
 /// A registered session, and what the control plane alone knows about its clients.

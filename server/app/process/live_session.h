@@ -88,9 +88,9 @@ class LiveSession {
   Violations violations_;
   std::atomic<bool> over_{false};
   io::EventFd over_event_;
-  std::uint32_t seldom_interval_;  ///< [ticks] between records that nothing needs
-  bool reported_ = true;           ///< every tick is needed: for a report or a trace
-  std::atomic<bool> recording_{false};        ///< likewise: for a recording
+  std::uint32_t seldom_interval_;            ///< [ticks] between records that nothing needs
+  bool reported_ = true;                     ///< every tick is needed: for a report or a trace
+  std::atomic<bool> recording_{false};       ///< likewise: for a recording
   std::atomic<std::int64_t> first_tick_{0};  ///< [ns]; 0: none
   std::uint64_t ticks_ = 0, skipped_records_ = 0;
   SessionStatus status_;

@@ -125,14 +125,10 @@ std::string SessionInstance::start_recording() {
   RecordingInfo info;
   info.session = options_->name;
   info.scene_text = scene_file_text(scene);
-  info.metadata = {{"program", std::string("tandem-server")},
-                   {"session_id", id},
-                   {"epoch", std::to_string(epoch_)},
-                   {"seed", std::to_string(options_->seed)},
-                   {"build", std::string(build_text())},
-                   {"law", std::string(setup::law_name(scene.channel.law))},
-                   {"scene_hash", to_hex(scene_hash(scene))},
-                   {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
+  info.metadata = {{"program", std::string("tandem-server")}, {"session_id", id},
+                   {"epoch", std::to_string(epoch_)},         {"seed", std::to_string(options_->seed)},
+                   {"build", std::string(build_text())},      {"law", std::string(setup::law_name(scene.channel.law))},
+                   {"scene_hash", to_hex(scene_hash(scene))}, {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
   info.persons = desk_->persons();
   auto started = LiveRecording::start(
       recording_path(wanted.target, options_->name, id.substr(0, 8), auth::wall_seconds()), *live_session_, info,

@@ -94,16 +94,11 @@ void SessionTable::report_restored(const SessionInstance& session, const Checkpo
 }
 
 SessionRegistration SessionTable::registration_of(SessionInstance& session) {
-  SessionRegistration made{session.options().name,
-                           session.id(),
-                           session.code(),
-                           session.epoch(),
-                           &session.live_session(),
-                           &shards_.of_slot(session.live_session().slot()),
-                           session.snapshot(),
-                           {},
-                           session.recording_desk(),
-                           session.snapshot() != nullptr ? session.resume_until() : Time{}};
+  SessionRegistration made{session.options().name,   session.id(),
+                           session.code(),           session.epoch(),
+                           &session.live_session(),  &shards_.of_slot(session.live_session().slot()),
+                           session.snapshot(),       {},
+                           session.recording_desk(), session.snapshot() != nullptr ? session.resume_until() : Time{}};
   if (checkpoints_ != nullptr && !session.created())
     made.on_removed = [store = checkpoints_, name = session.options().name](const auto& keys) {
       store->set_removed(name, keys);
@@ -129,8 +124,7 @@ std::string SessionTable::recording_words(const SessionInstance& session) {
   const auto recording = session.recording_desk()->status();
   if (!recording) return {};
   std::string text = recording->trouble.empty() ? "RECORDED" : "RECORDED WITH GAPS: " + recording->trouble;
-  if (recording->dropped > 0)
-    text += format(", %llu ticks lost", static_cast<unsigned long long>(recording->dropped));
+  if (recording->dropped > 0) text += format(", %llu ticks lost", static_cast<unsigned long long>(recording->dropped));
   return text;
 }
 

@@ -23,7 +23,8 @@ std::expected<std::unique_ptr<LiveRecording>, std::string> LiveRecording::start(
   auto files = RecordingFiles::open(path, session.scene(), info, limits, io::monotonic_now());
   if (!files) return std::unexpected(std::move(files.error()));
   desk->set_status(rpc::StatusRecording{.by_server = true, .pseudonyms = pseudonyms});
-  return std::unique_ptr<LiveRecording>(new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk), inputs));
+  return std::unique_ptr<LiveRecording>(
+      new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk), inputs));
 }
 
 LiveRecording::LiveRecording(std::unique_ptr<RecordingFiles> files, const LiveSession& session, bool pseudonyms,

@@ -31,8 +31,8 @@ class LiveRecording {
 
   /// @param path  of the first file, NAME.mcap, which does not exist
   /// @param session  must outlive this
-  /// @param inputs   journal of the session from its start, which nothing else drains; must outlive this. Null: the file
-  /// has no inputs, so that it cannot be replayed bit for bit
+  /// @param inputs   journal of the session from its start, which nothing else drains; must outlive this. Null: the
+  /// file has no inputs, so that it cannot be replayed bit for bit
   [[nodiscard]] static std::expected<std::unique_ptr<LiveRecording>, std::string> start(
       const std::string& path, const LiveSession& session, const RecordingInfo& info, const RecordingLimits& limits,
       bool pseudonyms, std::shared_ptr<RecordingDesk> desk, InputJournal* inputs);
@@ -79,9 +79,9 @@ class LiveRecording {
   std::shared_ptr<TickFeed> ticks_;
   std::unique_ptr<RecordingFiles> files_;
   Time next_links_{}, next_files_{};
-  std::uint32_t tick_ = 0;       ///< newest session tick
-  std::uint64_t unqueued_ = 0;   ///< ticks that did not fit into the queue, as reported to the file
-  std::string trouble_;     ///< as reported
+  std::uint32_t tick_ = 0;      ///< newest session tick
+  std::uint64_t unqueued_ = 0;  ///< ticks that did not fit into the queue, as reported to the file
+  std::string trouble_;         ///< as reported
   std::mutex lock_;
   std::vector<Message> messages_;
   std::atomic<bool> finish_{false}, abandon_{false}, done_{false};

@@ -21,7 +21,7 @@ namespace tandem::server {
 class RecordingDesk {
  public:
   static constexpr std::size_t kItemsMax = 4096;  ///< events, marks and sheets that wait; further ones are counted
-  static constexpr std::size_t kNamesMax = 1000;   ///< pseudonyms; further participants are P?
+  static constexpr std::size_t kNamesMax = 1000;  ///< pseudonyms; further participants are P?
 
   /// @param pseudonyms  participants are P1, P2 ... in the order in which they come
   RecordingDesk(std::size_t seats, bool pseudonyms) : persons_(seats), pseudonyms_(pseudonyms) {}

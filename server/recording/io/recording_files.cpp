@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kBurstS = 10;        // [s] over which the rate is judged
+constexpr double kBurstS = 10;         // [s] over which the rate is judged
 constexpr unsigned kNumberMax = 9999;  // of the files of one name
 constexpr Duration kRetryOpen = 10s;
 constexpr Duration kQuiet = 500ms;  // without a whole chunk, until an open one is ended
@@ -23,9 +23,11 @@ double mib(double bytes) { return bytes / (1 << 20); }
 
 }  // namespace
 
-std::expected<std::unique_ptr<RecordingFiles>, std::string> RecordingFiles::open(
-    const std::string& path, const SceneSpec& scene, const RecordingInfo& info, const RecordingLimits& limits,
-    Time now) {
+std::expected<std::unique_ptr<RecordingFiles>, std::string> RecordingFiles::open(const std::string& path,
+                                                                                 const SceneSpec& scene,
+                                                                                 const RecordingInfo& info,
+                                                                                 const RecordingLimits& limits,
+                                                                                 Time now) {
   std::unique_ptr<RecordingFiles> made{new RecordingFiles(path, scene, info, limits)};
   if (std::string problem = made->open_next(now); !problem.empty()) return std::unexpected(std::move(problem));
   return made;
@@ -109,8 +111,8 @@ void RecordingFiles::step(Time now) {
     writer_->flush();
     static_cast<void>(pass_on());
   }
-  budget_ = std::min(budget_ + limits_.bytes_per_s * std::max(0.0, seconds(now - budget_at_)),
-                     limits_.bytes_per_s * kBurstS);
+  budget_ =
+      std::min(budget_ + limits_.bytes_per_s * std::max(0.0, seconds(now - budget_at_)), limits_.bytes_per_s * kBurstS);
   budget_at_ = now;
   update_trouble();
   if (bytes() >= limits_.total_bytes) {
@@ -132,10 +134,10 @@ void RecordingFiles::step(Time now) {
 
 void RecordingFiles::update_trouble() {
   const io::AppendFile::State disk = file_->state();
-  trouble_ = disk.error != 0          ? io::write_error_text(disk.error)
-             : !file_->accepts()      ? "the disk is too slow"
-             : budget_ <= 0           ? format("more than %.3g MiB per minute", mib(60 * limits_.bytes_per_s))
-                                      : "";
+  trouble_ = disk.error != 0     ? io::write_error_text(disk.error)
+             : !file_->accepts() ? "the disk is too slow"
+             : budget_ <= 0      ? format("more than %.3g MiB per minute", mib(60 * limits_.bytes_per_s))
+                                 : "";
   if (disk.unsynced > unsynced_)
     problems_.push_back("the disk did not confirm a write: up to a second of the recording may be missing");
   unsynced_ = disk.unsynced;

@@ -19,7 +19,7 @@ struct RecordingLimits {
   std::uint64_t file_bytes = std::uint64_t{256} << 20U;  ///< a longer file goes on in another one
   double file_s = 600;                                   ///< [s] likewise
   std::uint64_t total_bytes = std::uint64_t{64} << 30U;  ///< of all files; then the recording ends
-  double bytes_per_s = 128.0 * (1 << 20) / 60;           ///< ticks beyond this rate, over 10 s, are left out and counted
+  double bytes_per_s = 128.0 * (1 << 20) / 60;  ///< ticks beyond this rate, over 10 s, are left out and counted
 };
 
 /// The files of one recording, each a complete MCAP file: NAME.mcap, then NAME-2.mcap and so on. Ticks that the disk,
@@ -30,9 +30,11 @@ class RecordingFiles {
   /// @param path   NAME.mcap, which does not exist
   /// @param scene  must outlive this
   /// @return error: why the first file cannot be made
-  [[nodiscard]] static std::expected<std::unique_ptr<RecordingFiles>, std::string> open(
-      const std::string& path, const SceneSpec& scene, const RecordingInfo& info, const RecordingLimits& limits,
-      Time now);
+  [[nodiscard]] static std::expected<std::unique_ptr<RecordingFiles>, std::string> open(const std::string& path,
+                                                                                        const SceneSpec& scene,
+                                                                                        const RecordingInfo& info,
+                                                                                        const RecordingLimits& limits,
+                                                                                        Time now);
 
   /// Sets the wall clock at TickRecord::time_ns = 0 [ns since 1970]; 0: not known. Call it before everything below.
   void begin(std::int64_t start_unix_ns);

@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPart = ".part", kSuffix = ".mcap";
-constexpr std::size_t kPiece = std::size_t{4} << 20U;                // [bytes] per call
-constexpr std::uint64_t kProgressBytes = std::uint64_t{64} << 20U;   // between two texts of progress
+constexpr std::size_t kPiece = std::size_t{4} << 20U;               // [bytes] per call
+constexpr std::uint64_t kProgressBytes = std::uint64_t{64} << 20U;  // between two texts of progress
 constexpr std::size_t kLeftoversMax = 1000;
 constexpr unsigned kNumberMax = 9999;
 
@@ -88,8 +88,8 @@ std::string write_new(const std::string& path, std::string_view bytes, const Pro
   Meter meter(on_progress, "writing", bytes.size());
   int error = 0;
   for (std::size_t at = 0; at < bytes.size() && error == 0;) {
-    const ssize_t n = ::pwrite(file.get(), bytes.data() + at, std::min(kPiece, bytes.size() - at),
-                               static_cast<off_t>(at));
+    const ssize_t n =
+        ::pwrite(file.get(), bytes.data() + at, std::min(kPiece, bytes.size() - at), static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) error = n < 0 ? errno : ENOSPC;
     at += n > 0 ? static_cast<std::size_t>(n) : 0;
@@ -118,7 +118,9 @@ std::string kept_text(const mcap::RepairResult& repaired) {
 
 RecordingRepair repair_recording(const std::string& path, const Progress& on_progress) {
   using Kind = RecordingRepair::Kind;
-  const auto failed = [&path](const std::string& why) { return RecordingRepair{Kind::kFailed, path, path + ": " + why}; };
+  const auto failed = [&path](const std::string& why) {
+    return RecordingRepair{Kind::kFailed, path, path + ": " + why};
+  };
   const io::Fd file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
   struct stat status{};
   if (!file.open() || ::fstat(file.get(), &status) != 0)
@@ -138,15 +140,16 @@ RecordingRepair repair_recording(const std::string& path, const Progress& on_pro
   }
   const std::string made = target + ".repair";
   ::unlink(made.c_str());  // of a repair that was interrupted
-  if (const std::string problem = write_new(made, repaired->file, on_progress); !problem.empty()) return failed(problem);
+  if (const std::string problem = write_new(made, repaired->file, on_progress); !problem.empty())
+    return failed(problem);
   if (std::rename(made.c_str(), target.c_str()) != 0) {
     const std::string why = io::write_error_text(errno);
     ::unlink(made.c_str());
     return failed("the repaired file cannot be renamed to " + target + ": " + why);
   }
   if (target != path && ::unlink(path.c_str()) != 0)
-    return {Kind::kRepaired, target, target + ": repaired, " + kept_text(*repaired) + "; " + path + " stays: " +
-                                         std::strerror(errno)};
+    return {Kind::kRepaired, target,
+            target + ": repaired, " + kept_text(*repaired) + "; " + path + " stays: " + std::strerror(errno)};
   return {Kind::kRepaired, target, target + ": repaired, " + kept_text(*repaired)};
 }
 
