@@ -28,10 +28,10 @@ namespace {
 using namespace std::chrono_literals;
 using server::RecordingFiles;
 
-constexpr Duration kLostAfter = 3s;  // silence of the server that ends the recording
-constexpr Duration kFilesInterval = 250ms, kEndLimit = 10s;
-constexpr std::uint64_t kLinksEvery = 4;  // datagrams; each has the link of another seat
-constexpr int kEndPollMs = 20;
+constexpr Duration kFeedLostAfter = 3s;  // silence of the server that ends the recording
+constexpr Duration kRecordFilesInterval = 250ms, kRecordEndLimit = 10s;
+constexpr std::uint64_t kRecordLinksEvery = 4;  // datagrams; each has the link of another seat
+constexpr int kRecordEndPollMs = 20;
 
 struct RecordArguments {
   ConnectionArguments connection;
@@ -39,12 +39,12 @@ struct RecordArguments {
   bool quiet = false;
 };
 
-int complain(const std::string& text) {
+int record_trouble(const std::string& text) {
   io::print(stderr, "tandem-client record: " + text + "\n");
   return io::kExitTrouble;
 }
 
-std::string problem_of(const std::string& path) {
+std::string output_problem(const std::string& path) {
   if (!path.ends_with(".mcap")) return "must end with .mcap";
   if (std::string problem = io::OutputFile::problem(path); !problem.empty()) return problem;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> there{std::fopen(path.c_str(), "re"), std::fclose};
@@ -67,7 +67,7 @@ class RemoteRecording {
       if (wait[1].revents != 0) why = "ended here";
       if (feed_.watch().closed()) why = "the session is over";
       if (files_.ended()) why = "the limit of the size is reached";
-      if (why.empty() && feed_.watch().silence(now) > kLostAfter)
+      if (why.empty() && feed_.watch().silence(now) > kFeedLostAfter)
         why = feed_.watch().newest() ? "the server was lost: no datagram for 3 s"
                                      : "no datagram arrived, although the server accepted the join; a firewall may "
                                        "block UDP. `tandem-client link-test` judges the link";
@@ -83,7 +83,7 @@ class RemoteRecording {
     if (!record.running) return;
     if (!files_.begun()) files_.begin(io::read_clock(CLOCK_REALTIME).count() - record.time_ns);
     files_.add(record);
-    if (const wire::WatchedLink& link = watch.newest()->link; received_++ % kLinksEvery == 0)
+    if (const wire::WatchedLink& link = watch.newest()->link; received_++ % kRecordLinksEvery == 0)
       files_.writer().add_link({.tick = record.tick,
                                 .seat = link.seat,
                                 .rtt_p50_ms = link.rtt_p50_ms,
@@ -98,7 +98,7 @@ class RemoteRecording {
 
   void step(Time now) {
     if (now < next_files_) return;
-    next_files_ = now + kFilesInterval;
+    next_files_ = now + kRecordFilesInterval;
     files_.step(now);
     tell(now);
   }
@@ -119,13 +119,13 @@ class RemoteRecording {
 
   int finish(const std::string& why, bool lost) {
     files_.begin_close();
-    const Time until = io::monotonic_now() + kEndLimit;
-    while (!files_.closed() && io::monotonic_now() < until) poll(nullptr, 0, kEndPollMs);
+    const Time until = io::monotonic_now() + kRecordEndLimit;
+    while (!files_.closed() && io::monotonic_now() < until) poll(nullptr, 0, kRecordEndPollMs);
     files_.abandon();
     line_.clear();
     const auto problems = files_.take_problems();
     for (const std::string& path : files_.take_completed()) io::print(stdout, path + " is complete\n");
-    for (const std::string& problem : problems) complain(problem);
+    for (const std::string& problem : problems) record_trouble(problem);
     io::print(stdout, format("%s: %llu ticks recorded, %llu never received or lost\n", why.c_str(),
                              static_cast<unsigned long long>(files_.recorded()),
                              static_cast<unsigned long long>(files_.lost())));
@@ -140,7 +140,7 @@ class RemoteRecording {
   std::uint64_t received_ = 0;
 };
 
-server::RecordingInfo info_of(const TelemetryFeed& feed) {
+server::RecordingInfo recording_info(const TelemetryFeed& feed) {
   const rpc::Welcome& welcome = feed.console().welcome;
   return {.session = welcome.session_name,
           .scene_text = scene_file_text(feed.scene()),
@@ -158,15 +158,15 @@ int record_command(const RecordArguments& arguments) {
   asking.watch = true;
   asking.console = AccessRole::kRecorder;
   asking.ticket = ticket_of(arguments.connection.ticket, errors);
-  if (const std::string problem = problem_of(arguments.out); !problem.empty())
+  if (const std::string problem = output_problem(arguments.out); !problem.empty())
     errors.add("--out " + arguments.out, problem);
   if (!errors.empty()) return errors.print("tandem-client record: ");
   const io::Fd signals = io::make_signalfd();
   asking.signals = signals.get();
   auto feed = TelemetryFeed::open(asking);
-  if (!feed) return feed.error().interrupted ? io::kExitDone : complain(feed.error().reason);
-  auto files = RecordingFiles::open(arguments.out, feed->scene(), info_of(*feed), {}, io::monotonic_now());
-  if (!files) return complain(files.error());
+  if (!feed) return feed.error().interrupted ? io::kExitDone : record_trouble(feed.error().reason);
+  auto files = RecordingFiles::open(arguments.out, feed->scene(), recording_info(*feed), {}, io::monotonic_now());
+  if (!files) return record_trouble(files.error());
   return RemoteRecording(*feed, **files, arguments.quiet).run(signals.get());
 }
 

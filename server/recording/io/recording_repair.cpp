@@ -25,11 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPart = ".part", kSuffix = ".mcap";
+constexpr std::string_view kPart = ".part", kMcap = ".mcap";
 constexpr std::size_t kPiece = std::size_t{4} << 20U;               // [bytes] per call
 constexpr std::uint64_t kProgressBytes = std::uint64_t{64} << 20U;  // between two texts of progress
 constexpr std::size_t kLeftoversMax = 1000;
-constexpr unsigned kNumberMax = 9999;
+constexpr unsigned kCopiesMax = 9999;
 
 using Progress = std::function<void(const std::string&)>;
 
@@ -43,9 +43,9 @@ std::string target_of(const std::string& path) {
   if (!path.ends_with(kPart)) return path;
   const std::string whole = path.substr(0, path.size() - kPart.size());
   if (!exists(whole)) return whole;
-  const std::string stem = whole.ends_with(kSuffix) ? whole.substr(0, whole.size() - kSuffix.size()) : whole;
-  for (unsigned k = 2; k <= kNumberMax; ++k)
-    if (std::string name = stem + format("-%u", k) + std::string(kSuffix); !exists(name)) return name;
+  const std::string stem = whole.ends_with(kMcap) ? whole.substr(0, whole.size() - kMcap.size()) : whole;
+  for (unsigned k = 2; k <= kCopiesMax; ++k)
+    if (std::string name = stem + format("-%u", k) + std::string(kMcap); !exists(name)) return name;
   return whole;
 }
 
@@ -159,7 +159,7 @@ std::vector<std::string> recording_leftovers(const std::string& folder) {
   for (fs::directory_iterator at(folder, error), end; !error && at != end && found.size() < kLeftoversMax;
        at.increment(error)) {
     const std::string path = at->path().string();
-    if (path.ends_with(std::string(kSuffix) + std::string(kPart))) found.push_back(path);
+    if (path.ends_with(std::string(kMcap) + std::string(kPart))) found.push_back(path);
   }
   std::ranges::sort(found);
   return found;
