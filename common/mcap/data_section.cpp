@@ -146,7 +146,12 @@ void DataSection::add_metadata(const Metadata& metadata) {
 }
 
 void DataSection::add_attachment(const Attachment& attachment) {
-  AttachmentIndex index{size(), 0, attachment.log_time, attachment.create_time, attachment.data.size(), attachment.name,
+  AttachmentIndex index{size(),
+                        0,
+                        attachment.log_time,
+                        attachment.create_time,
+                        attachment.data.size(),
+                        attachment.name,
                         attachment.media_type};
   const std::size_t at = begin_record(out_, Opcode::kAttachment);
   put(out_, attachment.log_time);

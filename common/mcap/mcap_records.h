@@ -14,12 +14,12 @@ namespace tandem::mcap {
 
 /// First and last bytes of a file.
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
-inline constexpr std::size_t kRecordHead = 9;                 ///< opcode and length [bytes]
-inline constexpr std::size_t kFooterContent = 8 + 8 + 4;      ///< [bytes]
-inline constexpr std::size_t kDataEndContent = 4;             ///< [bytes]
-inline constexpr std::size_t kMessageHead = 2 + 4 + 8 + 8;    ///< fields before the data of a message [bytes]
-inline constexpr std::size_t kChunkBytesMax = 256ull << 20;   ///< largest decompressed chunk that is read [bytes]
-inline constexpr std::size_t kDefinitionsMax = 65'535;        ///< schemas or channels: their numbers have 16 bits
+inline constexpr std::size_t kRecordHead = 9;                ///< opcode and length [bytes]
+inline constexpr std::size_t kFooterContent = 8 + 8 + 4;     ///< [bytes]
+inline constexpr std::size_t kDataEndContent = 4;            ///< [bytes]
+inline constexpr std::size_t kMessageHead = 2 + 4 + 8 + 8;   ///< fields before the data of a message [bytes]
+inline constexpr std::size_t kChunkBytesMax = 256ull << 20;  ///< largest decompressed chunk that is read [bytes]
+inline constexpr std::size_t kDefinitionsMax = 65'535;       ///< schemas or channels: their numbers have 16 bits
 
 /// Kind of a record.
 enum class Opcode : std::uint8_t {
@@ -78,8 +78,8 @@ struct Attachment {
 
 /// Where a chunk is, from the start of the file [bytes].
 struct ChunkIndex {
-  std::uint64_t start_time = 0, end_time = 0;  ///< of its messages [ns]; 0 and 0: it has none
-  std::uint64_t offset = 0, length = 0;        ///< of the record
+  std::uint64_t start_time = 0, end_time = 0;            ///< of its messages [ns]; 0 and 0: it has none
+  std::uint64_t offset = 0, length = 0;                  ///< of the record
   std::map<std::uint16_t, std::uint64_t> index_offsets;  ///< of the message index of each channel
   std::uint64_t index_length = 0;                        ///< of all message indexes together
   std::string compression;

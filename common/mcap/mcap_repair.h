@@ -9,14 +9,14 @@
 
 namespace tandem::mcap {
 
-/// What a repair found.
+/// Result of a repair.
 struct RepairResult {
-  std::string file;                ///< a complete file
-  bool was_complete = false;       ///< the input needed no repair; `file` is the input
-  std::uint64_t chunks = 0;        ///< kept
-  std::uint64_t messages = 0;      ///< kept
-  std::uint64_t damaged = 0;       ///< chunks left out
-  std::uint64_t lost_bytes = 0;    ///< of the input, behind its last whole record
+  std::string file;                            ///< a complete file
+  bool was_complete = false;                   ///< the input needed no repair; `file` is the input
+  std::uint64_t chunks = 0;                    ///< kept
+  std::uint64_t messages = 0;                  ///< kept
+  std::uint64_t damaged = 0;                   ///< chunks left out
+  std::uint64_t lost_bytes = 0;                ///< of the input, behind its last whole record
   std::uint64_t start_time = 0, end_time = 0;  ///< of the messages kept [ns]
 };
 

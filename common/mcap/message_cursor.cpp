@@ -42,8 +42,8 @@ bool MessageCursor::open_part() {
     const auto record = record_at(reader_->file(), offset);
     if (!record) continue;
     if (record->opcode == Opcode::kMessage) {
-      records_.assign(text_of(reader_->file().subspan(static_cast<std::size_t>(offset),
-                                                      static_cast<std::size_t>(record->end() - offset))));
+      records_.assign(text_of(
+          reader_->file().subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(record->end() - offset))));
       if (!parse_message(record->content)) skip(offset, "a message that is too short");
       return true;
     }

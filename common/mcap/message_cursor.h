@@ -32,7 +32,7 @@ class MessageCursor {
   [[nodiscard]] const std::vector<Channel>& channels() const noexcept { return channels_; }
   /// Chunks that were skipped because they are damaged, and messages outside chunks that are too short.
   [[nodiscard]] std::uint64_t damaged() const noexcept { return damaged_; }
-  /// What the first of them is; empty: none.
+  /// Place and reason of the first of them; empty: none.
   [[nodiscard]] const std::optional<ReadError>& first_damage() const noexcept { return first_damage_; }
   /// Decompressed records of the chunk of the last message.
   [[nodiscard]] std::string_view chunk_records() const noexcept { return records_; }

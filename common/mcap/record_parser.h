@@ -11,10 +11,10 @@
 
 namespace tandem::mcap {
 
-/// Why a file or a part of it cannot be read.
+/// Reason for which a file or a part of it cannot be read.
 struct ReadError {
   std::uint64_t offset = 0;  ///< from the start of the file [bytes]
-  std::string message;       ///< what is wrong there
+  std::string message;       ///< reason
   /// Returns `FILE: byte OFFSET: message`.
   [[nodiscard]] std::string text(std::string_view file) const;
 };

@@ -8,7 +8,7 @@
 
 namespace tandem::mcap {
 
-/// What the end of a file says about it.
+/// Contents of the end of a file: where its parts are.
 struct Summary {
   std::vector<Schema> schemas;
   std::vector<Channel> channels;

@@ -33,8 +33,7 @@ int trace_command(const TraceArguments& arguments) {
   if (const auto problem = output.open(arguments.output, true); !problem.empty())
     return io::report_usage_error("tandem-netsim trace", "--output: " + problem);
   if (!lesson->complete)
-    io::print_formatted(stderr,
-                        "note: %s has no undamaged end; the trace holds what is whole, %zu ticks\n",
+    io::print_formatted(stderr, "note: %s has no undamaged end; the trace holds what is whole, %zu ticks\n",
                         arguments.recording.c_str(), lesson->rows());
   const server::TraceCsv csv{lesson->scene};
   std::string rows = csv.header();
@@ -57,8 +56,8 @@ int trace_command(const TraceArguments& arguments) {
 }  // namespace
 
 void add_trace_command(const io::Command& root) {
-  const auto [command, arguments] =
-      root.add_command("trace", "Writes the trace of a recording as CSV: the same table as `run --trace`.", trace_command);
+  const auto [command, arguments] = root.add_command(
+      "trace", "Writes the trace of a recording as CSV: the same table as `run --trace`.", trace_command);
   command.add_option("recording", arguments.recording, "a recording (MCAP) of run --record or of tandem-server")
       .value_name("FILE.mcap")
       .required();

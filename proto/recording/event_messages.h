@@ -41,7 +41,7 @@ void encode_inputs(std::uint32_t tick, std::span<const std::byte> data, std::str
 [[nodiscard]] std::optional<LessonLink> decode_link(std::span<const std::byte> bytes, std::string& seat);
 [[nodiscard]] std::optional<CountsMessage> decode_counts(std::span<const std::byte> bytes);
 
-/// What the session received in one tick. `data` lies in the bytes that were read.
+/// Inputs of the session in one tick. `data` lies in the bytes that were read.
 struct InputsMessage {
   std::uint32_t tick = 0;
   std::span<const std::byte> data;

@@ -31,10 +31,10 @@ enum class ChannelUse : std::uint8_t {
   kCounts
 };
 
-constexpr std::uint8_t kGateMax = 6;         // message Seat, `gate`
-constexpr std::size_t kBytesPerRow = 16;     // every tick has an entry of this size in the index of /authority
+constexpr std::uint8_t kGateMax = 6;               // message Seat, `gate`
+constexpr std::size_t kBytesPerRow = 16;           // every tick has an entry of this size in the index of /authority
 constexpr std::size_t kRowsOfACutChunk = 100'000;  // the index of the last chunk may be missing
-constexpr std::size_t kNotesMax = 1'000'000;  // events, marks, sheets or links that are read
+constexpr std::size_t kNotesMax = 1'000'000;       // events, marks, sheets or links that are read
 
 /// Fills a lesson from the messages of a file.
 class LessonBuilder {
@@ -228,8 +228,7 @@ std::expected<Lesson, std::string> read_lesson(std::span<const std::byte> bytes)
     const mcap::Channel* const channel = cursor.channel(message->channel);
     whole &= channel != nullptr && builder.add(*message, *channel);
   }
-  lesson.complete =
-      whole && reader->complete() && cursor.damaged() == 0 && reader->metadata(kCountsRecord) != nullptr;
+  lesson.complete = whole && reader->complete() && cursor.damaged() == 0 && reader->metadata(kCountsRecord) != nullptr;
   return lesson;
 }
 

@@ -27,7 +27,8 @@ inline constexpr std::size_t kMessageKinds = 15;
 
 /// Full name of a message, such as `tandem.recording.Seat`.
 [[nodiscard]] std::string message_name(MessageKind kind);
-/// Serialized google.protobuf.FileDescriptorSet: the file that defines the message, after all files that it imports.
+/// Serialized google.protobuf.FileDescriptorSet: the file that defines the message, after all files that it imports,
+/// with no other messages than it and those in its fields.
 [[nodiscard]] std::string message_schema(MessageKind kind);
 
 }  // namespace tandem::rec

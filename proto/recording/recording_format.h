@@ -6,8 +6,8 @@
 /// Names that the writer and the reader of a recording share (server/recording/README.md).
 namespace tandem::rec {
 
-inline constexpr std::string_view kProfile = "x-tandem";  ///< of the MCAP header
-inline constexpr std::string_view kFormat = "1";          ///< value of `format` in the metadata record `session`
+inline constexpr std::string_view kProfile = "x-tandem";   ///< of the MCAP header
+inline constexpr std::string_view kFormat = "1";           ///< value of `format` in the metadata record `session`
 inline constexpr std::string_view kEncoding = "protobuf";  ///< of schemas and messages
 
 /// Metadata records.
@@ -17,7 +17,7 @@ inline constexpr const char* kParticipantsRecord = "participants";
 inline constexpr const char* kRolesRecord = "roles";
 inline constexpr const char* kCountsRecord = "counts";
 
-/// Keys of the metadata of a channel: what it shows, and the seat or tool that it shows.
+/// Keys of the metadata of a channel: its kind, and the seat or tool that it shows.
 inline constexpr const char* kKindKey = "kind";
 inline constexpr const char* kNameKey = "name";
 inline constexpr std::string_view kSeatKind = "seat", kToolKind = "tool", kSessionKind = "session", kViewKind = "view";

@@ -7,7 +7,7 @@
 namespace tandem::rec {
 namespace {
 
-constexpr double kForceShown = 1e-3;    // [N]
+constexpr double kForceShown = 1e-3;     // [N]
 constexpr double kShaftDiameter = 2e-3;  // of arrows [m]
 
 bool all_finite(const Triple& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }

@@ -4,7 +4,7 @@
 
 namespace tandem::server {
 
-/// What this program was built from.
+/// Sources that this program was built from.
 struct BuildIdentity {
   std::string_view version;  ///< of the project
   std::string_view commit;   ///< first 12 digits of the git commit; `unknown` outside a repository

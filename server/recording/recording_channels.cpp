@@ -17,9 +17,10 @@ std::uint16_t add_message_schema(mcap::Writer& file, MessageKind kind) {
 
 /// Appends an underscore as long as the topic is one of the recording's own.
 std::string free_topic(std::string topic) {
-  constexpr std::string_view kOwn[] = {rec::kAuthorityTopic, rec::kEnergyTopic, rec::kSessionTopic, rec::kInputsTopic,
-                                       rec::kLinkTopic,      rec::kEventsTopic, rec::kMarksTopic,   rec::kSheetsTopic,
-                                       rec::kCountsTopic,    rec::kTransformTopic, rec::kLogTopic,  "/view"};
+  constexpr std::string_view kOwn[] = {rec::kAuthorityTopic, rec::kEnergyTopic, rec::kSessionTopic,
+                                       rec::kInputsTopic,    rec::kLinkTopic,   rec::kEventsTopic,
+                                       rec::kMarksTopic,     rec::kSheetsTopic, rec::kCountsTopic,
+                                       rec::kTransformTopic, rec::kLogTopic,    "/view"};
   if (std::ranges::find(kOwn, topic) != std::end(kOwn)) topic += '_';
   return topic;
 }

@@ -17,8 +17,8 @@
 namespace tandem::server {
 
 /// Turns the records of a session into the bytes of an MCAP file (server/recording/README.md). It opens no file and
-/// reads no clock: the caller appends what `take` returns to a file. What was taken consists of whole chunks, so a file
-/// that ends there is readable. The same calls and build give the same bytes.
+/// reads no clock: the caller appends the bytes of `take` to a file. These bytes are whole chunks, so a file that ends
+/// there is readable. The same calls and build give the same bytes.
 ///
 /// Memory: one open chunk of kChunkNs or kChunkBytes, the bytes since the last `take`, and some 0.5 kB per chunk for
 /// the index, up to DataSection::kChunksIndexed chunks. Used by an ordinary thread; throws std::bad_alloc only.

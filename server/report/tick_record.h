@@ -16,7 +16,7 @@ struct SeatRecord {
   AxisArray q{};                 ///< joints of the device [rad] or [m]
   Triple x{}, f_cmd{}, f_out{};  ///< tip [m]; force commanded before the gate, and delivered [N]; as the tool sees them
   Triple v{};  ///< velocity of the tip as the tool sees it [m/s]; NaN in scenes with port JOINT, where it is not known
-  EnergyArray e_in{}, e_out{};   ///< energy at the client's end [nJ]
+  EnergyArray e_in{}, e_out{};  ///< energy at the client's end [nJ]
   double dissipated_j = 0, refused_j = 0, margin_min_j = 0, delivered_j = 0;
   std::uint32_t leader = 0;  ///< number of the master that leads this seat, from 1; 0: none
   Triple ghost{};            ///< predicted present position of that master's tip [m]; 0 if none leads
@@ -38,8 +38,8 @@ struct ToolRecord {
   std::array<double, kMastersMax> alpha{};  ///< authority of each master in force [0, 1]
 };
 struct TickRecord {
-  std::uint32_t tick = 0;     ///< session tick
-  std::int64_t time_ns = 0;   ///< server's monotonic clock at this tick, since its first tick [ns]
+  std::uint32_t tick = 0;    ///< session tick
+  std::int64_t time_ns = 0;  ///< server's monotonic clock at this tick, since its first tick [ns]
   bool running = false;
   std::uint64_t stopped_ticks = 0;  ///< ticks so far in which the session was stopped and its clock did not advance
   std::uint64_t dropped_ticks = 0;  ///< dropped ticks so far: session time did not advance while hands moved

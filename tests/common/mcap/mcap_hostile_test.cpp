@@ -36,7 +36,8 @@ TEST(McapHostile, FlippedBitsGiveTrueMessagesOrNone) {
     for (int bit = 0; bit < 8; ++bit) {
       SCOPED_TRACE(testing::Message() << "byte " << i << " bit " << bit);
       bytes[i] = static_cast<char>(bytes[i] ^ (1 << bit));
-      // A chunk's compression and CRC fields themselves have no CRC: "crc = 0" means unknown, and one flip cannot make it.
+      // A chunk's compression and CRC fields themselves have no CRC: "crc = 0" means unknown, and one flip cannot make
+      // it.
       expect_only_true_messages(bytes, known);
       if (HasFatalFailure()) return;
       bytes[i] = file.bytes[i];

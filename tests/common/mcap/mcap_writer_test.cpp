@@ -20,10 +20,13 @@ TEST(Crc32, IsThatOfZlib) {
 TEST(McapWriter, BeginsWithMagicAndHeader) {
   Writer writer{"p", "lib"};
   EXPECT_EQ(hex(writer.take()),
-            "894d434150300d0a"            // magic
-            "01" "0c00000000000000"       // header, 12 bytes
-            "01000000" "70"               // profile
-            "03000000" "6c6962");         // library
+            "894d434150300d0a"  // magic
+            "01"
+            "0c00000000000000"  // header, 12 bytes
+            "01000000"
+            "70"  // profile
+            "03000000"
+            "6c6962");  // library
 }
 
 TEST(McapWriter, WritesDefinitionsByTheTable) {
@@ -31,11 +34,30 @@ TEST(McapWriter, WritesDefinitionsByTheTable) {
   static_cast<void>(writer.take());
   EXPECT_EQ(writer.add_schema("s", "protobuf", "D"), 1);
   EXPECT_EQ(hex(writer.take()),
-            "03" "1800000000000000" "0100" "01000000" "73" "08000000" "70726f746f627566" "01000000" "44");
+            "03"
+            "1800000000000000"
+            "0100"
+            "01000000"
+            "73"
+            "08000000"
+            "70726f746f627566"
+            "01000000"
+            "44");
   EXPECT_EQ(writer.add_channel("/t", 1, "pb", {{"k", "v"}}), 1);
   EXPECT_EQ(hex(writer.take()),
-            "04" "1e00000000000000" "0100" "0100" "02000000" "2f74" "02000000" "7062"
-            "0a000000" "01000000" "6b" "01000000" "76");
+            "04"
+            "1e00000000000000"
+            "0100"
+            "0100"
+            "02000000"
+            "2f74"
+            "02000000"
+            "7062"
+            "0a000000"
+            "01000000"
+            "6b"
+            "01000000"
+            "76");
 }
 
 TEST(McapWriter, EndsAnEmptyFileWithDataEndSummaryAndFooter) {
@@ -44,12 +66,17 @@ TEST(McapWriter, EndsAnEmptyFileWithDataEndSummaryAndFooter) {
   writer.finish();
   const std::string end = writer.take();
   ASSERT_GE(end.size(), 13u);
-  EXPECT_EQ(hex(end.substr(0, 9)), "0f" "0400000000000000");
+  EXPECT_EQ(hex(end.substr(0, 9)),
+            "0f"
+            "0400000000000000");
   const std::uint32_t crc = crc32(bytes_of(begin));
   EXPECT_EQ(end.substr(9, 4), std::string(reinterpret_cast<const char*>(&crc), 4));
   EXPECT_EQ(hex(end.substr(end.size() - 8)), "894d434150300d0a");
   // Statistics are all that the summary of an empty file has: opcode 11, 46 bytes of zeros.
-  EXPECT_EQ(hex(end.substr(13, 9 + 46)), "0b" "2e00000000000000" + std::string(2 * 46, '0'));
+  EXPECT_EQ(hex(end.substr(13, 9 + 46)),
+            "0b"
+            "2e00000000000000" +
+                std::string(2 * 46, '0'));
 }
 
 TEST(McapWriter, GivesWholeRecordsAtAnyTime) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "common/base/raw_bytes.h"
@@ -74,9 +75,8 @@ TEST(TickMessages, MatchTheLibraryForAnySeat) {
     EXPECT_TRUE(same(in.servo_cf, library.servo_cf()));
     EXPECT_TRUE(same(in.ghost, library.ghost()));
     for (std::size_t k = 0; k < in.measured_jp.size(); ++k)
-      EXPECT_EQ(bits(in.measured_jp[k]), static_cast<int>(k) < library.measured_jp_size()
-                                             ? bits(library.measured_jp(static_cast<int>(k)))
-                                             : 0);
+      EXPECT_EQ(bits(in.measured_jp[k]),
+                static_cast<int>(k) < library.measured_jp_size() ? bits(library.measured_jp(static_cast<int>(k))) : 0);
     EXPECT_EQ(in.sample_tick, library.sample_tick());
     EXPECT_EQ(bits(in.alpha), bits(library.alpha()));
     EXPECT_EQ(in.gate, library.gate());
@@ -186,15 +186,17 @@ TEST(TickMessages, RefuseOrSurviveEveryCutAndFlippedBit) {
     recording::Seat library;
     const bool accepted = decode(bytes_of(flipped), out);
     // Own code accepts all that the library accepts; fields of another type than the schema's are ignored by both.
-    if (library.ParseFromString(flipped)) EXPECT_TRUE(accepted) << i;
+    if (library.ParseFromString(flipped)) {
+      EXPECT_TRUE(accepted) << i;
+    }
   }
 }
 
 TEST(TickMessages, IgnoreUnknownFields) {
   std::string bytes;
   encode(SessionSample{true, 3, 4}, bytes);
-  bytes += std::string("\xf8\x7f\x01", 3);                  // field 2047, varint
-  bytes += std::string("\xa2\x06\x02hi", 5);                // field 100, bytes
+  bytes += std::string("\xf8\x7f\x01", 3);    // field 2047, varint
+  bytes += std::string("\xa2\x06\x02hi", 5);  // field 100, bytes
   SessionSample out;
   ASSERT_TRUE(decode(bytes_of(bytes), out));
   EXPECT_EQ(out, (SessionSample{true, 3, 4}));
@@ -208,7 +210,8 @@ TEST(EventMessages, SurviveTheirEncoding) {
   ASSERT_TRUE(mark);
   EXPECT_EQ(mark->t_s, 1.5);
   EXPECT_EQ(mark->by + mark->text, "trainerlook");
-  const auto sheet = decode_sheet(bytes_of(encode_sheet({"OSATS", "trainee", "eva", {{"flow", 4}, {"time", -1}}, true})));
+  const auto sheet =
+      decode_sheet(bytes_of(encode_sheet({"OSATS", "trainee", "eva", {{"flow", 4}, {"time", -1}}, true})));
   ASSERT_TRUE(sheet);
   EXPECT_EQ(sheet->scores, (std::map<std::string, int>{{"flow", 4}, {"time", -1}}));
   EXPECT_TRUE(sheet->closed);

@@ -21,8 +21,8 @@ Triple rotated_x(const foxglove::Quaternion& q) {
 TEST(ViewMessages, DrawAForceAsAnArrowOfItsDirectionAndLength) {
   for (const Triple& force : {Triple{1, 0, 0}, Triple{-2, 0, 0}, Triple{0, 3, 0}, Triple{0, 0, -1}, Triple{1, 2, -2}}) {
     foxglove::SceneUpdate update;
-    ASSERT_TRUE(update.ParseFromString(encode_scene_update(
-        1'500'000'000, {{"seat a", {0.1, 0.2, 0.3}, force, 0.01, {1, 0, 0, 1}, "a"}}, {})));
+    ASSERT_TRUE(update.ParseFromString(
+        encode_scene_update(1'500'000'000, {{"seat a", {0.1, 0.2, 0.3}, force, 0.01, {1, 0, 0, 1}, "a"}}, {})));
     ASSERT_EQ(update.entities_size(), 1);
     const foxglove::SceneEntity& entity = update.entities(0);
     EXPECT_EQ(entity.timestamp().seconds(), 1);
@@ -40,9 +40,11 @@ TEST(ViewMessages, DrawAForceAsAnArrowOfItsDirectionAndLength) {
 
 TEST(ViewMessages, LeaveOutWhatIsNotFinite) {
   foxglove::SceneUpdate update;
-  ASSERT_TRUE(update.ParseFromString(encode_scene_update(
-      0, {{"a", {kNan, 0, 0}, {}, 0.01, {}, "a"}, {"b", {0, 0, 0}, {kNan, 0, 0}, 0.01, {}, "b"},
-          {"c", {0, 0, 0}, {5e-4, 0, 0}, 0.01, {}, "c"}}, {})));
+  ASSERT_TRUE(update.ParseFromString(encode_scene_update(0,
+                                                         {{"a", {kNan, 0, 0}, {}, 0.01, {}, "a"},
+                                                          {"b", {0, 0, 0}, {kNan, 0, 0}, 0.01, {}, "b"},
+                                                          {"c", {0, 0, 0}, {5e-4, 0, 0}, 0.01, {}, "c"}},
+                                                         {})));
   ASSERT_EQ(update.entities_size(), 2);
   EXPECT_EQ(update.entities(0).id(), "b");
   EXPECT_EQ(update.entities(0).arrows_size(), 0);

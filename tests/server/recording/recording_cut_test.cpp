@@ -1,6 +1,7 @@
 // Cut, damaged and foreign files.
 #include <gtest/gtest.h>
 
+#include "common/mcap/mcap_reader.h"
 #include "common/mcap/mcap_repair.h"
 #include "common/mcap/mcap_writer.h"
 #include "tests/common/base/counts.h"
@@ -71,7 +72,8 @@ TEST(RecordingCut, FlippedBitsAreSafe) {
       bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << bit % 8));
     }
     const auto lesson = read_lesson(bytes_of(bytes));
-    if (lesson) ASSERT_LE(lesson->rows(), 300u) << "seed " << seed;
+    if (!lesson) continue;
+    ASSERT_LE(lesson->rows(), 300u) << "seed " << seed;
   }
 }
 

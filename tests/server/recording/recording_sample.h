@@ -99,9 +99,9 @@ inline bool same_bits(const TickRecord& a, const TickRecord& b) {
   for (std::size_t j = 0; j < a.tools.size(); ++j) {
     const ToolRecord &s = a.tools[j], &t = b.tools[j];
     same = same && bits(s.q, t.q) && bits(s.x, t.x) && bits(s.x_tool, t.x_tool) && bits(s.f_cmd, t.f_cmd) &&
-           bits(s.f_env, t.f_env) && bits(s.penetration, t.penetration) && s.held == t.held &&
-           bits(s.mfs_j, t.mfs_j) && bits(s.e_p_j, t.e_p_j) && bits(s.e_p_axis_j, t.e_p_axis_j) &&
-           s.sample_tick == t.sample_tick && bits(s.alpha, t.alpha);
+           bits(s.f_env, t.f_env) && bits(s.penetration, t.penetration) && s.held == t.held && bits(s.mfs_j, t.mfs_j) &&
+           bits(s.e_p_j, t.e_p_j) && bits(s.e_p_axis_j, t.e_p_axis_j) && s.sample_tick == t.sample_tick &&
+           bits(s.alpha, t.alpha);
   }
   return same;
 }

@@ -13,8 +13,7 @@ using namespace server::test;
 
 constexpr double kBytesPerSeatMinute = 8e6;
 
-/// Records the session as a server does: values of the newest datagrams, in single precision. The inputs are those
-/// datagrams' numbers.
+/// A session, recorded as a server does it: values of the newest datagrams.
 struct Recorded {
   std::string file;
   std::vector<TickRecord> records;
@@ -24,15 +23,17 @@ struct Recorded {
 Recorded record_session(const SceneSpec& scene, double delay_ms) {
   Recorded out;
   RecordingWriter writer{scene, sample_info(scene)};
-  tandem::test::run(scene, tandem::test::delayed(delay_ms), 1, [&](netsim::Simulation& simulation) {
+  const auto run = tandem::test::run(scene, tandem::test::delayed(delay_ms), 1, [&](netsim::Simulation& simulation) {
     const TickRecord& record = simulation.session().record();
     writer.add(record);
     out.file += writer.take();
     if (record.running && (out.records.empty() || record.tick > out.records.back().tick)) out.records.push_back(record);
   });
+  EXPECT_EQ(run.trouble, "");
   writer.finish();
   out.file += writer.take();
-  out.seat_minutes = static_cast<double>(out.records.size()) / scene.tick_hz / 60 * static_cast<double>(scene.seats.size());
+  out.seat_minutes =
+      static_cast<double>(out.records.size()) / scene.tick_hz / 60 * static_cast<double>(scene.seats.size());
   return out;
 }
 

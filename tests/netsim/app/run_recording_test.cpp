@@ -1,0 +1,102 @@
+// tandem-netsim run --record and trace, from the side of users.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "tests/support/process.h"
+
+namespace tandem::netsim {
+namespace {
+
+using tandem::test::Process;
+
+/// A folder of this test's own.
+class RunRecording : public testing::Test {
+ protected:
+  RunRecording()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("tandem_record_" + std::to_string(getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~RunRecording() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string content(const std::string& name) const {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  /// Runs the program. @return its exit code; its words are in `err`
+  int netsim(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), TANDEM_NETSIM_PROGRAM);
+    Process process(std::move(arguments));
+    const int code = process.wait().value_or(-1000);
+    err_ = process.err();
+    return code;
+  }
+
+  std::filesystem::path folder_;
+  std::string err_;
+};
+
+TEST_F(RunRecording, GivesTheTraceOfTheSameRun) {
+  for (const auto& [scene, options] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"contact", {"--delay", "20", "--jitter", "5", "--loss", "5"}},
+           {"two_by_two", {"--delay", "10"}},
+           {"contact_remote", {}},
+           {"one_axis", {"--seed", "3"}},
+           {"seed_contact", {}}}) {
+    SCOPED_TRACE(scene);
+    std::vector<std::string> arguments{"run",      scene,          "--duration", "3",          "--quiet",
+                                       "--record", path("a.mcap"), "--trace",    path("a.csv")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    ASSERT_LE(netsim(arguments), 1) << err_;
+    ASSERT_EQ(netsim({"trace", path("a.mcap"), "--output", path("b.csv")}), 0) << err_;
+    EXPECT_EQ(err_, "");
+    const std::string trace = content("a.csv");
+    EXPECT_GT(trace.size(), 100'000u);
+    EXPECT_TRUE(trace == content("b.csv"));
+  }
+}
+
+TEST_F(RunRecording, GivesTheSameBytesAgain) {
+  for (const char* name : {"a.mcap", "b.mcap"})
+    ASSERT_LE(netsim({"run", "contact", "--duration", "2", "--loss", "10", "--quiet", "--record", path(name)}), 1);
+  EXPECT_GT(content("a.mcap").size(), 100'000u);
+  EXPECT_TRUE(content("a.mcap") == content("b.mcap"));
+}
+
+TEST_F(RunRecording, ReadsACutFileWithANote) {
+  ASSERT_LE(
+      netsim({"run", "contact", "--duration", "2", "--quiet", "--record", path("a.mcap"), "--trace", path("a.csv")}),
+      1);
+  std::filesystem::resize_file(path("a.mcap"), content("a.mcap").size() / 2);
+  ASSERT_EQ(netsim({"trace", path("a.mcap"), "--output", path("b.csv")}), 0) << err_;
+  EXPECT_NE(err_.find("has no undamaged end"), std::string::npos) << err_;
+  EXPECT_TRUE(content("a.csv").starts_with(content("b.csv")));
+}
+
+TEST_F(RunRecording, NamesFilesThatCannotBe) {
+  EXPECT_EQ(netsim({"run", "contact", "--record", path("no/such/a.mcap")}), 2);
+  EXPECT_NE(err_.find("--record"), std::string::npos) << err_;
+  EXPECT_EQ(netsim({"run", "contact", "--record", "-"}), 2);
+  EXPECT_EQ(netsim({"run", "contact", "--record", path("a"), "--trace", path("a")}), 2);
+  EXPECT_NE(err_.find("same file"), std::string::npos) << err_;
+  std::ofstream(path("text.mcap")) << "no recording";
+  EXPECT_EQ(netsim({"trace", path("text.mcap"), "--output", path("b.csv")}), 2);
+  EXPECT_NE(err_.find("text.mcap"), std::string::npos) << err_;
+  EXPECT_EQ(netsim({"trace", path("missing.mcap"), "--output", path("b.csv")}), 2);
+}
+
+TEST_F(RunRecording, ReportsAFullDisk) {
+  EXPECT_EQ(netsim({"run", "one_axis", "--duration", "1", "--quiet", "--record", "/dev/full"}), 1);
+  EXPECT_NE(err_.find("disk is full"), std::string::npos) << err_;
+}
+
+}  // namespace
+}  // namespace tandem::netsim
