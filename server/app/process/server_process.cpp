@@ -91,6 +91,7 @@ class ServerProcess {
     shards_.run();
     // Scripts wait for this line.
     output_.print("listening on " + io::to_text(control_->address()) + "\n");
+    if (options_.on_listening) options_.on_listening(io::to_text(control_->address()));
     if (const auto at = control_->metrics_address())
       output_.print("metrics on http://" + io::to_text(*at) + "/metrics\n");
     return 0;

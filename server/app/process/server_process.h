@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/io/log.h"
@@ -21,6 +23,8 @@ struct ServerOptions {
   std::string scenes{};       ///< folder of scenes for created sessions, NAME.textproto; empty: shipped scenes only
   std::string reports{};      ///< folder for reports of created sessions; empty: none
   RecordingOptions record{};  ///< of created sessions
+  /// Called once clients can join, with HOST:PORT; empty: nothing is to be done then.
+  std::function<void(const std::string& address)> on_listening{};
   bool quiet = false;
   bool no_restore = false;       ///< ignores all checkpoints
   bool sessions_resume = false;  ///< a signal ends the server but keeps its sessions: the next start restores them
