@@ -23,8 +23,11 @@ std::expected<std::unique_ptr<LiveRecording>, std::string> LiveRecording::start(
   auto files = RecordingFiles::open(path, session.scene(), info, limits, io::monotonic_now());
   if (!files) return std::unexpected(std::move(files.error()));
   desk->set_status(rpc::StatusRecording{.by_server = true, .pseudonyms = pseudonyms});
-  return std::unique_ptr<LiveRecording>(
-      new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk), inputs));
+  const std::string part = (*files)->part();
+  std::unique_ptr<LiveRecording> made{
+      new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk), inputs)};
+  made->say(false, "recording", "recording to " + part);
+  return made;
 }
 
 LiveRecording::LiveRecording(std::unique_ptr<RecordingFiles> files, const LiveSession& session, bool pseudonyms,
@@ -55,7 +58,6 @@ void LiveRecording::say(bool warning, const char* event, std::string text) {
 }
 
 void LiveRecording::run() {
-  say(false, "recording", "recording to " + files_->part());
   while (!finish_.load(std::memory_order_acquire) && !files_->ended()) {
     step(io::monotonic_now());
     std::this_thread::sleep_for(kPause);
@@ -80,7 +82,7 @@ void LiveRecording::begin(Time now) {
 
 void LiveRecording::step(Time now) {
   begin(now);
-  if (!files_->begun()) return;
+  if (!files_->begun() || files_->ended()) return;
   add_ticks();
   add_inputs();
   const RecordingDesk::Items items = desk_->take();

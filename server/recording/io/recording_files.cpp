@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <utility>
 
 #include "common/base/format.h"
@@ -18,6 +19,10 @@ constexpr unsigned kNumberMax = 9999;  // of the files of one name
 constexpr Duration kRetryOpen = 10s;
 constexpr Duration kQuiet = 500ms;  // without a whole chunk, until an open one is ended
 constexpr const char* kSuffix = ".mcap";
+
+std::string disk_text(int error) {
+  return error == ENOSPC || error == EDQUOT ? "the disk is full; free some space there" : io::write_error_text(error);
+}
 
 double mib(double bytes) { return bytes / (1 << 20); }
 
@@ -134,7 +139,7 @@ void RecordingFiles::step(Time now) {
 
 void RecordingFiles::update_trouble() {
   const io::AppendFile::State disk = file_->state();
-  trouble_ = disk.error != 0     ? io::write_error_text(disk.error)
+  trouble_ = disk.error != 0     ? disk_text(disk.error)
              : !file_->accepts() ? "the disk is too slow"
              : budget_ <= 0      ? format("more than %.3g MiB per minute", mib(60 * limits_.bytes_per_s))
                                  : "";
