@@ -71,7 +71,7 @@ int measure() {
   }
   (*files)->begin_close();
   const Duration encoding = io::read_clock(CLOCK_THREAD_CPUTIME_ID) - before;
-  while (!(*files)->closed()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (!(*files)->closed()) std::this_thread::yield();
   const Duration disk = (*files)->disk_cpu();
   const double session_s = static_cast<double>(records.size()) / 1000;
   const double mib_min = static_cast<double>((*files)->bytes()) / (1 << 20) / kSeats / (session_s / 60);

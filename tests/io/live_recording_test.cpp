@@ -343,7 +343,7 @@ TEST(LiveRecording, IsReplayedLiveForOtherHands) {
   double followed = 0;
   for (const LessonTriple& x : replayed.seats[1].x) followed = std::max(followed, std::abs(x[0]));
   EXPECT_GT(followed, 0.02) << "the trainee's relaxed hand is led";
-  Process wrong = server({"replay-live", folder.file("a.mcap"), "--seat", "nobody"});
+  Process wrong = server({"replay-live", folder.file("a.mcap"), "--seat", "nurse"});
   EXPECT_EQ(wrong.wait(), 2);
   EXPECT_NE(wrong.err().find("master seats: trainer, trainee"), std::string::npos) << wrong.err();
 }

@@ -30,7 +30,7 @@ const rpc::Id* session_of(const rpc::Body& command) {
       command);
 }
 
-/// Who records the session: the server, and connected recorders.
+/// The recording of the session by the server, and by connected recorders.
 std::optional<rpc::StatusRecording> recording_of(const SessionEntry& entry) {
   auto recording = entry.registration.recording ? entry.registration.recording->status() : std::nullopt;
   const auto recorders = std::ranges::count_if(

@@ -9,7 +9,7 @@
 namespace tandem::server {
 
 /// Copies of a session's tick records for a recording, from the recorder's thread to that of the recording. Bounded:
-/// what does not fit is dropped; `newest` shows a drop behind which no record follows.
+/// records that do not fit are dropped; `newest` shows a drop behind which no record follows.
 class TickFeed {
  public:
   /// @param ticks  that the reading thread may be late

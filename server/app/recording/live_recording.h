@@ -36,7 +36,7 @@ class LiveRecording {
   [[nodiscard]] static std::expected<std::unique_ptr<LiveRecording>, std::string> start(
       const std::string& path, const LiveSession& session, const RecordingInfo& info, const RecordingLimits& limits,
       bool pseudonyms, std::shared_ptr<RecordingDesk> desk, InputJournal* inputs);
-  /// Ends the recording; what the disk has not accepted is lost.
+  /// Ends the recording; bytes that the disk has not accepted are lost.
   ~LiveRecording();
 
   /// Receives the session's ticks from one thread.

@@ -15,8 +15,8 @@
 
 namespace tandem::server {
 
-/// What other threads contribute to the recording of a session, and what they learn of it: participants, events, marks
-/// and sheets in, the state for participants out. It exists for the whole session; a recording may start and end. Its
+/// Contributions of other threads to the recording of a session: participants, events, marks and sheets. It also has
+/// the state of the recording for participants. It exists for the whole session; a recording may start and end. Its
 /// queue is bounded. Thread-safe; no member waits for a disk.
 class RecordingDesk {
  public:

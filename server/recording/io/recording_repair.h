@@ -17,7 +17,7 @@ struct RecordingRepair {
   };
   Kind kind = Kind::kFailed;
   std::string path;  ///< of the complete file
-  std::string text;  ///< for users: what was kept and what is missing, or the cause and remedy
+  std::string text;  ///< for users: kept and missing parts, or the cause and remedy
 };
 
 /// Closes the file of a recording that was cut: it keeps all whole chunks, and gives the file a new index and end. The

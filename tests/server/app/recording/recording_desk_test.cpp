@@ -1,4 +1,4 @@
-// What other threads contribute to a recording, and pseudonyms.
+// Contributions of other threads to a recording, and pseudonyms.
 #include "server/app/recording/recording_desk.h"
 
 #include <gtest/gtest.h>

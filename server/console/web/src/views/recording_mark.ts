@@ -11,7 +11,7 @@ function words(recording: Recording): string {
   return recording.dropped > 0 ? `${by}. ${t('recording.dropped', { count: String(recording.dropped) })}` : by;
 }
 
-/** A red dot with words while the session is recorded, for everybody; a button for roles that may record. */
+/** A red dot with words while the session is recorded, for all persons; a button for roles that may record. */
 export class RecordingMark implements View {
   readonly node: HTMLElement;
   private readonly text = el('span', {});

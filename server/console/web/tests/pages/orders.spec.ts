@@ -159,7 +159,7 @@ test('alarms are listed in words with their time', async ({ start, open }) => {
   await expect(page.locator('.card').nth(1)).toContainText('red: outside the limits for force feedback');
 });
 
-test('a recording starts and ends by the button; everybody sees a red dot with words', async ({ start, open }) => {
+test('a recording starts and ends by the button; all see a red dot with words', async ({ start, open }) => {
   const gateway = await start();
   const page = await open(gateway);
   await expect(page.locator('.recording')).toBeHidden();
