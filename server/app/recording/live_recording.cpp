@@ -146,8 +146,10 @@ void LiveRecording::report() {
   const std::string& trouble = files_->trouble();
   if (trouble != trouble_) {
     if (trouble.empty()) {
-      say(false, "recording_goes_on",
-          format("the recording goes on; it lost %llu ticks so far", static_cast<unsigned long long>(lost())));
+      std::string text =
+          format("the recording goes on; it lost %llu ticks so far", static_cast<unsigned long long>(lost()));
+      if (files_->lost_inputs() > 0) text += ", and inputs: it cannot be replayed bit for bit from there on";
+      say(false, "recording_goes_on", std::move(text));
     } else {
       say(true, "recording_trouble", "the recording loses ticks, the session is not disturbed: " + trouble);
     }
