@@ -85,7 +85,12 @@ void RecordingFiles::add(const TickRecord& record) {
   if (any_ ? record.tick <= last_tick_ : !record.running) return;  // the session clock stands still
   if (!std::exchange(any_, true)) first_tick_ = record.tick;
   last_tick_ = record.tick;
-  if (!trouble_.empty() || closing_) return writer_->count_dropped(1);
+  time_ns_ = record.time_ns;
+  if (!trouble_.empty() || closing_) {
+    ++gap_;
+    return writer_->count_dropped(1);
+  }
+  if (gap_ > 0) note_gap();
   writer_->add(record);
   ++recorded_;
 }
@@ -143,13 +148,21 @@ void RecordingFiles::update_trouble() {
              : !file_->accepts() ? "the disk is too slow"
              : budget_ <= 0      ? format("more than %.3g MiB per minute", mib(60 * limits_.bytes_per_s))
                                  : "";
+  if (!trouble_.empty()) gap_reason_ = trouble_;
   if (disk.unsynced > unsynced_)
     problems_.push_back("the disk did not confirm a write: up to a second of the recording may be missing");
   unsynced_ = disk.unsynced;
 }
 
+void RecordingFiles::note_gap() {
+  writer_->add_event({last_tick_, time_ns_, "recording-gap", "",
+                      format("%llu ticks are missing: ", static_cast<unsigned long long>(gap_)) + gap_reason_});
+  gap_ = 0;
+}
+
 void RecordingFiles::begin_close() {
   if (std::exchange(closing_, true)) return;
+  if (gap_ > 0) note_gap();
   end_file();
 }
 

@@ -84,6 +84,8 @@ class RecordingFiles {
   void end_file();
   [[nodiscard]] bool pass_on();
   void update_trouble();
+  /// Writes an event about the ticks lost since the last one, so that the file says where and why.
+  void note_gap();
 
   std::string stem_;  ///< path without .mcap
   const SceneSpec* scene_;
@@ -100,6 +102,9 @@ class RecordingFiles {
   std::uint64_t total_bytes_ = 0, file_bytes_ = 0, recorded_ = 0, lost_inputs_ = 0;
   Duration disk_cpu_{};         ///< of files that are complete
   std::uint64_t unsynced_ = 0;  ///< failed syncs that were reported
+  std::uint64_t gap_ = 0;       ///< ticks lost since the last event about them
+  std::int64_t time_ns_ = 0;    ///< TickRecord::time_ns of the last tick
+  std::string gap_reason_;
   bool any_ = false, closing_ = false;
   std::uint32_t first_tick_ = 0, last_tick_ = 0;
 };
