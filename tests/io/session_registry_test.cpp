@@ -24,7 +24,8 @@ std::vector<rpc::Body> every_command() {
           rpc::EndSession{kId, "why"},
           rpc::Note{kId, rpc::NoteKind::kMark, "{}"},
           rpc::SceneListRequest{},
-          rpc::NotesRequest{kId, 0}};
+          rpc::NotesRequest{kId, 0},
+          rpc::RecordSession{kId, true}};
 }
 
 /// Polls until the condition holds; fails the test at the time limit instead of hanging it.

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "common/auth/io/server_keystore.h"
 #include "common/base/format.h"
 #include "common/base/hex.h"
 #include "common/io/fd.h"

@@ -33,6 +33,17 @@ const rpc::Id* session_of(const rpc::Body& command) {
       command);
 }
 
+/// The recording of the session by the server, and by connected recorders.
+std::optional<rpc::StatusRecording> recording_of(const SessionEntry& entry) {
+  auto recording = entry.registration.recording ? entry.registration.recording->status() : std::nullopt;
+  const auto recorders = std::ranges::count_if(
+      entry.watchers.slots(), [](const WatcherSlots::Slot& slot) { return slot.owner && slot.recorder; });
+  if (recorders == 0) return recording;
+  if (!recording) recording.emplace();
+  recording->by_recorders = static_cast<std::uint32_t>(recorders);
+  return recording;
+}
+
 std::uint8_t seat_of(const rpc::Welcome& joined) noexcept {
   return joined.seat.empty() ? AuditEvent::kNoSeat : static_cast<std::uint8_t>(place_of(joined.server_cid) - 1);
 }
@@ -56,6 +67,8 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
       std::holds_alternative<rpc::SceneListRequest>(command))
     return order(std::move(command), who, answer);
   const rpc::Id* const id = session_of(command);
+  if (std::holds_alternative<rpc::RecordSession>(command) && *id == joined.session_id)
+    return order(std::move(command), who, answer);
   if (id == nullptr || *id != joined.session_id)
     return answer(
         ErrorReply{ErrorCode::kNotAllowed,
@@ -128,6 +141,7 @@ std::optional<ErrorReply> SessionCommands::store(SessionEntry& entry, const rpc:
     return ErrorReply{ErrorCode::kInternal, "the server cannot store the note; its log has the cause", 0};
   }
   entry.notes.add(std::move(kept));
+  if (entry.registration.recording) entry.registration.recording->add_note(stored);
   return std::nullopt;
 }
 
@@ -170,6 +184,7 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
   for (std::size_t j = 0; j < outcome.tools; ++j)
     status.tools.push_back(
         {scene.tools[j].name, {outcome.alpha[j].begin(), outcome.alpha[j].begin() + outcome.masters}});
+  status.recording = recording_of(entry);
   if (outcome.state == wire::SessionState::kHeld)
     status.held = truncate_utf8(held_reason_text(entry.session().status(), scene), rpc::kTextMax);
   if (status.stop)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/auth/io/server_keystore.h"
+#include "server/app/control/session_note.h"
 #include "server/app/control/session_orders.h"
 #include "server/app/control/session_registry.h"
 
@@ -23,7 +24,8 @@ class SessionCommands {
   SessionCommands(SessionRegistry& registry, auth::ServerKeystore& audit,
                   std::function<void(const std::string&)> on_message = {});
 
-  /// Sets the queue of orders to create and end sessions, before any command. Without it, such orders are rejected.
+  /// Sets the queue of orders to create, end and record sessions, before any command. Without it, such orders are
+  /// rejected.
   void set_orders(SessionOrders& orders) noexcept { orders_ = &orders; }
   /// Sets the receiver of marks and sheets, called on the control plane's thread. It returns why a note could not be
   /// stored; then the note is rejected.
@@ -38,10 +40,12 @@ class SessionCommands {
   void disconnect_revoked();
 
  private:
-  /// Queues an order about sessions or scenes.
+  /// Queues an order about sessions, scenes or recordings.
   void order(rpc::Body command, const std::string& who, const std::function<void(rpc::Body)>& answer);
   /// Adds the tickets of the named workstations to the reply of a created session, and audits both.
   void complete(rpc::SessionCreated& created, const rpc::CreateSession& wanted, const std::string& who);
+  /// Tells participants, operator and audit log of a recording that was started or ended by an order.
+  void conclude_recording(const rpc::RecordSession& order, const std::string& who);
   [[nodiscard]] std::optional<rpc::ErrorReply> holder_problem(const rpc::CreateSession& wanted) const;
   /// Stores a note that the session has accepted. @return why it is rejected
   [[nodiscard]] std::optional<rpc::ErrorReply> store(SessionEntry& entry, const rpc::Welcome& joined,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "server/app/control/status_notices.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/shard.h"
+#include "server/app/recording/recording_desk.h"
 
 namespace tandem::server {
 
@@ -33,7 +35,8 @@ struct SessionRegistration {
   Time resume_until{};  ///< former participants can resume until then; only with `snapshot`
   /// Receives the names of the persons at all seats whenever a client takes one; null: they are not stored.
   std::function<void(std::vector<std::string>)> on_persons{};
-  std::vector<AuthoredNote> notes{};  ///< marks and sheets of an earlier run of the server, oldest first
+  std::vector<AuthoredNote> notes{};           ///< marks and sheets of an earlier run of the server, oldest first
+  std::shared_ptr<RecordingDesk> recording{};  ///< tells of the recording and takes notes for it; null: none
 };
 
 /// A registered session, and what the control plane alone knows about its clients.

@@ -6,21 +6,9 @@
 #include <vector>
 
 #include "proto/rpc/rpc_messages.h"
+#include "server/app/control/session_note.h"
 
 namespace tandem::server {
-
-/// A mark or sheet that a participant wrote, with its author and time. Recordings will store it.
-struct SessionNote {
-  rpc::Id session_id{};
-  std::string session{}, workstation{}, seat{};  ///< names; seat empty: a console
-  std::string person{};                          ///< name in the author's ticket; empty: not named
-  std::string author{};                          ///< SessionNotes::author_of
-  AccessRole role = AccessRole::kObserver;
-  std::uint32_t tick = 0;
-  double time_s = 0;  ///< session clock [s]
-  rpc::NoteKind kind = rpc::NoteKind::kMark;
-  std::string json{};
-};
 
 /// A note with what decides who may read it.
 struct AuthoredNote {

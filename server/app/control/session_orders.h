@@ -13,9 +13,10 @@
 
 namespace tandem::server {
 
-/// Order of an operator to create or end a session, or to list the scenes, which reads a folder.
+/// Order of an operator to create or end a session, or to list the scenes, which reads a folder; or of an operator or
+/// instructor to record a session.
 struct SessionOrder {
-  std::variant<rpc::CreateSession, rpc::EndSession, rpc::SceneListRequest> body{};
+  std::variant<rpc::CreateSession, rpc::EndSession, rpc::SceneListRequest, rpc::RecordSession> body{};
   std::string who{};                        ///< workstation and role of the operator
   std::function<void(rpc::Body)> answer{};  ///< called once, on the control plane's thread
 };

@@ -17,6 +17,8 @@ void SessionTable::execute(SessionOrder order) {
     reply(order, create_session(*wanted));
   } else if (std::holds_alternative<rpc::SceneListRequest>(order.body)) {
     reply(order, list_scenes(options_.scenes));
+  } else if (const auto* const record = std::get_if<rpc::RecordSession>(&order.body)) {
+    reply(order, record_session(*record));
   } else {
     end_session(std::move(order));
   }
@@ -74,6 +76,7 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
   auto checked = created_session_options(wanted, options_.scenes);
   if (!checked) return std::move(checked.error());
   checked->reports = options_.reports;
+  checked->record = options_.record;
   const auto options = std::make_shared<const SessionOptions>(std::move(*checked));
   const auto slot = find_slot(options->scene);
   if (!slot) return slot.error();
@@ -109,6 +112,7 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
   }
   sessions_.push_back(std::move(*opened));
   announce(session);
+  start_recording(session);
   return created;
 }
 

@@ -9,6 +9,7 @@
 #include "common/io/exit_code.h"
 #include "server/app/control/note_log.h"
 #include "server/app/monitor/startup_banner.h"
+#include "server/recording/lesson_notes.h"
 #include "server/report/audit_text.h"
 #include "server/report/report_summary.h"
 
@@ -40,6 +41,7 @@ int SessionTable::open() {
 void SessionTable::begin() {
   began_ = io::monotonic_now();
   for (const auto& s : sessions_) {
+    start_recording(*s);
     shards_.of_slot(s->live_session().slot()).add_session(s->live_session());
     control_.registry().add(registration_of(*s));
   }
@@ -104,6 +106,7 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
                            session.snapshot(),
                            {},
                            session.snapshot() != nullptr ? session.resume_until() : Time{}};
+  made.recording = session.recording_desk();
   if (checkpoints_ != nullptr && !session.created()) {
     made.on_removed = [store = checkpoints_, name = session.options().name](const auto& keys) {
       store->set_removed(name, keys);
@@ -117,8 +120,9 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
   return made;
 }
 
-void SessionTable::announce_all() const {
+void SessionTable::announce_all() {
   for (const auto& session : sessions_) announce(*session);
+  for (const auto& session : sessions_) report_recordings(*session);
 }
 
 void SessionTable::announce(const SessionInstance& session) const {
@@ -130,11 +134,19 @@ void SessionTable::announce(const SessionInstance& session) const {
                 {.event = "session_opened", .session = session.options().name, .text = session.options().scene.name});
 }
 
+std::string SessionTable::recording_words(const SessionInstance& session) {
+  const auto recording = session.recording_desk()->status();
+  if (!recording) return {};
+  std::string text = recording->trouble.empty() ? "RECORDED" : "RECORDED WITH GAPS: " + recording->trouble;
+  if (recording->dropped > 0) text += format(", %llu ticks lost", static_cast<unsigned long long>(recording->dropped));
+  return text;
+}
+
 std::vector<SessionScreenEntry> SessionTable::screen_entries() const {
   std::vector<SessionScreenEntry> entries;
   for (const auto& s : sessions_)
-    entries.push_back(
-        {s->options().name, s->live_session().status(), &s->options().scene, hints_.client_options(s->options().name)});
+    entries.push_back({s->options().name, s->live_session().status(), &s->options().scene,
+                       hints_.client_options(s->options().name), recording_words(*s)});
   return entries;
 }
 
@@ -182,6 +194,8 @@ void SessionTable::report(const SessionInstance& session, const SessionStatus& s
 /// The control thread adds the name of the person who had the seat at that time.
 void SessionTable::write_audit_events(SessionInstance& session) {
   while (const auto e = session.live_session().audit().take()) {
+    if (const auto first = session.live_session().first_tick())
+      session.recording_desk()->add_event(lesson_event(*e, session.options().scene, e->at - *first));
     if (e->seat == AuditEvent::kControlPlane && e->party == AuditEvent::kNoSeat) continue;
     const auto author = [&registry = control_.registry(), id = session.id(), seat = e->seat, at = e->at] {
       const SessionEntry* const entry = std::as_const(registry).find(id);
@@ -215,6 +229,7 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   if (checkpoints_ != nullptr && !session.created() && !(draining_ && will_resume())) checkpoints_->remove(name);
   const auto slot = session.live_session().slot();
   const SessionInstance::Verdict verdict = session.finish();
+  session.end_recording();
   if (!options_.quiet && !io::logs_json()) summarize(verdict.report, session);
   io::log_event(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
                 {.event = "session_over", .session = name, .text = session.outcome_text(verdict.report)});
@@ -222,10 +237,15 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   reply_ended(id);
   if (!session.options().restart || draining_ || control_.registry().drain().due()) {
     if (!session.created()) exit_code_ = std::max(exit_code_, verdict.code);
-    if (draining_) finished_.push_back(std::move(place));
+    if (draining_) {
+      finished_.push_back(std::move(place));
+    } else if (session.recordings_busy()) {
+      closing_.push_back(std::move(place));
+    }
     return false;
   }
   auto next = open_session(session.options(), slot, session.epoch() + 1);
+  if (session.recordings_busy()) closing_.push_back(std::move(place));
   if (!next) {
     exit_code_ = std::max(exit_code_, next.error());
     return false;
@@ -245,6 +265,7 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
     return false;
   }
   announce(*place);
+  start_recording(*place);
   return true;
 }
 

@@ -25,6 +25,7 @@ constexpr std::array<Row, kRights> kDesign{{
     {Right::kManageSeats, {"yes", "no", "no", "no", "yes", "no"}},
     {Right::kManageServer, {"no", "no", "no", "no", "yes", "no"}},
     {Right::kScore, {"yes", "no", "yes", "no", "yes", "no"}},
+    {Right::kRecord, {"yes", "no", "no", "no", "yes", "no"}},
 }};
 
 TEST(Roles, MatchTheDesignTableInEveryRight) {
@@ -96,6 +97,7 @@ constexpr std::array<KindRow, rpc::kKinds> kFrames{{
     {Kind::kSceneList, "-------"},
     {Kind::kNotesRequest, "-x-x-x-"},
     {Kind::kNoteList, "-------"},
+    {Kind::kRecordSession, "-x---x-"},
 }};
 
 TEST(Roles, MatchTheDesignTableForEveryFrame) {

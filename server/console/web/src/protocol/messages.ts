@@ -17,7 +17,8 @@ export type Right =
   | 'score'
   | 'create'
   | 'seat'
-  | 'invite';
+  | 'invite'
+  | 'record';
 export type Phase = 'WAITING' | 'RUNNING' | 'STOPPED' | 'PAUSED' | 'OVER';
 export type SheetName = 'OSATS' | 'GEARS' | 'GOALS' | 'CHECKLIST';
 
@@ -123,6 +124,15 @@ export interface ToolState {
   transfer: Transfer | null;
 }
 
+/** Recording of the session, as all participants see it. */
+export interface Recording {
+  by_server: boolean;
+  by_recorders: number;
+  pseudonyms: boolean;
+  dropped: number;
+  trouble: string;
+}
+
 export interface State {
   type: 'state';
   n: number;
@@ -134,6 +144,7 @@ export interface State {
   version: number;
   shed: number;
   held: string;
+  recording: Recording | null;
   seats: readonly SeatState[];
   tools: readonly ToolState[];
 }
@@ -226,7 +237,8 @@ export type OrderBody =
       name: string;
       people: readonly { name: string; role: string; seat: string; workstation?: string }[];
     }
-  | { order: 'end'; session: string };
+  | { order: 'end'; session: string }
+  | { order: 'record'; on: boolean };
 
 /** Frames that expect a reply; the connection adds the `id`. */
 export type Request =
