@@ -169,21 +169,6 @@ export class MockGateway {
     for (const page of this.pages) page.period();
   }
 
-  /** Sends states as fast as possible and without regard to acknowledgements, each `dt` seconds of session time. */
-  async burst(states, dt) {
-    this.silent = true;
-    for (let i = 0; i < states; i += 1) {
-      this.session.step(dt);
-      for (const page of this.pages) {
-        page.n += 1;
-        page.send(this.session.state(page.n, page.dropped, page.person, page.role));
-      }
-      // The sockets and this process must not collect a queue.
-      if (i % 50 === 49) await new Promise((resolve) => setTimeout(resolve, 4));
-    }
-    this.silent = false;
-  }
-
   left(page) {
     this.pages.delete(page);
     for (const seat of this.session.seats) if (seat.owner === page) this.free(seat);
