@@ -80,8 +80,7 @@ int diff_command(const DiffArguments& arguments) {
     else
       mistakes.add("--limit", limit.error());
   }
-  if (!arguments.json.empty() && arguments.json != "-")
-    mistakes.add("--json", io::OutputFile::problem(arguments.json));
+  if (!arguments.json.empty() && arguments.json != "-") mistakes.add("--json", io::OutputFile::problem(arguments.json));
   const auto a = lesson_of(arguments.a), b = lesson_of(arguments.b);
   if (!a) mistakes.add(a.error());
   if (!b) mistakes.add(b.error());

@@ -38,10 +38,8 @@ std::vector<std::string> replay_notes(const RecordingReplay& replay) {
   for (const std::string& build : replay.other_builds)
     notes.push_back("recorded by another build, which may compute other values: " + build + "; this program is " +
                     std::string(server::build_text()));
-  if (replay.other_scene)
-    notes.emplace_back("the inputs were recorded with another scene than the one in the file");
-  if (!replay.complete)
-    notes.emplace_back("the file has no undamaged end; what is whole was replayed");
+  if (replay.other_scene) notes.emplace_back("the inputs were recorded with another scene than the one in the file");
+  if (!replay.complete) notes.emplace_back("the file has no undamaged end; what is whole was replayed");
   if (!replay.seats_compared)
     notes.emplace_back(
         "values of seats were not compared: the file has those of the hands themselves, before the network");
@@ -128,12 +126,12 @@ int replay_command(const ReplayArguments& arguments) {
   if (replay->difference)
     text += "differs first at " + difference_text(*replay->difference) + "\n";
   else
-    text += (replay->equal() ? "equal, bit for bit: " : replay->error + "; equal until there: ") +
-            format("%llu ticks, %llu datagrams received, %llu outputs, values of %llu ticks\n",
-                   static_cast<unsigned long long>(replay->counts.ticks),
-                   static_cast<unsigned long long>(replay->counts.datagrams),
-                   static_cast<unsigned long long>(replay->counts.outputs),
-                   static_cast<unsigned long long>(replay->rows));
+    text +=
+        (replay->equal() ? "equal, bit for bit: " : replay->error + "; equal until there: ") +
+        format("%llu ticks, %llu datagrams received, %llu outputs, values of %llu ticks\n",
+               static_cast<unsigned long long>(replay->counts.ticks),
+               static_cast<unsigned long long>(replay->counts.datagrams),
+               static_cast<unsigned long long>(replay->counts.outputs), static_cast<unsigned long long>(replay->rows));
   for (const std::string& note : notes) text += "note: " + note + "\n";
   return write_results(text, replay_json(*replay, notes), json, replay->equal());
 }

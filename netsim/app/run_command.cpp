@@ -105,8 +105,9 @@ void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
 
 /// Reads the motion of a hand from a recording.
 /// @param text  `FILE.mcap[,seat=NAME]`  @param seat  whose motion it is without that option
-std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> recorded_hand(
-    const std::string& text, const std::string& seat, const Point& center) {
+std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> recorded_hand(const std::string& text,
+                                                                                          const std::string& seat,
+                                                                                          const Point& center) {
   const std::size_t cut = text.find(',');
   const std::string file = text.substr(0, cut), option = cut == std::string::npos ? "" : text.substr(cut + 1);
   constexpr std::string_view kSeat = "seat=";
@@ -143,7 +144,8 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
     const auto known = std::ranges::find_if(
         setup.scene.seats, [&](const SeatSpec& s) { return s.name == seat && s.kind == SeatKind::kMaster; });
     if (cut == std::string::npos || known == setup.scene.seats.end()) {
-      std::string problem = "--hand " + text + ": must be SEAT=FILE.csv[,...] or SEAT=FILE.mcap[,seat=NAME] with SEAT one of:";
+      std::string problem =
+          "--hand " + text + ": must be SEAT=FILE.csv[,...] or SEAT=FILE.mcap[,seat=NAME] with SEAT one of:";
       for (const SeatSpec& s : setup.scene.seats)
         if (s.kind == SeatKind::kMaster) problem += " " + s.name;
       mistakes.add(problem);
@@ -285,9 +287,10 @@ void add_run_command(const io::Command& root) {
       .required();
   arguments.network.add_to(command);
   command
-      .add_option("--hand", arguments.hands,
-                  "a recorded motion moves this seat's hand: SEAT=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]"
-                  "[,axes=+x+y+z][,end=hold|loop], or a hand of a recording: SEAT=FILE.mcap[,seat=NAME]; may be repeated")
+      .add_option(
+          "--hand", arguments.hands,
+          "a recorded motion moves this seat's hand: SEAT=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]"
+          "[,axes=+x+y+z][,end=hold|loop], or a hand of a recording: SEAT=FILE.mcap[,seat=NAME]; may be repeated")
       .value_name("SEAT=FILE...")
       .one_value();
   command.add_option("--channel", arguments.channel, law_help()).check(io::one_of(law_names()));

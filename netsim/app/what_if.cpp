@@ -35,8 +35,8 @@ class SessionMeasures {
   }
   [[nodiscard]] std::vector<std::pair<std::string, double>> values(const std::vector<std::uint32_t>& trips) const {
     auto values = feel_.values(trips);
-    const double rms = ticks_ > 0 ? std::sqrt(square_ / static_cast<double>(ticks_))
-                                  : std::numeric_limits<double>::quiet_NaN();
+    const double rms =
+        ticks_ > 0 ? std::sqrt(square_ / static_cast<double>(ticks_)) : std::numeric_limits<double>::quiet_NaN();
     values.insert(values.begin(), {"leader_tool_rms_m", rms});
     return values;
   }
@@ -124,8 +124,8 @@ std::expected<WhatIfResult, std::string> play_what_if(const Lesson& lesson, cons
     setup.motions[seat.name] = std::move(*motion);
   }
   SessionMeasures played{setup.scene};
-  const SimulationResult run = run_simulation(
-      setup, {.tick = [&](Simulation& simulation) { played.add(simulation.record()); }});
+  const SimulationResult run =
+      run_simulation(setup, {.tick = [&](Simulation& simulation) { played.add(simulation.record()); }});
   if (!run.trouble.empty()) return std::unexpected(run.trouble);
   std::vector<std::uint32_t> trips, recorded_trips(lesson.scene.seats.size());
   for (const server::SeatReport& seat : run.report.seats) trips.push_back(seat.gate_trips);
@@ -135,7 +135,8 @@ std::expected<WhatIfResult, std::string> play_what_if(const Lesson& lesson, cons
   WhatIfResult out;
   out.words = "law " + (other.law.empty() ? std::string("of the recording") : other.law) + ", network " +
               (other.network.any() ? other.network.text() : std::string("without delay and loss"));
-  for (std::size_t k = 0; k < before.size(); ++k) out.numbers.push_back({before[k].first, before[k].second, now[k].second});
+  for (std::size_t k = 0; k < before.size(); ++k)
+    out.numbers.push_back({before[k].first, before[k].second, now[k].second});
   return out;
 }
 

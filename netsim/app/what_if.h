@@ -11,7 +11,8 @@
 
 namespace tandem::netsim {
 
-/// Other law or network under which the hands of a recording are played again: `law=NAME,delay=MS,jitter=MS,loss=PERCENT`.
+/// Other law or network under which the hands of a recording are played again:
+/// `law=NAME,delay=MS,jitter=MS,loss=PERCENT`.
 struct WhatIf {
   std::string law;         ///< empty: that of the recording
   NetworkNumbers network;  ///< one way; a number that is not given is 0

@@ -98,8 +98,7 @@ std::optional<JournalEvent> JournalReader::read(Fields& fields) {
   }
   const auto reason = [&] {
     const auto value = fields.get<std::uint8_t>();
-    if (fields.whole() && value > wire::kCloseReasonMax)
-      fail("close reason " + std::to_string(value));
+    if (fields.whole() && value > wire::kCloseReasonMax) fail("close reason " + std::to_string(value));
     return static_cast<wire::CloseReason>(value);
   };
   switch (kind) {
@@ -218,8 +217,8 @@ std::optional<JournalEvent> JournalReader::read_datagram(Fields& fields) {
   const std::size_t size = fields.get<std::uint16_t>();
   const Duration dt{fields.get<std::int64_t>()};
   const auto ahead = fields.get<std::uint64_t>();
-  const auto address = (word & server::input::kNewAddress) != 0 ? std::optional{fields.get<std::uint64_t>()}
-                                                                : std::nullopt;
+  const auto address =
+      (word & server::input::kNewAddress) != 0 ? std::optional{fields.get<std::uint64_t>()} : std::nullopt;
   if ((word & server::input::kTokenTaken) != 0) d.token = fields.get<std::uint64_t>();
   d.plaintext = fields.bytes(size);
   if (!fields.whole()) return std::nullopt;

@@ -6,8 +6,9 @@
 
 namespace tandem::netsim {
 
-std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> motion_of_seat(
-    const Lesson& lesson, const std::string& name, const Point& center) {
+std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> motion_of_seat(const Lesson& lesson,
+                                                                                           const std::string& name,
+                                                                                           const Point& center) {
   const auto found = std::ranges::find_if(
       lesson.scene.seats, [&](const SeatSpec& s) { return s.name == name && s.kind == SeatKind::kMaster; });
   if (found == lesson.scene.seats.end()) {

@@ -80,9 +80,8 @@ RecordValues::RecordValues(const SceneSpec& scene) {
 
 void RecordValues::read(const SceneSpec& scene, const server::TickRecord& record, std::vector<double>& out) {
   out.clear();
-  visit_record(scene, record, [&](const std::string&, const char*, const char*, std::size_t, double value) {
-    out.push_back(value);
-  });
+  visit_record(scene, record,
+               [&](const std::string&, const char*, const char*, std::size_t, double value) { out.push_back(value); });
 }
 
 std::optional<ReplayDifference> RecordValues::difference(const std::vector<double>& recorded,

@@ -9,8 +9,7 @@ namespace {
 
 transport::Secret made_secret(RandomKey key) noexcept {
   transport::Secret secret;
-  for (std::size_t i = 0; i < secret.bytes.size(); ++i)
-    secret.bytes[i] = static_cast<std::byte>(key.bits(i) & 0xff);
+  for (std::size_t i = 0; i < secret.bytes.size(); ++i) secret.bytes[i] = static_cast<std::byte>(key.bits(i) & 0xff);
   return secret;
 }
 

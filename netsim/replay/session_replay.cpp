@@ -39,9 +39,8 @@ void SessionReplay::apply_event(const JournalBegin& begin) {
       return;
     }
   }
-  auto slaves = hal::sim::make_local_slaves(*scene_, begin.start, [&](std::size_t tool) {
-    return from ? &from->tools[tool].slave : nullptr;
-  });
+  auto slaves = hal::sim::make_local_slaves(
+      *scene_, begin.start, [&](std::size_t tool) { return from ? &from->tools[tool].slave : nullptr; });
   if (!slaves) {
     error_ = slaves.error().front();
     return;
@@ -105,8 +104,9 @@ void SessionReplay::apply_event(const JournalRemove& remove) { session_->remove(
 void SessionReplay::apply_event(const JournalEnd& end) { session_->end(end.why); }
 
 void SessionReplay::apply_event(const JournalContacts& contacts) {
-  error_ = "the surfaces near tool " + std::to_string(contacts.tool + 1) +
-           " came from a source of the program that recorded (Session::set_contact_source); the inputs do not have them";
+  error_ =
+      "the surfaces near tool " + std::to_string(contacts.tool + 1) +
+      " came from a source of the program that recorded (Session::set_contact_source); the inputs do not have them";
 }
 
 void SessionReplay::apply_event(const JournalOverflow& overflow) {

@@ -9,7 +9,7 @@ std::optional<Connection::Opened> Connection::authenticate(Time now, const trans
 }
 
 std::optional<Connection::Opened> Connection::handle(Time now, const PeerAddress& from, const Opened& opened,
-                                                    wire::Codec& codec) noexcept {
+                                                     wire::Codec& codec) noexcept {
   if (!rate_.allow(now)) {
     link_->drop(transport::DropReason::kRate);
     return std::nullopt;

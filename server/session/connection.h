@@ -32,15 +32,15 @@ class Connection {
                                                    std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
   /// Handles path messages and the rate limit. @return a message for the owner; nullopt if it was handled or dropped
   [[nodiscard]] std::optional<Opened> handle(Time now, const PeerAddress& from, const Opened& opened,
-                                            wire::Codec& codec) noexcept TANDEM_REALTIME;
+                                             wire::Codec& codec) noexcept TANDEM_REALTIME;
   /// `authenticate`, then `handle`.
   [[nodiscard]] std::optional<Opened> open(Time now, const PeerAddress& from, const transport::Header& header,
                                            std::span<const std::byte> bytes,
                                            wire::Codec& codec) noexcept TANDEM_REALTIME;
   /// Records a message that was decoded, is in range and is newer than all before.
   /// @param tokens  for a challenge, if the message came from an address that is not the validated one
-  void on_accepted_message(Time now, const PeerAddress& from, const Opened& opened,
-                           const wire::Preamble& preamble, PathTokens& tokens) noexcept TANDEM_REALTIME;
+  void on_accepted_message(Time now, const PeerAddress& from, const Opened& opened, const wire::Preamble& preamble,
+                           PathTokens& tokens) noexcept TANDEM_REALTIME;
 
   /// An address is being validated, so a challenge may be due.
   [[nodiscard]] bool may_have_challenge() const noexcept { return path_validation_.in_progress(); }

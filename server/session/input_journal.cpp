@@ -125,8 +125,7 @@ void InputJournal::admit(Time now, std::size_t seat, std::uint32_t own_cid, std:
   record.put(device.joints);
   record.put(device.tip_axes);
   record.put(static_cast<std::uint8_t>((device.simulated ? 1 : 0) | (device.prismatic ? 2 : 0)));
-  for (const double value :
-       {device.force_peak_n, device.damping_n_s_m, device.mass_kg, device.latency_s, force_scale})
+  for (const double value : {device.force_peak_n, device.damping_n_s_m, device.mass_kg, device.latency_s, force_scale})
     record.put(value);
   write(record.bytes());
 }
@@ -136,8 +135,8 @@ void InputJournal::datagram(Time now, std::size_t seat, const PeerAddress& from,
   Seat& own = seats_[seat];
   const bool moved = !(from == own.from);
   RecordWriter<48> record{InputRecord::kDatagram};
-  record.put(static_cast<std::uint8_t>(seat | (moved ? input::kNewAddress : 0) |
-                                       (token != nullptr ? input::kTokenTaken : 0)));
+  record.put(
+      static_cast<std::uint8_t>(seat | (moved ? input::kNewAddress : 0) | (token != nullptr ? input::kTokenTaken : 0)));
   record.put(static_cast<std::uint8_t>(header.type));
   record.put(header.key_phase);
   record.put(static_cast<std::uint16_t>(plaintext.size()));
@@ -206,8 +205,7 @@ void InputJournal::tick(Time now, std::uint32_t missed, const Settings& settings
     settings_ = settings;
     RecordWriter<8> record{InputRecord::kSettings};
     record.put(static_cast<std::uint8_t>(settings.load.level));
-    record.put(
-        static_cast<std::uint8_t>((settings.load.overloaded ? 1 : 0) | (settings.telemetry_every_tick ? 2 : 0)));
+    record.put(static_cast<std::uint8_t>((settings.load.overloaded ? 1 : 0) | (settings.telemetry_every_tick ? 2 : 0)));
     record.put(settings.record_interval);
     write(record.bytes());
   }

@@ -54,12 +54,12 @@ class InputJournal {
 
   // ---- The thread that runs the session; called by Session ----
   struct Begin {
-    std::string_view build;             ///< version and build of the program, at most input::kBuildMax bytes
-    Time start;                         ///< of the slaves and of the session
-    const Checkpoint* from = nullptr;   ///< that the session was restored from; null: none
-    AxisArray scale{};                  ///< tip gain to port gain, per axis
-    Checkpoint::Hash scene{};           ///< scene_hash
-    std::size_t seats = 0;              ///< number of seats of the scene
+    std::string_view build;            ///< version and build of the program, at most input::kBuildMax bytes
+    Time start;                        ///< of the slaves and of the session
+    const Checkpoint* from = nullptr;  ///< that the session was restored from; null: none
+    AxisArray scale{};                 ///< tip gain to port gain, per axis
+    Checkpoint::Hash scene{};          ///< scene_hash
+    std::size_t seats = 0;             ///< number of seats of the scene
   };
   /// Begins the journal of a session. Digests of outputs start from zero.
   void begin(const Begin& begin) noexcept;

@@ -8,7 +8,8 @@
 namespace tandem::transport {
 namespace {
 
-// Test vectors of the authors: key 00 01 ... 0f, messages empty and 00 01 ... 0e [Aumasson, Bernstein 2012, appendix A].
+// Test vectors of the authors: key 00 01 ... 0f, messages empty and 00 01 ... 0e [Aumasson, Bernstein 2012, appendix
+// A].
 TEST(KeyedHash, IsSipHash24) {
   HashKey key;
   for (std::size_t i = 0; i < key.size(); ++i) key[i] = static_cast<std::byte>(i);

@@ -54,7 +54,8 @@ TEST(RecordingReplay, OfACutFileEndsWithItsLastWholeChunk) {
   const std::string file = record_file(delayed("contact"), 4);
   std::uint64_t ticks = 0;
   for (const double share : {0.3, 0.6, 0.95, 0.999}) {
-    const auto cut = std::string_view(file).substr(0, static_cast<std::size_t>(share * static_cast<double>(file.size())));
+    const auto cut =
+        std::string_view(file).substr(0, static_cast<std::size_t>(share * static_cast<double>(file.size())));
     const auto replay = replay_recording(bytes_of(cut));
     ASSERT_TRUE(replay) << replay.error();
     EXPECT_TRUE(replay->equal()) << replay->error;

@@ -1,14 +1,13 @@
 // A replay finds the first difference with its tick and channel, and judges nothing that the journal does not have.
-#include "netsim/replay/session_replay.h"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
 
+#include "netsim/replay/session_replay.h"
 #include "netsim/system/simulation.h"
-#include "proto/text/seat_setup.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
+#include "proto/text/seat_setup.h"
 #include "tests/netsim/replay/recorded_session.h"
 
 namespace tandem::netsim {
@@ -16,9 +15,7 @@ namespace {
 
 using test::RecordedSession;
 
-SceneSpec shipped(const std::string& name) {
-  return *parse_scene(find_shipped_scene(name)->text, name + ".textproto");
-}
+SceneSpec shipped(const std::string& name) { return *parse_scene(find_shipped_scene(name)->text, name + ".textproto"); }
 
 /// Runs a scene for some seconds and records it. @return records of all ticks, as numbers
 std::vector<std::vector<double>> record(const SimulationConfig& config, double seconds, RecordedSession& recorded) {

@@ -222,8 +222,8 @@ TEST(SessionInputs, OfARestoredSessionReplayWithoutResumeHashes) {
   r.run(700);
   Checkpoint checkpoint = r.s.session->checkpoint();
   for (Checkpoint::Seat& seat : checkpoint.seats) seat.resume.fill(std::byte{0xc3});
-  auto slaves = *hal::sim::make_local_slaves(r.s.scene, r.s.now,
-                                             [&](std::size_t tool) { return &checkpoint.tools[tool].slave; });
+  auto slaves =
+      *hal::sim::make_local_slaves(r.s.scene, r.s.now, [&](std::size_t tool) { return &checkpoint.tools[tool].slave; });
   AxisArray scale;
   scale.fill(1);
   Session restored{r.s.scene, std::move(slaves), scale, checkpoint};

@@ -20,8 +20,7 @@ TEST(SwarmReplay, GivesAllOutputsAndRecordsBitForBit) {
   std::uint64_t equal = 0, ticks = 0, datagrams = 0, outputs = 0, sessions = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    SwarmCase which =
-        generate_swarm_case(seed, kFaultPhase, seed % 2 == 0 ? LawKind::kReplica : LawKind::kSetPosition);
+    SwarmCase which = generate_swarm_case(seed, kFaultPhase, seed % 2 == 0 ? LawKind::kReplica : LawKind::kSetPosition);
     for (const Fault& fault : which.setup.faults) faults.insert(fault.kind);
     RecordedSession recorded;
     which.setup.journal = &recorded.journal;

@@ -58,8 +58,7 @@ class SessionFixture {
   /// @param journal    records the inputs of the session; null: nothing does. @pre as_server
   explicit SessionFixture(const std::string& scene_name = "one_axis", std::uint64_t key = 3,
                           const transport::RekeyPolicy& rekey = {}, std::uint8_t slot = 0,
-                          void (*change)(SceneSpec&) = nullptr, bool as_server = false,
-                          InputJournal* journal = nullptr)
+                          void (*change)(SceneSpec&) = nullptr, bool as_server = false, InputJournal* journal = nullptr)
       : scene(*parse_scene(find_shipped_scene(scene_name)->text, scene_name + ".textproto")) {
     if (change != nullptr) change(scene);
     AxisArray scale;
@@ -67,7 +66,8 @@ class SessionFixture {
     std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;
     if (as_server) slaves = *hal::sim::make_local_slaves(scene, Time{}, [](std::size_t) { return nullptr; });
     for (const ToolSpec& tool : scene.tools)
-      if (!as_server) slaves.push_back(std::move(*hal::sim::SimDevice::make({tool.slave, {}, tool.environment, nullptr, Time{}})));
+      if (!as_server)
+        slaves.push_back(std::move(*hal::sim::SimDevice::make({tool.slave, {}, tool.environment, nullptr, Time{}})));
     session = std::make_unique<Session>(scene, std::move(slaves), scale);
     if (journal != nullptr) session->attach_journal(*journal, Time{}, build_text());
     for (std::size_t i = 0; i < scene.seats.size(); ++i) {
