@@ -1,15 +1,18 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
 #include "common/base/raw_bytes.h"
 #include "common/io/command_line.h"
-#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "netsim/app/exit_status.h"
 #include "netsim/app/netsim_commands.h"
+#include "netsim/app/what_if.h"
 #include "netsim/profiles/app/network_options.h"
 #include "netsim/replay/recording_replay.h"
+#include "proto/recording/lesson_reader.h"
 #include "server/session/build_text.h"
 
 namespace tandem::netsim {
@@ -18,7 +21,7 @@ namespace {
 constexpr std::uintmax_t kReplayedMax = std::uintmax_t{1} << 32;  // [bytes]
 
 struct ReplayArguments {
-  std::string recording, json;
+  std::string recording, json, what_if;
 };
 
 int replay_usage_error(const std::string& mistake) { return io::report_usage_error("tandem-netsim replay", mistake); }
@@ -65,6 +68,46 @@ std::string replay_json(const RecordingReplay& replay, const std::vector<std::st
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+std::string what_if_text(const WhatIfResult& result) {
+  std::string text = result.words + format("\n%-20s %14s %14s\n", "", "recorded", "played");
+  const auto number = [](double value) { return std::isfinite(value) ? format("%.6g", value) : std::string("-"); };
+  for (const WhatIfNumber& n : result.numbers)
+    text += format("%-20s %14s %14s\n", n.key.c_str(), number(n.recorded).c_str(), number(n.played).c_str());
+  return text;
+}
+
+std::string what_if_json(const WhatIfResult& result) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json json{{"played_under", result.words}, {"numbers", nlohmann::ordered_json::object()}};
+  for (const WhatIfNumber& n : result.numbers)
+    json["numbers"][n.key] = {{"recorded", number(n.recorded)}, {"played", number(n.played)}};
+  return json.dump(2) + "\n";
+}
+
+/// Prints the text, beside JSON on standard output to standard error, and writes the JSON.
+/// @return exit code of the command
+int write_results(const std::string& text, const std::string& json_text, io::OutputFile& json, bool good) {
+  io::print_formatted(json.on_stdout() ? stderr : stdout, "%s", text.c_str());
+  json.write(json_text);
+  return exit_status("replay", {json.close()}, good);
+}
+
+int what_if(const ReplayArguments& arguments, const std::string& bytes) {
+  const auto other = parse_what_if(arguments.what_if);
+  if (!other) return replay_usage_error("--what-if " + other.error());
+  const auto lesson = read_lesson(bytes_of(bytes));
+  if (!lesson) return replay_usage_error(arguments.recording + ": " + lesson.error());
+  io::OutputFile json;
+  if (const auto problem = json.open(arguments.json, true); !problem.empty())
+    return replay_usage_error("--json: " + problem);
+  const auto result = play_what_if(*lesson, *other);
+  if (!result) return replay_usage_error(arguments.recording + ": " + result.error());
+  return write_results(arguments.recording + ": hands played under " + what_if_text(*result), what_if_json(*result),
+                       json, true);
+}
+
 int replay_command(const ReplayArguments& arguments) {
   if (const auto problem = arguments.json == "-" ? std::string() : io::OutputFile::problem(arguments.json);
       !arguments.json.empty() && !problem.empty())
@@ -72,6 +115,7 @@ int replay_command(const ReplayArguments& arguments) {
   if (arguments.json == arguments.recording) return replay_usage_error("--json: is the recording itself");
   const auto bytes = read_whole_file(arguments.recording, kReplayedMax);
   if (!bytes) return replay_usage_error(bytes.error());
+  if (!arguments.what_if.empty()) return what_if(arguments, *bytes);
   const auto replay = replay_recording(bytes_of(*bytes));
   if (!replay) return replay_usage_error(arguments.recording + ": " + replay.error());
   io::OutputFile json;
@@ -89,13 +133,7 @@ int replay_command(const ReplayArguments& arguments) {
                static_cast<unsigned long long>(replay->counts.datagrams),
                static_cast<unsigned long long>(replay->counts.outputs), static_cast<unsigned long long>(replay->rows));
   for (const std::string& note : notes) text += "note: " + note + "\n";
-  io::print_formatted(json.on_stdout() ? stderr : stdout, "%s", text.c_str());
-  json.write(replay_json(*replay, notes));
-  if (const auto problem = json.close(); !problem.empty()) {
-    io::print_formatted(stderr, "tandem-netsim replay: %s\n", problem.c_str());
-    return io::kExitTrouble;
-  }
-  return replay->equal() ? io::kExitDone : io::kExitTrouble;
+  return write_results(text, replay_json(*replay, notes), json, replay->equal());
 }
 
 }  // namespace
@@ -108,14 +146,17 @@ void add_replay_command(const io::Command& root) {
       .value_name("FILE.mcap")
       .required();
   command.add_option("--json", arguments.json, "writes the result; `-`: to standard output").value_name("FILE|-");
+  command.add_option("--what-if", arguments.what_if, what_if_help()).value_name("KEY=VALUE,...");
   command.footer(
       "Compares hashes of everything that each seat was sent, and the recorded values of each tick.\n"
       "The first difference is given with tick, channel and both values. A recording of another build may differ, and\n"
-      "a note says so. A cut recording is replayed as far as it is whole.\n\n"
+      "a note says so. A cut recording is replayed as far as it is whole.\n"
+      "--what-if compares nothing: simulated hands of usual impedance follow the recorded motions in virtual time.\n\n"
       "Exit: 0 equal, 1 different or inputs that were lost, 2 wrong arguments, or a file without inputs.\n\n"
       "Examples\n"
       "  tandem-netsim run contact --delay 20 --record lesson.mcap\n"
-      "  tandem-netsim replay lesson.mcap");
+      "  tandem-netsim replay lesson.mcap\n"
+      "  tandem-netsim replay lesson.mcap --what-if law=set_position,delay=100");
 }
 
 }  // namespace tandem::netsim

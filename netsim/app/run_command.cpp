@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "common/base/format.h"
+#include "common/base/raw_bytes.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
 #include "common/io/output_file.h"
@@ -18,15 +19,19 @@
 #include "netsim/app/run_recording.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/profiles/app/network_options.h"
+#include "netsim/replay/lesson_hands.h"
 #include "netsim/system/run_simulation.h"
 #include "netsim/system/session_notes.h"
 #include "netsim/system/simulation.h"
 #include "proto/io/scene_file.h"
+#include "proto/recording/lesson_reader.h"
 #include "proto/text/scene_text.h"
 #include "server/report/report_summary.h"
 
 namespace tandem::netsim {
 namespace {
+
+constexpr std::uintmax_t kRecordingMax = std::uintmax_t{1} << 32;  // [bytes]
 
 struct RunArguments {
   std::string scene, channel, coupling, mfs, json, trace, record, log, replay;
@@ -98,6 +103,25 @@ void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
     if (arguments.record == other) mistakes.add("--record: is the same file as another result or input");
 }
 
+/// Reads the motion of a hand from a recording.
+/// @param text  `FILE.mcap[,seat=NAME]`  @param seat  whose motion it is without that option
+std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> recorded_hand(const std::string& text,
+                                                                                          const std::string& seat,
+                                                                                          const Point& center) {
+  const std::size_t cut = text.find(',');
+  const std::string file = text.substr(0, cut), option = cut == std::string::npos ? "" : text.substr(cut + 1);
+  constexpr std::string_view kSeat = "seat=";
+  if (!option.empty() && !option.starts_with(kSeat))
+    return std::unexpected(option + ": a recording takes seat=NAME only");
+  const auto bytes = read_whole_file(file, kRecordingMax);
+  if (!bytes) return std::unexpected(bytes.error());
+  const auto lesson = read_lesson(bytes_of(*bytes));
+  if (!lesson) return std::unexpected(file + ": " + lesson.error());
+  auto motion = motion_of_seat(*lesson, option.empty() ? seat : option.substr(kSeat.size()), center);
+  if (!motion) return std::unexpected(file + ": " + motion.error());
+  return motion;
+}
+
 /// Makes the configuration from the arguments; collects all errors.
 SimulationConfig understand(const RunArguments& arguments, std::vector<std::string>& notes, io::UsageErrors& mistakes) {
   SimulationConfig setup;
@@ -120,10 +144,19 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
     const auto known = std::ranges::find_if(
         setup.scene.seats, [&](const SeatSpec& s) { return s.name == seat && s.kind == SeatKind::kMaster; });
     if (cut == std::string::npos || known == setup.scene.seats.end()) {
-      std::string problem = "--hand " + text + ": must be SEAT=FILE.csv[,...] with SEAT one of:";
+      std::string problem =
+          "--hand " + text + ": must be SEAT=FILE.csv[,...] or SEAT=FILE.mcap[,seat=NAME] with SEAT one of:";
       for (const SeatSpec& s : setup.scene.seats)
         if (s.kind == SeatKind::kMaster) problem += " " + s.name;
       mistakes.add(problem);
+      continue;
+    }
+    if (const std::string file = text.substr(cut + 1, text.find(',', cut) - cut - 1); file.ends_with(".mcap")) {
+      auto motion = recorded_hand(text.substr(cut + 1), seat, known->hand.trajectory.center);
+      if (motion)
+        setup.motions[seat] = std::move(*motion);
+      else
+        mistakes.add("--hand " + seat + ": " + motion.error());
       continue;
     }
     const auto options = hal::sim::parse_motion_options(text.substr(cut + 1));
@@ -254,9 +287,10 @@ void add_run_command(const io::Command& root) {
       .required();
   arguments.network.add_to(command);
   command
-      .add_option("--hand", arguments.hands,
-                  "a recorded motion moves this seat's hand: SEAT=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]"
-                  "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
+      .add_option(
+          "--hand", arguments.hands,
+          "a recorded motion moves this seat's hand: SEAT=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]"
+          "[,axes=+x+y+z][,end=hold|loop], or a hand of a recording: SEAT=FILE.mcap[,seat=NAME]; may be repeated")
       .value_name("SEAT=FILE...")
       .one_value();
   command.add_option("--channel", arguments.channel, law_help()).check(io::one_of(law_names()));
@@ -311,7 +345,8 @@ void add_run_command(const io::Command& root) {
       "  tandem-netsim run contact --delay 20 --record lesson.mcap\n"
       "  tandem-netsim run contact --replay net.csv --channel raw\n"
       "  tandem-netsim run contact --delay 10 --script bad_day.textproto\n"
-      "  tandem-netsim run free_motion --hand trainer=motion.csv,columns=baton");
+      "  tandem-netsim run free_motion --hand trainer=motion.csv,columns=baton\n"
+      "  tandem-netsim run contact --hand trainer=lesson.mcap,seat=trainer");
 }
 
 }  // namespace tandem::netsim

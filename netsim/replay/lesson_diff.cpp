@@ -101,7 +101,7 @@ std::expected<LessonDiff, std::string> diff_lessons(const Lesson& a, const Lesso
     RecordValues::read(a.scene, left, x);
     RecordValues::read(a.scene, right, y);
     ++out.rows;
-    std::ranges::fill(differs, false);
+    differs.assign(channels.size(), false);
     for (std::size_t k = 0; k < x.size(); ++k) {
       if (std::bit_cast<std::uint64_t>(x[k]) == std::bit_cast<std::uint64_t>(y[k])) continue;
       ChannelDifference& channel = channels[channel_of[k]];

@@ -1,0 +1,125 @@
+// tandem-netsim replay and diff, and recordings as hands, from the side of users.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/process.h"
+
+namespace tandem::netsim {
+namespace {
+
+using tandem::test::Process;
+
+/// A folder of this test's own, with a recording of 3 s over 20 ms and 5 % loss.
+class ReplayCommand : public testing::Test {
+ protected:
+  ReplayCommand()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("tandem_replay_" + std::to_string(getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+    record("a.mcap", {"--delay", "20", "--loss", "5"});
+  }
+  ~ReplayCommand() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  /// Runs the program. @return its exit code; its words are in `out_` and `err_`
+  int netsim(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), TANDEM_NETSIM_PROGRAM);
+    Process process(std::move(arguments));
+    const int code = process.wait().value_or(-1000);
+    out_ = process.out();
+    err_ = process.err();
+    return code;
+  }
+  void record(const std::string& name, std::vector<std::string> options) {
+    options.insert(options.begin(), {"run", "contact", "--duration", "3", "--quiet", "--record", path(name)});
+    EXPECT_LE(netsim(std::move(options)), 1) << err_;
+  }
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(out_); }
+
+  std::filesystem::path folder_;
+  std::string out_, err_;
+};
+
+TEST_F(ReplayCommand, FindsARecordingEqual) {
+  ASSERT_EQ(netsim({"replay", path("a.mcap"), "--json", "-"}), 0) << err_;
+  EXPECT_NE(err_.find("equal, bit for bit"), std::string::npos) << err_;
+  const auto result = json();
+  EXPECT_EQ(result["equal"], true);
+  EXPECT_GT(result["outputs"], 5000);
+  EXPECT_GT(result["rows"], 2900);
+  EXPECT_TRUE(result["difference"].is_null());
+}
+
+// A chunk whose inputs cannot be read any more ends the replay there; a file of another kind is no recording.
+TEST_F(ReplayCommand, SaysWhatCannotBeReplayed) {
+  std::ifstream in(path("a.mcap"), std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x40);
+  std::ofstream(path("damaged.mcap"), std::ios::binary) << bytes;
+  EXPECT_EQ(netsim({"replay", path("damaged.mcap"), "--json", "-"}), 1) << err_;
+  EXPECT_NE(std::string(json()["error"]).find("of the inputs are missing"), std::string::npos) << out_;
+  std::ofstream(path("text.mcap")) << "no recording";
+  EXPECT_EQ(netsim({"replay", path("text.mcap")}), 2);
+  EXPECT_NE(err_.find("text.mcap"), std::string::npos) << err_;
+  EXPECT_EQ(netsim({"replay", path("missing.mcap")}), 2);
+  EXPECT_EQ(netsim({"replay", path("a.mcap"), "--json", path("no/such/file")}), 2);
+}
+
+TEST_F(ReplayCommand, PlaysTheHandsUnderAnotherLawAndNetwork) {
+  ASSERT_EQ(netsim({"replay", path("a.mcap"), "--what-if", "law=set_position,delay=100", "--json", "-"}), 0) << err_;
+  const auto result = json();
+  EXPECT_NE(std::string(result["played_under"]).find("set_position"), std::string::npos) << out_;
+  const auto& tracking = result["numbers"]["leader_tool_rms_m"];
+  EXPECT_GT(tracking["recorded"], 0.0);
+  EXPECT_GT(tracking["played"], 2 * static_cast<double>(tracking["recorded"])) << "100 ms and another law";
+  for (const char* key : {"stiffness_felt_n_m", "drag_n", "trips_per_min", "delivered_error_n"})
+    EXPECT_TRUE(result["numbers"].contains(key)) << key;
+  for (const char* wrong : {"law=none", "delay=x", "delay=-1", "loss=101", "speed=2", ""})
+    EXPECT_EQ(netsim({"replay", path("a.mcap"), std::string("--what-if=") + wrong}), *wrong == '\0' ? 0 : 2) << wrong;
+}
+
+TEST_F(ReplayCommand, ComparesTwoRecordings) {
+  record("same.mcap", {"--delay", "20", "--loss", "5"});
+  record("other.mcap", {"--delay", "25", "--loss", "5"});
+  EXPECT_EQ(netsim({"diff", path("a.mcap"), path("same.mcap")}), 0) << out_ << err_;
+  EXPECT_NE(out_.find("equal, bit for bit"), std::string::npos) << out_;
+  EXPECT_EQ(netsim({"diff", path("a.mcap"), path("other.mcap"), "--json", "-"}), 1) << err_;
+  double largest = 0;
+  const auto result = json();
+  for (const auto& channel : result["channels"])
+    if (channel["channel"] == "/tool/measured_cp") largest = channel["difference"];
+  EXPECT_GT(largest, 1e-6);
+  std::vector<std::string> wide{"diff", path("a.mcap"), path("other.mcap")};
+  for (const auto& channel : result["channels"]) {
+    wide.emplace_back("--limit");
+    wide.push_back(std::string(channel["channel"]) + "=1e12");
+  }
+  EXPECT_EQ(netsim(wide), 0) << out_ << err_;
+  EXPECT_NE(out_.find("within the limits"), std::string::npos) << out_;
+  EXPECT_EQ(netsim({"diff", path("a.mcap"), path("missing.mcap")}), 2);
+  EXPECT_EQ(netsim({"diff", path("a.mcap"), path("a.mcap"), "--limit", "measured_cp"}), 2);
+  EXPECT_EQ(netsim({"diff", path("a.mcap"), path("a.mcap"), "--limit", "nothing=1"}), 2);
+  EXPECT_NE(err_.find("there is no channel nothing"), std::string::npos) << err_;
+}
+
+TEST_F(ReplayCommand, TakesAHandOfARecording) {
+  EXPECT_LE(netsim({"run", "contact", "--duration", "3", "--quiet", "--json", "-", "--hand",
+                    "trainer=" + path("a.mcap") + ",seat=trainer"}),
+            1)
+      << err_;
+  EXPECT_GT(json()["duration_s"], 2.9);
+  EXPECT_EQ(netsim({"run", "contact", "--hand", "trainer=" + path("a.mcap") + ",seat=nobody"}), 2);
+  EXPECT_NE(err_.find("the recording has no hand nobody"), std::string::npos) << err_;
+  EXPECT_EQ(netsim({"run", "contact", "--hand", "trainer=" + path("a.mcap") + ",scale=2"}), 2);
+}
+
+}  // namespace
+}  // namespace tandem::netsim
