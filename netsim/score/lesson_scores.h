@@ -60,14 +60,14 @@ struct LessonScores {
   std::vector<NamedPair> pairs;  ///< of MASTER seats at the same tool, and hands of one person
   std::vector<LessonSheet> sheets;
   std::vector<LessonMark> marks;
-  std::vector<std::string> notes;  ///< what the file does not have
+  std::vector<std::string> notes;  ///< data that the file lacks
 
   [[nodiscard]] const SeatScore* seat(std::string_view name) const noexcept;
 };
 
 /// @param one_person  pairs of seats, names in the scene, which are the two hands of one person, in addition to seats
 ///                    with the same person
-/// @return error: what is wrong with the lesson
+/// @return error: the reason why the lesson cannot be scored
 [[nodiscard]] std::expected<LessonScores, std::string> score_lesson(
     const Lesson& lesson, const ScoreOptions& options = {},
     const std::vector<std::pair<std::string, std::string>>& one_person = {});
