@@ -137,7 +137,7 @@ TEST(ScoreCommand, ReportsAnOutputThatCannotBeWritten) {
 /// Instructions of scoring a file, by callgrind; 0: it failed.
 double instructions(const Folder& folder, const std::string& file) {
   const std::string counts = folder.file("callgrind.out");
-  Process process({"valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, TANDEM_NETSIM, "score", file,
+  Process process({"/usr/bin/env", "valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, TANDEM_NETSIM, "score", file,
                    "--scene", "contact", "--quiet"});
   if (code_of(process) != 0) return 0;
   std::ifstream in(counts);
