@@ -137,8 +137,8 @@ TEST(ScoreCommand, ReportsAnOutputThatCannotBeWritten) {
 /// Instructions of scoring a file, by callgrind; 0: it failed.
 double instructions(const Folder& folder, const std::string& file) {
   const std::string counts = folder.file("callgrind.out");
-  Process process({"/usr/bin/env", "valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, TANDEM_NETSIM, "score", file,
-                   "--scene", "contact", "--quiet"});
+  Process process({"/usr/bin/env", "valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, TANDEM_NETSIM,
+                   "score", file, "--scene", "contact", "--quiet"});
   if (code_of(process) != 0) return 0;
   std::ifstream in(counts);
   for (std::string line; std::getline(in, line);)
