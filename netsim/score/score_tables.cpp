@@ -166,7 +166,7 @@ std::string events_html(const Lesson& lesson, const LessonScores& scores) {
                                           : "")});
   for (const LessonEvent& event : lesson.events)
     rows.push_back(
-        {event.tick / lesson.scene.tick_hz, event.text.empty() ? event.what + " " + event.seat : event.text});
+        {event.tick / lesson.scene.tick_hz, event.what + ": " + (event.text.empty() ? event.seat : event.text)});
   for (const LessonMark& mark : lesson.marks) rows.push_back({mark.t_s, "mark by " + mark.by + ": " + mark.text});
   std::ranges::stable_sort(rows, {}, &Row::at);
   if (rows.empty()) return "<p>No events, marks or interventions are recorded.</p>\n";

@@ -7,12 +7,12 @@
 namespace tandem::netsim::score {
 namespace {
 
-constexpr double kRest = 0.5;              // [s] at rest before drift counts
-constexpr double kAroundChange = 0.050;    // [s] before and after a change of authority
-constexpr double kDepthSpan = 0.0005;      // [m] smallest range of depths for a stiffness
-constexpr std::size_t kDepthSamples = 50;  // fewest samples for a stiffness
-constexpr std::size_t kCoarseStride = 4;   // of samples in the coarse search for the delay
-constexpr double kCoarseLag = 0.010;       // [s]
+constexpr double kRest = 0.5;                               // [s] at rest before drift counts
+constexpr double kAroundChange = 0.050;                     // [s] before and after a change of authority
+constexpr double kDepthSpan = 0.0005;                       // [m] smallest range of depths for a stiffness
+constexpr std::size_t kDepthSamples = 50;                   // fewest samples for a stiffness
+constexpr std::size_t kCoarseStride = 16, kFineStride = 4;  // of samples in the search for the delay
+constexpr double kCoarseLag = 0.010;                        // [s]
 
 /// RMS distance between the hand and the tool `lag` elements later, over elements of the part.
 double rms_at_lag(const PartInput& in, std::size_t lag, std::size_t stride) {
@@ -39,10 +39,11 @@ void score_delay(const PartInput& in, MetricValues& values) {
   for (std::size_t lag = coarse; lag <= most; lag += coarse)
     if (const double rms = rms_at_lag(in, lag, kCoarseStride); rms < least) least = rms, best = lag;
   const std::size_t around = best;
-  best = 0;
-  least = direct;
-  for (std::size_t lag = around > coarse ? around - coarse : 1; lag <= std::min(around + coarse, most); ++lag)
-    if (const double rms = rms_at_lag(in, lag, 1); rms < least) least = rms, best = lag;
+  least = rms_at_lag(in, best, kFineStride);
+  for (std::size_t lag = around > coarse ? around - coarse : 0; lag <= std::min(around + coarse, most); ++lag)
+    if (const double rms = rms_at_lag(in, lag, kFineStride); rms < least) least = rms, best = lag;
+  least = rms_at_lag(in, best, 1);
+  if (!(least < direct)) least = direct, best = 0;
   of(values, Metric::kTrackingNoDelay) = least;
   of(values, Metric::kTrackingDelay) = static_cast<double>(best) / in.grid.rate();
 }

@@ -25,6 +25,36 @@ std::size_t number_after(std::string_view name, std::string_view stem, std::size
   return std::min<std::size_t>(static_cast<std::size_t>(name.back() - '0'), most);
 }
 
+/// As std::from_chars, which decides about all texts but `-?DIGITS[.DIGITS]` of at most 15 digits. Such a number is the
+/// quotient of two integers that a double holds exactly, so the result is the same: the nearest double. A trace has few
+/// other numbers, and this takes a third of the instructions.
+std::from_chars_result parsed(const char* const begin, const char* const end, double& value) {
+  constexpr double kPowers[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  constexpr int kDigitsMax = 15;
+  const char* at = begin;
+  const bool negative = at != end && *at == '-';
+  at += negative ? 1 : 0;
+  std::int64_t number = 0;
+  int digits = 0, decimals = 0;
+  bool point = false;
+  for (; at != end && digits <= kDigitsMax; ++at) {
+    const auto digit = static_cast<unsigned>(*at) - '0';
+    if (digit <= 9) {
+      number = number * 10 + digit;
+      ++digits;
+      decimals += point ? 1 : 0;
+    } else if (*at == '.' && !point) {
+      point = true;
+    } else {
+      break;
+    }
+  }
+  if (digits == 0 || digits > kDigitsMax || (at != end && *at != ',')) return std::from_chars(begin, end, value);
+  value = static_cast<double>(number) / kPowers[decimals];
+  if (negative) value = -value;
+  return {at, std::errc{}};
+}
+
 bool any(const auto& columns) {
   return std::ranges::any_of(columns, [](std::size_t c) { return c != ~std::size_t{0}; });
 }
@@ -152,7 +182,7 @@ std::expected<void, std::string> TraceReader::row(std::string_view text) {
   const char* at = text.data();
   const char* const end = at + text.size();
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const auto [stop, problem] = std::from_chars(at, end, cells_[c]);
+    const auto [stop, problem] = parsed(at, end, cells_[c]);
     if (problem != std::errc{} || (stop != end && *stop != ',')) {
       const std::string_view cell(at, static_cast<std::size_t>(std::find(at, end, ',') - at));
       return error_at(c, at == end && c > 0 ? "the line ends before it"

@@ -14,7 +14,7 @@ namespace tandem::netsim::score {
 /// Reads the rows that `--trace` writes (server/report/trace_csv.h) into a Lesson, piece by piece. The columns
 /// `tick[1]` and `SEAT.x[m]`, `SEAT.y[m]`, `SEAT.z[m]` of one MASTER seat at least are required. The values of other
 /// columns that are not there are unknown. A row that repeats the tick of the one before is left out: the session was
-/// stopped. What a trace does not have stays empty: velocity, gate, freshness, accounts, links, events.
+/// stopped. Columns that a trace does not have stay empty: velocity, gate, freshness, accounts, links, events.
 class TraceReader {
  public:
   static constexpr std::size_t kRowsMax = 40'000'000;  ///< 11 h at 1 kHz

@@ -100,6 +100,7 @@ TEST(ScorePage, IsWholeAndEscapesEveryText) {
   EXPECT_EQ(page.find("src="), std::string::npos) << "self-contained";
   EXPECT_EQ(page.find("href=\"http"), std::string::npos);
   EXPECT_NE(page.find("&lt;script&gt;"), std::string::npos);
+  EXPECT_NE(page.find("stop: &lt;script&gt;"), std::string::npos);
   EXPECT_NE(page.find("2023-11-14 22:13 UTC"), std::string::npos);
   for (const char* section : {"id=\"scores\"", "id=\"path\"", "id=\"time\"", "id=\"events\"", "id=\"link\"",
                               "id=\"evaluators\"", "id=\"all\"", "svg class=\"figure isometric\"", "</html>"})

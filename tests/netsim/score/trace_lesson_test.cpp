@@ -168,6 +168,43 @@ TEST(TraceLesson, TakesUnknownValuesRepeatedTicksAndACutLine) {
   EXPECT_FALSE(lesson->complete);
 }
 
+TEST(TraceLesson, ReadsNumbersAsTheLibraryDoes) {
+  std::vector<std::string> numbers{"0",
+                                   "-0",
+                                   "1.",
+                                   ".5",
+                                   "-.25",
+                                   "1e-3",
+                                   "-2.5E+2",
+                                   "1e-320",
+                                   "007.50",
+                                   "inf",
+                                   "-nan",
+                                   "12345678901234567890",
+                                   "0.1234567890123456789"};
+  std::uint64_t state = 7;
+  for (int i = 0; i < 2000; ++i) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    const std::uint64_t digits = state >> (14 + i % 40);
+    std::string text = std::to_string(digits);
+    text.insert(text.size() > 1 ? 1 + (state >> 5) % (text.size() - 1) : 1, ".");
+    numbers.push_back((i % 2 == 0 ? "-" : "") + text + (text.back() == '.' ? "0" : ""));
+  }
+  std::string csv = "tick[1],trainer.x[m],trainer.y[m],trainer.z[m]\n";
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    csv += std::to_string(i) + "," + numbers[i] + ",0," + numbers[i] + "\n";
+  const auto lesson = read(small_scene(), csv);
+  ASSERT_TRUE(lesson) << lesson.error();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double wanted = std::strtod(numbers[i].c_str(), nullptr);
+    for (const std::size_t c : {0, 2}) {
+      const double got = lesson->seats[0].x[i][c];
+      EXPECT_TRUE(got == wanted || (std::isnan(got) && std::isnan(wanted))) << numbers[i] << " " << got;
+      EXPECT_EQ(std::signbit(got), std::signbit(wanted)) << numbers[i];
+    }
+  }
+}
+
 TEST(TraceLesson, SurvivesEveryCutAndEveryFlippedByte) {
   const Recorded trace = recorded("one_axis", 0.01);
   for (std::size_t n = 0; n < trace.csv.size(); n += 5)
