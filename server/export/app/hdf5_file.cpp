@@ -137,7 +137,7 @@ void Hdf5File::texts(const std::string& path, const std::vector<std::string>& te
   const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.get(), longest);
   H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  // The type stays that of ASCII, although the bytes are UTF-8: Octave fails to load a file with texts of type UTF-8.
   const hsize_t size = texts.size();
   const Hdf5Id space(H5Screate_simple(1, &size, nullptr), H5Sclose);
   const Hdf5Id data(H5Dcreate2(file_, path.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
