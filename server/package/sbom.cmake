@@ -107,7 +107,7 @@ foreach(package IN LISTS packages HEADERS)
   endif()
   list(JOIN libraries_of_${package} ", " provides)
   if(NOT provides)
-    set(provides "headers or static library, compiled in")
+    set(provides "headers, compiled in")
   endif()
   string(APPEND entries ",
     {

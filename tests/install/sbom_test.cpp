@@ -39,9 +39,9 @@ struct Sbom : testing::TestWithParam<const char*> {
 /// Returns whether `expression` is a licence expression of known identifiers. These are the identifiers of the SPDX
 /// licence list that Debian's copyright files of the linked libraries lead to.
 bool is_licence(const std::string& expression) {
-  static const std::set<std::string> kKnown{
-      "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause",      "BSL-1.0", "GPL-3.0-only", "GPL-3.0-or-later", "Zlib",
-      "blessing",   "ISC",          "LGPL-2.1-or-later", "MIT",     "MPL-2.0",      "GCC-exception-3.1"};
+  static const std::set<std::string> kKnown{"Apache-2.0",        "BSD-3-Clause", "BSL-1.0",  "GPL-3.0-only",
+                                            "GPL-3.0-or-later",  "Zlib",         "blessing", "ISC",
+                                            "LGPL-2.1-or-later", "MIT",          "MPL-2.0",  "GCC-exception-3.1"};
   std::istringstream words(expression);
   bool operand = true;
   for (std::string word; words >> word; operand = !operand)

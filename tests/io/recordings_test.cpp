@@ -65,6 +65,20 @@ TEST(Recordings, AreListedWithDamagedAndForeignFilesNamed) {
   EXPECT_NE(unknown.err().find("did you mean a.mcap?"), std::string::npos) << unknown.err();
 }
 
+TEST(Recordings, NeedTheLibraryOfHdf5ForHdf5Only) {
+  const Folder folder;
+  ASSERT_TRUE(record(folder, "a"));
+  folder.write(TANDEM_HDF5_LIBRARY, "no library");
+  for (const bool csv : {true, false}) {
+    const std::string out = folder.file(csv ? "out.csv" : "out.h5");
+    Process run({"/usr/bin/env", "LD_LIBRARY_PATH=" + folder.file(""), TANDEM_SERVER, "recordings", "export",
+                 folder.file("a.mcap"), "--to", out});
+    EXPECT_EQ(run.wait(), csv ? 0 : 1) << run.err();
+    EXPECT_EQ(fs::exists(out), csv);
+    EXPECT_EQ(run.err().find("apt install " TANDEM_HDF5_PACKAGE) == std::string::npos, csv) << run.err();
+  }
+}
+
 TEST(Recordings, HaveTheSummaryOfTheirLessonAlsoWhenCut) {
   const Folder folder;
   ASSERT_TRUE(record(folder, "a", "free_motion"));

@@ -1,7 +1,5 @@
 #include "server/export/app/hdf5_file.h"
 
-#include <hdf5.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -11,12 +9,18 @@
 #include <utility>
 
 #include "common/io/output_file.h"
+#include "server/export/app/hdf5_library.h"
 
 namespace tandem::server {
 
 namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>);
+
+constexpr unsigned kTruncate = 2;  // H5F_ACC_TRUNC, which as a macro calls the library
+
+/// The library. @pre it is loaded: a file was opened
+const Hdf5Library& h5() { return *Hdf5Library::load(); }
 
 /// Owns an identifier of libhdf5.
 class Hdf5Id {
@@ -48,30 +52,32 @@ herr_t find_errno(unsigned /*number*/, const H5E_error2_t* error, void* found) {
 
 std::string hdf5_reason() {
   int code = 0;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &code);
+  h5().H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &code);
   return code != 0 ? io::write_error_text(code) : "libhdf5 gives no reason";
 }
 
 template <class Number>
 hid_t stored_type() {
-  return std::is_same_v<Number, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE;
+  return std::is_same_v<Number, double> ? h5().stored_real : h5().stored_whole;
 }
 template <class Number>
 hid_t memory_type() {
-  return std::is_same_v<Number, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+  return std::is_same_v<Number, double> ? h5().memory_real : h5().memory_whole;
 }
 
 }  // namespace
 
 Hdf5File::Hdf5File(const std::string& path) : path_(path) {
-  H5dont_atexit();  // at exit libhdf5 would try again to write a file that could not be closed
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (const auto& library = Hdf5Library::load(); !library) {
+    error_ = library.error();
+    return;
+  }
+  file_ = h5().H5Fcreate(path.c_str(), kTruncate, H5P_DEFAULT, H5P_DEFAULT);
   failed(file_ < 0, "");
 }
 
 Hdf5File::~Hdf5File() {
-  if (file_ >= 0) H5Fclose(file_);
+  if (file_ >= 0) h5().H5Fclose(file_);
 }
 
 bool Hdf5File::failed(bool wrong, const std::string& what) {
@@ -82,7 +88,7 @@ bool Hdf5File::failed(bool wrong, const std::string& what) {
 
 void Hdf5File::group(const std::string& path) {
   if (!error_.empty()) return;
-  const Hdf5Id made(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  const Hdf5Id made(h5().H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), h5().H5Gclose);
   failed(!made.good(), path);
 }
 
@@ -93,16 +99,16 @@ void Hdf5File::matrix(const std::string& path, std::size_t rows, std::size_t col
   const std::size_t width = std::max<std::size_t>(columns, 1);
   const std::array<hsize_t, 2> size{rows, columns};
   const std::array<hsize_t, 2> chunk{std::min(std::max<std::size_t>(rows, 1), kChunkRows), columns};
-  const Hdf5Id space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose);
-  const Hdf5Id settings(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  if (rows > 0 && (H5Pset_chunk(settings.get(), rank, chunk.data()) < 0 || H5Pset_shuffle(settings.get()) < 0 ||
-                   H5Pset_deflate(settings.get(), 1) < 0)) {
+  const Hdf5Id space(h5().H5Screate_simple(rank, size.data(), nullptr), h5().H5Sclose);
+  const Hdf5Id settings(h5().H5Pcreate(h5().dataset_create), h5().H5Pclose);
+  if (rows > 0 && (h5().H5Pset_chunk(settings.get(), rank, chunk.data()) < 0 ||
+                   h5().H5Pset_shuffle(settings.get()) < 0 || h5().H5Pset_deflate(settings.get(), 1) < 0)) {
     failed(true, path);
     return;
   }
-  Hdf5Id data(
-      H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space.get(), H5P_DEFAULT, settings.get(), H5P_DEFAULT),
-      H5Dclose);
+  Hdf5Id data(h5().H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space.get(), H5P_DEFAULT, settings.get(),
+                              H5P_DEFAULT),
+              h5().H5Dclose);
   if (failed(!data.good(), path)) return;
   std::vector<Number> buffer;
   for (std::size_t first = 0; first < rows; first += kChunkRows) {
@@ -110,10 +116,11 @@ void Hdf5File::matrix(const std::string& path, std::size_t rows, std::size_t col
     buffer.resize(count * width);
     source(first, count, buffer);
     const std::array<hsize_t, 2> start{first, 0}, block{count, columns};
-    const Hdf5Id part(H5Screate_simple(rank, block.data(), nullptr), H5Sclose);
-    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
-    if (failed(H5Dwrite(data.get(), memory_type<Number>(), part.get(), space.get(), H5P_DEFAULT, buffer.data()) < 0,
-               path))
+    const Hdf5Id part(h5().H5Screate_simple(rank, block.data(), nullptr), h5().H5Sclose);
+    h5().H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
+    if (failed(
+            h5().H5Dwrite(data.get(), memory_type<Number>(), part.get(), space.get(), H5P_DEFAULT, buffer.data()) < 0,
+            path))
       return;
   }
   failed(data.close_fails(), path);
@@ -134,17 +141,18 @@ void Hdf5File::texts(const std::string& path, const std::vector<std::string>& te
   for (const std::string& text : texts) longest = std::max(longest, text.size());
   std::vector<char> bytes(longest * texts.size());
   for (std::size_t k = 0; k < texts.size(); ++k) std::ranges::copy(texts[k], bytes.data() + k * longest);
-  const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), longest);
-  H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const Hdf5Id type(h5().H5Tcopy(h5().text), h5().H5Tclose);
+  h5().H5Tset_size(type.get(), longest);
+  h5().H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+  // The type stays that of ASCII, although the bytes are UTF-8: Octave fails to load a file with texts of type UTF-8.
   const hsize_t size = texts.size();
-  const Hdf5Id space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Hdf5Id data(H5Dcreate2(file_, path.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                    H5Dclose);
-  failed(
-      !data.good() || (size > 0 && H5Dwrite(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0),
-      path);
+  const Hdf5Id space(h5().H5Screate_simple(1, &size, nullptr), h5().H5Sclose);
+  const Hdf5Id data(
+      h5().H5Dcreate2(file_, path.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      h5().H5Dclose);
+  failed(!data.good() ||
+             (size > 0 && h5().H5Dwrite(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0),
+         path);
 }
 
 void Hdf5File::attribute(const std::string& path, const std::string& name, const std::string& text) {
@@ -154,42 +162,42 @@ void Hdf5File::attribute(const std::string& path, const std::string& name, const
              " bytes; HDF5 stores at most " + std::to_string(kAttributeMax) + " there";
     return;
   }
-  const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), H5T_VARIABLE);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
-  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Id made(H5Acreate_by_name(file_, path.c_str(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
-                                      H5P_DEFAULT, H5P_DEFAULT),
-                    H5Aclose);
+  const Hdf5Id type(h5().H5Tcopy(h5().text), h5().H5Tclose);
+  h5().H5Tset_size(type.get(), H5T_VARIABLE);
+  h5().H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const Hdf5Id space(h5().H5Screate(H5S_SCALAR), h5().H5Sclose);
+  const Hdf5Id made(h5().H5Acreate_by_name(file_, path.c_str(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                           H5P_DEFAULT, H5P_DEFAULT),
+                    h5().H5Aclose);
   const char* const value = text.c_str();
-  failed(!made.good() || H5Awrite(made.get(), type.get(), static_cast<const void*>(&value)) < 0,
+  failed(!made.good() || h5().H5Awrite(made.get(), type.get(), static_cast<const void*>(&value)) < 0,
          path + " attribute " + name);
 }
 
 void Hdf5File::attribute(const std::string& path, const std::string& name, const std::vector<std::string>& texts) {
   if (!error_.empty()) return;
-  const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), H5T_VARIABLE);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const Hdf5Id type(h5().H5Tcopy(h5().text), h5().H5Tclose);
+  h5().H5Tset_size(type.get(), H5T_VARIABLE);
+  h5().H5Tset_cset(type.get(), H5T_CSET_UTF8);
   const hsize_t size = texts.size();
-  const Hdf5Id space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Hdf5Id made(H5Acreate_by_name(file_, path.c_str(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
-                                      H5P_DEFAULT, H5P_DEFAULT),
-                    H5Aclose);
+  const Hdf5Id space(h5().H5Screate_simple(1, &size, nullptr), h5().H5Sclose);
+  const Hdf5Id made(h5().H5Acreate_by_name(file_, path.c_str(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                           H5P_DEFAULT, H5P_DEFAULT),
+                    h5().H5Aclose);
   std::vector<const char*> values;
   for (const std::string& text : texts) values.push_back(text.c_str());
-  failed(!made.good() || H5Awrite(made.get(), type.get(), static_cast<const void*>(values.data())) < 0,
+  failed(!made.good() || h5().H5Awrite(made.get(), type.get(), static_cast<const void*>(values.data())) < 0,
          path + " attribute " + name);
 }
 
 template <class Value>
 void Hdf5File::number_attribute(const std::string& path, const std::string& name, Value number) {
   if (!error_.empty()) return;
-  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Id made(H5Acreate_by_name(file_, path.c_str(), name.c_str(), stored_type<Value>(), space.get(), H5P_DEFAULT,
-                                      H5P_DEFAULT, H5P_DEFAULT),
-                    H5Aclose);
-  failed(!made.good() || H5Awrite(made.get(), memory_type<Value>(), &number) < 0, path + " attribute " + name);
+  const Hdf5Id space(h5().H5Screate(H5S_SCALAR), h5().H5Sclose);
+  const Hdf5Id made(h5().H5Acreate_by_name(file_, path.c_str(), name.c_str(), stored_type<Value>(), space.get(),
+                                           H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                    h5().H5Aclose);
+  failed(!made.good() || h5().H5Awrite(made.get(), memory_type<Value>(), &number) < 0, path + " attribute " + name);
 }
 
 void Hdf5File::attribute(const std::string& path, const std::string& name, double number) {
@@ -201,7 +209,7 @@ void Hdf5File::attribute(const std::string& path, const std::string& name, std::
 }
 
 std::string Hdf5File::close() {
-  if (file_ >= 0) failed(H5Fclose(std::exchange(file_, -1)) < 0, "");
+  if (file_ >= 0) failed(h5().H5Fclose(std::exchange(file_, -1)) < 0, "");
   return error_;
 }
 

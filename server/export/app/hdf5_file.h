@@ -31,7 +31,7 @@ class Hdf5File {
   /// Writes a dataset of `rows` numbers, or of `rows` times `columns` numbers if `columns` > 0; compressed losslessly.
   void real(const std::string& path, std::size_t rows, std::size_t columns, const Source<double>& source);
   void whole(const std::string& path, std::size_t rows, std::size_t columns, const Source<std::int64_t>& source);
-  /// Writes a list of texts, each as many bytes long as the longest, filled up with zeros.
+  /// Writes a list of texts as bytes of UTF-8, each as long as the longest, filled up with zeros.
   void texts(const std::string& path, const std::vector<std::string>& texts);
 
   // Attributes of a group or dataset.
