@@ -3,6 +3,9 @@
 
 #include <cstdio>
 
+#include "common/transport/datagram.h"
+#include "proto/text/seat_setup.h"
+#include "proto/wire/wire_codec.h"
 #include "tests/server/recording/recording_sample.h"
 #include "tests/support/simulation_run.h"
 
@@ -12,6 +15,19 @@ namespace {
 using namespace server::test;
 
 constexpr double kBytesPerSeatMinute = 8e6;
+
+/// Plaintexts of the newest datagram of every seat: what the session received, if no datagram is lost.
+std::string inputs_of(const Session& session, const std::vector<wire::Codec>& codecs, std::uint32_t tick) {
+  std::string inputs;
+  RandomStream random{RandomKey{tick}};
+  for (std::size_t i = 0; i < codecs.size(); ++i) {
+    std::array<std::byte, transport::kDatagramMax> plaintext{};
+    const wire::Preamble preamble{tick, static_cast<std::uint32_t>(random.below(1000)), tick};
+    const std::size_t size = codecs[i].encode(preamble, session.seat(i).last_state(), plaintext);
+    inputs += text_of(std::span{plaintext}.first(size));
+  }
+  return inputs;
+}
 
 /// A session, recorded as a server does it: values of the newest datagrams.
 struct Recorded {
@@ -23,9 +39,14 @@ struct Recorded {
 Recorded record_session(const SceneSpec& scene, double delay_ms) {
   Recorded out;
   RecordingWriter writer{scene, sample_info(scene)};
+  std::vector<wire::Codec> codecs;
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) codecs.emplace_back(body_layout(seat_setup(scene, i)));
+  std::uint32_t ticks = 0;
   const auto run = tandem::test::run(scene, tandem::test::delayed(delay_ms), 1, [&](netsim::Simulation& simulation) {
     const TickRecord& record = simulation.session().record();
     writer.add(record);
+    const std::string inputs = inputs_of(simulation.session(), codecs, ++ticks);
+    writer.add_inputs(record.tick, bytes_of(inputs));
     out.file += writer.take();
     if (out.records.empty() ? record.running : record.tick > out.records.back().tick) out.records.push_back(record);
   });
