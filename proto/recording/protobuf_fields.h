@@ -61,6 +61,12 @@ class FieldWriter {
     for (const double value : values) raw(to_single(value));
     if (!exact) packed(2, values);
   }
+  /// Appends a message tandem.recording.Vector3Double.
+  void doubles(unsigned field, const std::array<double, 3>& values) {
+    tag(field, FieldType::kBytes);
+    put_varint(2 + sizeof values);
+    packed(1, std::span<const double>(values));
+  }
   /// Appends packed values of eight bytes each.
   template <class Value>
   void packed(unsigned field, std::span<const Value> values) {

@@ -64,6 +64,18 @@ bool read_numbers(std::span<const std::byte> bytes, std::array<double, kSize>& o
   return ok && scanner.ok();
 }
 
+/// Reads a message Vector3Double.
+bool read_doubles(std::span<const std::byte> bytes, Triple& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  std::size_t count = 0;
+  bool ok = true;
+  while (scanner.next(field))
+    if (field.number == 1) ok &= read_values(field, out, count);
+  return ok && scanner.ok();
+}
+
 void write_seat_energy(FieldWriter& fields, const SeatEnergySample& sample) {
   fields.packed(1, without_zeros(sample.e_in));
   fields.packed(2, without_zeros(sample.e_out));
@@ -145,11 +157,11 @@ void encode(const SeatSample& sample, std::string& out) {
 void encode(const ToolSample& sample, std::string& out) {
   out.clear();
   FieldWriter fields{out};
-  fields.numbers(1, sample.measured_cp);
-  fields.numbers(2, sample.setpoint_cp);
-  fields.numbers(3, sample.measured_cf);
-  fields.numbers(4, sample.servo_cf);
-  fields.numbers(5, without_zeros(sample.measured_jp));
+  fields.doubles(1, sample.measured_cp);
+  fields.doubles(2, sample.setpoint_cp);
+  fields.doubles(3, sample.measured_cf);
+  fields.doubles(4, sample.servo_cf);
+  fields.packed(5, without_zeros(sample.measured_jp));
   fields.fixed32(6, sample.sample_tick);
   fields.number(7, sample.penetration);
   fields.varint(8, sample.braked ? 1 : 0);
@@ -228,22 +240,23 @@ bool decode(std::span<const std::byte> bytes, ToolSample& out) noexcept {
   out = {};
   FieldScanner scanner{bytes};
   Field field;
+  std::size_t joints = 0;
   bool ok = true;
   while (scanner.next(field)) switch (field.number) {
       case 1:
-        ok &= read_numbers(field.bytes, out.measured_cp);
+        ok &= read_doubles(field.bytes, out.measured_cp);
         break;
       case 2:
-        ok &= read_numbers(field.bytes, out.setpoint_cp);
+        ok &= read_doubles(field.bytes, out.setpoint_cp);
         break;
       case 3:
-        ok &= read_numbers(field.bytes, out.measured_cf);
+        ok &= read_doubles(field.bytes, out.measured_cf);
         break;
       case 4:
-        ok &= read_numbers(field.bytes, out.servo_cf);
+        ok &= read_doubles(field.bytes, out.servo_cf);
         break;
       case 5:
-        ok &= read_numbers(field.bytes, out.measured_jp);
+        ok &= read_values(field, out.measured_jp, joints);
         break;
       case 6:
         out.sample_tick = static_cast<std::uint32_t>(field.value);

@@ -56,6 +56,11 @@ bool same(const Triple& a, const recording::Vector3& b) {
   return same_number(a[0], b, b.xyz(), 0) && same_number(a[1], b, b.xyz(), 1) && same_number(a[2], b, b.xyz(), 2);
 }
 
+bool same(const Triple& a, const recording::Vector3Double& b) {
+  return b.xyz_size() == 3 && bits(a[0]) == bits(b.xyz(0)) && bits(a[1]) == bits(b.xyz(1)) &&
+         bits(a[2]) == bits(b.xyz(2));
+}
+
 SeatSample any_seat(RandomStream& random) {
   SeatSample s;
   for (Triple* v : {&s.measured_cp, &s.measured_cv, &s.measured_cf, &s.servo_cf}) fill(*v, random);
