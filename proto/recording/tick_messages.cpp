@@ -296,10 +296,13 @@ bool decode(std::span<const std::byte> bytes, EnergySample& out) noexcept {
   FieldScanner scanner{bytes};
   Field field;
   while (scanner.next(field)) {
-    if (field.number == 1 && out.seats < kSeatsMax && !read_seat_energy(field.bytes, out.seat[out.seats++]))
-      return false;
-    if (field.number == 2 && out.tools < kToolsMax && !read_tool_energy(field.bytes, out.tool[out.tools++]))
-      return false;
+    if (field.number == 1 && out.seats < kSeatsMax) {
+      if (!read_seat_energy(field.bytes, out.seat[out.seats])) return false;
+      ++out.seats;
+    } else if (field.number == 2 && out.tools < kToolsMax) {
+      if (!read_tool_energy(field.bytes, out.tool[out.tools])) return false;
+      ++out.tools;
+    }
   }
   return scanner.ok();
 }
