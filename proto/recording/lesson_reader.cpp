@@ -148,7 +148,7 @@ class LessonBuilder {
     if (!index) return false;
     link->tick = message.sequence;
     link->seat = static_cast<std::uint32_t>(*index);
-    return keep(lesson_->links, std::move(link));
+    return keep(lesson_->links, link);
   }
 
   bool add_counts(const mcap::Message& message) {
