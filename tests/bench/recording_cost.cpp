@@ -19,7 +19,7 @@ namespace tandem::bench {
 namespace {
 
 constexpr int kSeats = 8, kTools = 3;
-constexpr double kSessionS = 30;
+constexpr std::size_t kTicks = 30'000;
 
 SceneSpec scene() {
   std::string text = "version: 1 tick_hz: 1000 dof: 3 duration_s: 60 gate { loop_age_max_ms: 2500 latch: false }\n";
@@ -47,11 +47,11 @@ SceneSpec scene() {
 int measure() {
   const SceneSpec setup = scene();
   std::vector<server::TickRecord> records;
-  test::run(setup, test::delayed(1, 0.3), 1, [&](netsim::Simulation& simulation) {
-    if (simulation.session().record().running && records.size() < 1000 * kSessionS)
+  const auto result = test::run(setup, test::delayed(1, 0.3), 1, [&](netsim::Simulation& simulation) {
+    if (simulation.session().record().running && records.size() < kTicks)
       records.push_back(simulation.session().record());
   });
-  if (records.empty()) return 1;
+  if (records.empty() || !result.trouble.empty()) return 1;
   std::string folder = (std::filesystem::temp_directory_path() / "tandem-bench-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) return 1;
   server::RecordingInfo info;

@@ -119,6 +119,7 @@ int replay_live_command(const ReplayLiveArguments& arguments) {
   if (!replayed) {
     errors.add(arguments.file, replayed.error());
   } else {
+    session.scene_duration = lesson->scene.duration;
     session.scene = std::move(replayed->scene);
     session.name = session.scene.name;
   }

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "common/io/command_line.h"
 #include "common/io/output_file.h"
@@ -60,7 +61,7 @@ ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& erro
     errors.add("--log", "\"" + arguments.log + "\" must be text or json");
   }
   if (const double s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s"); s > 0)
-    session.scene.duration = s;
+    session.scene_duration = std::exchange(session.scene.duration, s);
   plan.start_timeout_s = errors.optional_number("--start-timeout", arguments.wait, 0.1, 3e6, "s");
   std::string seed = arguments.seed;
   const std::string problem = io::whole_number()(seed);

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "common/auth/enrolment.h"
 #include "common/io/command_line.h"
@@ -73,7 +74,7 @@ SessionOptions session_options_from(const ServerConfigSpec& config, const Config
     errors.push_back(in.placed_name.error(config.file,
                                           "has the form of a session code (10 letters and digits), so no client could "
                                           "join by this name; choose a shorter one"));
-  if (in.duration_s > 0) out.scene.duration = in.duration_s;
+  if (in.duration_s > 0) out.scene_duration = std::exchange(out.scene.duration, in.duration_s);
   const LocatedText& record = in.record.text.empty() ? config.record : in.record;
   out.record = recording_options_from(config, record);
   if (!in.record.text.empty())

@@ -13,6 +13,7 @@
 #include "common/io/exit_code.h"
 #include "common/setup/channel_factory.h"
 #include "proto/text/scene_bytes.h"
+#include "proto/text/scene_text.h"
 #include "server/app/control/session_registry.h"
 #include "server/session/build_text.h"
 #include "server/session/checkpoint.h"
@@ -65,6 +66,16 @@ std::string report_name(const std::string& session, const auth::Id16& id) {
   char when[32];
   std::strftime(when, sizeof when, "%Y%m%dT%H%M%SZ", &utc);
   return session + "-" + when + "-" + auth::to_hex(id).substr(0, 8) + ".json";
+}
+
+/// The scene as a file that can be read again. A session that was shortened may end before its scene's timeline, which
+/// no file may have: the text then has the duration of the scene.
+std::string readable_scene_text(const SessionOptions& options) {
+  std::string text = scene_file_text(options.scene);
+  if (options.scene_duration == 0 || parse_scene(text, options.scene.name)) return text;
+  SceneSpec whole = options.scene;
+  whole.duration = options.scene_duration;
+  return scene_file_text(whole);
 }
 
 }  // namespace
@@ -124,11 +135,16 @@ std::string SessionInstance::start_recording() {
   const SceneSpec& scene = options_->scene;
   RecordingInfo info;
   info.session = options_->name;
-  info.scene_text = scene_file_text(scene);
-  info.metadata = {{"program", std::string("tandem-server")}, {"session_id", id},
-                   {"epoch", std::to_string(epoch_)},         {"seed", std::to_string(options_->seed)},
-                   {"build", std::string(build_text())},      {"law", std::string(setup::law_name(scene.channel.law))},
-                   {"scene_hash", to_hex(scene_hash(scene))}, {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
+  info.scene_text = readable_scene_text(*options_);
+  info.metadata = {{"program", std::string("tandem-server")},
+                   {"session_id", id},
+                   {"epoch", std::to_string(epoch_)},
+                   {"seed", std::to_string(options_->seed)},
+                   {"duration_s", format("%g", scene.duration)},
+                   {"build", std::string(build_text())},
+                   {"law", std::string(setup::law_name(scene.channel.law))},
+                   {"scene_hash", to_hex(scene_hash(scene))},
+                   {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
   info.persons = desk_->persons();
   auto started = LiveRecording::start(
       recording_path(wanted.target, options_->name, id.substr(0, 8), auth::wall_seconds()), *live_session_, info,
