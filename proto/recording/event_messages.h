@@ -12,7 +12,7 @@
 /// `decode_*` accept any bytes; they return nullopt if these are damaged or a text is longer than kTextMax.
 namespace tandem::rec {
 
-inline constexpr std::size_t kTextMax = 64 * 1024;  ///< longest text that is read [bytes]
+inline constexpr std::size_t kTextMax = std::size_t{64} * 1024;  ///< longest text that is read [bytes]
 
 /// Account of all channels of one message per tick.
 struct CountsMessage {

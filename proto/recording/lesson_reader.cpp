@@ -4,6 +4,7 @@
 #include <charconv>
 #include <optional>
 
+#include "common/base/csv.h"
 #include "common/mcap/mcap_reader.h"
 #include "common/mcap/message_cursor.h"
 #include "proto/recording/event_messages.h"
@@ -147,7 +148,7 @@ class LessonBuilder {
     if (!index) return false;
     link->tick = message.sequence;
     link->seat = static_cast<std::uint32_t>(*index);
-    return keep(lesson_->links, std::move(link));
+    return keep(lesson_->links, link);
   }
 
   bool add_counts(const mcap::Message& message) {
@@ -193,6 +194,9 @@ std::string read_metadata(const mcap::Reader& reader, Lesson& lesson) {
   auto parsed_scene = parse_scene(lesson.scene_text, value(*scene, "name") + ".textproto");
   if (!parsed_scene) return "has a scene that is not valid: " + to_text(parsed_scene.error());
   lesson.scene = std::move(*parsed_scene);
+  // A session that an option shortened ends within a phase, which no scene file can say.
+  const std::string duration = value(*scene, "duration_s");
+  if (const auto seconds = parse_number(duration); seconds && *seconds > 0) lesson.scene.duration = *seconds;
   lesson.seats.resize(lesson.scene.seats.size());
   lesson.tools.resize(lesson.scene.tools.size());
   if (const mcap::TextMap* const persons = reader.metadata(kParticipantsRecord))

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +18,18 @@ namespace tandem::rec {
 static_assert(std::endian::native == std::endian::little, "fixed-width fields are copied as they are in memory");
 
 enum class FieldType : std::uint8_t { kVarint = 0, kFixed64 = 1, kBytes = 2, kFixed32 = 5 };
+
+/// Nearest number in single precision; infinity beyond its range.
+[[nodiscard]] inline float to_single(double value) noexcept {
+  constexpr double kMax = std::numeric_limits<float>::max();
+  if (std::abs(value) > kMax)
+    return std::copysign(std::numeric_limits<float>::infinity(), static_cast<float>(value > 0 ? 1 : -1));
+  return static_cast<float>(value);
+}
+/// The number in single precision has all bits of this one.
+[[nodiscard]] inline bool is_single(double value) noexcept {
+  return std::bit_cast<std::uint64_t>(static_cast<double>(to_single(value))) == std::bit_cast<std::uint64_t>(value);
+}
 
 /// Appends the fields of a message. Numbers of fields are below 16, so a tag has one byte.
 class FieldWriter {
@@ -35,11 +49,23 @@ class FieldWriter {
     tag(field, FieldType::kVarint);
     put_varint(value);
   }
-  /// Appends a message tandem.recording.Vector3.
-  void vector(unsigned field, const std::array<double, 3>& value) {
+  /// Appends a message tandem.recording.Vector3 or Joints. @pre at most 10 values
+  void numbers(unsigned field, std::span<const double> values) {
+    bool exact = true;
+    for (const double value : values) exact &= is_single(value);
+    const std::size_t singles = 2 + 4 * values.size(), doubles = exact ? 0 : 2 + 8 * values.size();
     tag(field, FieldType::kBytes);
-    put_varint(27);
-    for (unsigned axis = 0; axis < 3; ++axis) number(axis + 1, value[axis]);
+    put_varint(singles + doubles);
+    tag(1, FieldType::kBytes);
+    put_varint(4 * values.size());
+    for (const double value : values) raw(to_single(value));
+    if (!exact) packed(2, values);
+  }
+  /// Appends a message tandem.recording.Vector3Double.
+  void doubles(unsigned field, const std::array<double, 3>& values) {
+    tag(field, FieldType::kBytes);
+    put_varint(2 + sizeof values);
+    packed(1, std::span<const double>(values));
   }
   /// Appends packed values of eight bytes each.
   template <class Value>

@@ -16,15 +16,6 @@ std::span<const Value> without_zeros(const std::array<Value, kSize>& values) noe
   return std::span{values}.first(size);
 }
 
-bool read_vector(std::span<const std::byte> bytes, Triple& out) noexcept {
-  out = {};
-  FieldScanner scanner{bytes};
-  Field field;
-  while (scanner.next(field))
-    if (field.number >= 1 && field.number <= 3) out[field.number - 1] = field.number_value();
-  return scanner.ok();
-}
-
 /// Reads packed or single values of eight bytes. @param count  of values so far; more than fit are ignored
 template <class Value, std::size_t kSize>
 bool read_values(const Field& field, std::array<Value, kSize>& out, std::size_t& count) noexcept {
@@ -38,6 +29,51 @@ bool read_values(const Field& field, std::array<Value, kSize>& out, std::size_t&
   if (taken > 0) std::memcpy(out.data() + count, field.bytes.data(), taken * sizeof(Value));
   count += taken;
   return true;
+}
+
+/// Reads packed or single values of four bytes each.
+template <std::size_t kSize>
+bool read_singles(const Field& field, std::array<double, kSize>& out, std::size_t& count) noexcept {
+  if (field.type == FieldType::kFixed32) {
+    if (count < kSize) out[count++] = std::bit_cast<float>(static_cast<std::uint32_t>(field.value));
+    return true;
+  }
+  if (field.bytes.size() % sizeof(float) != 0) return false;
+  for (std::size_t at = 0; at < field.bytes.size() && count < kSize; at += sizeof(float)) {
+    float value = 0;
+    std::memcpy(&value, field.bytes.data() + at, sizeof value);
+    out[count++] = value;
+  }
+  return true;
+}
+
+/// Reads a message Vector3 or Joints.
+template <std::size_t kSize>
+bool read_numbers(std::span<const std::byte> bytes, std::array<double, kSize>& out) noexcept {
+  std::array<double, kSize> exact{};
+  std::size_t singles = 0, doubles = 0;
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  bool ok = true;
+  while (scanner.next(field)) {
+    if (field.number == 1) ok &= read_singles(field, out, singles);
+    if (field.number == 2) ok &= read_values(field, exact, doubles);
+  }
+  if (doubles > 0) out = exact;
+  return ok && scanner.ok();
+}
+
+/// Reads a message Vector3Double.
+bool read_doubles(std::span<const std::byte> bytes, Triple& out) noexcept {
+  out = {};
+  FieldScanner scanner{bytes};
+  Field field;
+  std::size_t count = 0;
+  bool ok = true;
+  while (scanner.next(field))
+    if (field.number == 1) ok &= read_values(field, out, count);
+  return ok && scanner.ok();
 }
 
 void write_seat_energy(FieldWriter& fields, const SeatEnergySample& sample) {
@@ -105,26 +141,26 @@ bool read_tool_energy(std::span<const std::byte> bytes, ToolEnergySample& out) n
 void encode(const SeatSample& sample, std::string& out) {
   out.clear();
   FieldWriter fields{out};
-  fields.vector(1, sample.measured_cp);
-  fields.vector(2, sample.measured_cv);
-  fields.vector(3, sample.measured_cf);
-  fields.vector(4, sample.servo_cf);
-  fields.packed(5, without_zeros(sample.measured_jp));
+  fields.numbers(1, sample.measured_cp);
+  fields.numbers(2, sample.measured_cv);
+  fields.numbers(3, sample.measured_cf);
+  fields.numbers(4, sample.servo_cf);
+  fields.numbers(5, without_zeros(sample.measured_jp));
   fields.fixed32(6, sample.sample_tick);
   fields.number(7, sample.alpha);
   fields.varint(8, sample.gate);
   fields.varint(9, sample.engaged ? 1 : 0);
   fields.varint(10, sample.leader);
-  if (!without_zeros(sample.ghost).empty()) fields.vector(11, sample.ghost);
+  if (!without_zeros(sample.ghost).empty()) fields.numbers(11, sample.ghost);
 }
 
 void encode(const ToolSample& sample, std::string& out) {
   out.clear();
   FieldWriter fields{out};
-  fields.vector(1, sample.measured_cp);
-  fields.vector(2, sample.setpoint_cp);
-  fields.vector(3, sample.measured_cf);
-  fields.vector(4, sample.servo_cf);
+  fields.doubles(1, sample.measured_cp);
+  fields.doubles(2, sample.setpoint_cp);
+  fields.doubles(3, sample.measured_cf);
+  fields.doubles(4, sample.servo_cf);
   fields.packed(5, without_zeros(sample.measured_jp));
   fields.fixed32(6, sample.sample_tick);
   fields.number(7, sample.penetration);
@@ -159,23 +195,22 @@ bool decode(std::span<const std::byte> bytes, SeatSample& out) noexcept {
   out = {};
   FieldScanner scanner{bytes};
   Field field;
-  std::size_t joints = 0;
   bool ok = true;
   while (scanner.next(field)) switch (field.number) {
       case 1:
-        ok &= read_vector(field.bytes, out.measured_cp);
+        ok &= read_numbers(field.bytes, out.measured_cp);
         break;
       case 2:
-        ok &= read_vector(field.bytes, out.measured_cv);
+        ok &= read_numbers(field.bytes, out.measured_cv);
         break;
       case 3:
-        ok &= read_vector(field.bytes, out.measured_cf);
+        ok &= read_numbers(field.bytes, out.measured_cf);
         break;
       case 4:
-        ok &= read_vector(field.bytes, out.servo_cf);
+        ok &= read_numbers(field.bytes, out.servo_cf);
         break;
       case 5:
-        ok &= read_values(field, out.measured_jp, joints);
+        ok &= read_numbers(field.bytes, out.measured_jp);
         break;
       case 6:
         out.sample_tick = static_cast<std::uint32_t>(field.value);
@@ -193,7 +228,7 @@ bool decode(std::span<const std::byte> bytes, SeatSample& out) noexcept {
         out.leader = static_cast<std::uint32_t>(field.value);
         break;
       case 11:
-        ok &= read_vector(field.bytes, out.ghost);
+        ok &= read_numbers(field.bytes, out.ghost);
         break;
       default:
         break;
@@ -209,16 +244,16 @@ bool decode(std::span<const std::byte> bytes, ToolSample& out) noexcept {
   bool ok = true;
   while (scanner.next(field)) switch (field.number) {
       case 1:
-        ok &= read_vector(field.bytes, out.measured_cp);
+        ok &= read_doubles(field.bytes, out.measured_cp);
         break;
       case 2:
-        ok &= read_vector(field.bytes, out.setpoint_cp);
+        ok &= read_doubles(field.bytes, out.setpoint_cp);
         break;
       case 3:
-        ok &= read_vector(field.bytes, out.measured_cf);
+        ok &= read_doubles(field.bytes, out.measured_cf);
         break;
       case 4:
-        ok &= read_vector(field.bytes, out.servo_cf);
+        ok &= read_doubles(field.bytes, out.servo_cf);
         break;
       case 5:
         ok &= read_values(field, out.measured_jp, joints);
@@ -261,10 +296,13 @@ bool decode(std::span<const std::byte> bytes, EnergySample& out) noexcept {
   FieldScanner scanner{bytes};
   Field field;
   while (scanner.next(field)) {
-    if (field.number == 1 && out.seats < kSeatsMax && !read_seat_energy(field.bytes, out.seat[out.seats++]))
-      return false;
-    if (field.number == 2 && out.tools < kToolsMax && !read_tool_energy(field.bytes, out.tool[out.tools++]))
-      return false;
+    if (field.number == 1 && out.seats < kSeatsMax) {
+      if (!read_seat_energy(field.bytes, out.seat[out.seats])) return false;
+      ++out.seats;
+    } else if (field.number == 2 && out.tools < kToolsMax) {
+      if (!read_tool_energy(field.bytes, out.tool[out.tools])) return false;
+      ++out.tools;
+    }
   }
   return scanner.ok();
 }

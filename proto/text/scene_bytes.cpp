@@ -4,7 +4,6 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "proto/text/scene_convert.h"
 #include "proto/text/scene_text.h"
@@ -34,12 +33,11 @@ std::expected<SceneSpec, InputErrors> decode_scene(std::span<const char> bytes, 
 }
 
 std::string scene_file_text(const SceneSpec& scene) {
-  SceneSpec shortened = scene;
-  std::erase_if(shortened.phases, [&](const PhaseSpec& phase) { return phase.from >= scene.duration; });
-  for (PhaseSpec& phase : shortened.phases) phase.to = std::min(phase.to, scene.duration);
-  std::erase_if(shortened.timeline, [&](const TimedAuthority& step) { return step.at > scene.duration; });
+  pb::Scene out = to_proto(scene);
+  if (std::ranges::any_of(scene.phases, [&](const PhaseSpec& phase) { return phase.to > scene.duration; }))
+    out.clear_duration_s();
   std::string text;
-  google::protobuf::TextFormat::PrintToString(to_proto(shortened), &text);
+  google::protobuf::TextFormat::PrintToString(out, &text);
   return text;
 }
 

@@ -21,8 +21,8 @@ namespace tandem {
 [[nodiscard]] std::expected<SceneSpec, InputErrors> decode_scene(std::span<const char> bytes, const std::string& name);
 
 /// Writes the scene as a scene file in text format, with every value in force. parse_scene reads the same scene from
-/// it. Phases end with the session, and steps of the timeline behind its end are left out: an option of a program may
-/// have shortened it.
+/// it. If an option of a program shortened the session, so that it ends within a phase, the text has no duration_s,
+/// because parse_scene would reject it.
 [[nodiscard]] std::string scene_file_text(const SceneSpec& scene);
 
 }  // namespace tandem

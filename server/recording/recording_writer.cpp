@@ -1,6 +1,7 @@
 #include "server/recording/recording_writer.h"
 
 #include <algorithm>
+#include <charconv>
 #include <string>
 #include <utility>
 
@@ -29,6 +30,14 @@ mcap::TextMap session_metadata(const SceneSpec& scene, const RecordingInfo& info
   values["start_unix_ns"] = std::to_string(info.start_unix_ns);
   values["clock"] = kClock;
   values["tick_hz"] = std::to_string(scene.tick_hz);
+  return values;
+}
+
+mcap::TextMap scene_metadata(const SceneSpec& scene, const RecordingInfo& info) {
+  mcap::TextMap values{{"name", scene.name}, {"text", info.scene_text}};
+  if (scene.endless()) return values;
+  char digits[32];
+  values["duration_s"] = std::string(digits, std::to_chars(digits, digits + sizeof digits, scene.duration).ptr);
   return values;
 }
 
@@ -96,7 +105,7 @@ RecordingWriter::RecordingWriter(const SceneSpec& scene, const RecordingInfo& in
       notes_(add_note_channels(file_)),
       view_(scene, file_) {
   file_.add_metadata({rec::kSessionRecord, session_metadata(scene, info)});
-  file_.add_metadata({rec::kSceneRecord, {{"name", scene.name}, {"text", info.scene_text}}});
+  file_.add_metadata({rec::kSceneRecord, scene_metadata(scene, info)});
   mcap::TextMap persons, roles;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     roles[scene.seats[i].name] = role_text(scene.seats[i]);

@@ -24,8 +24,8 @@ namespace tandem::server {
 /// the index, up to DataSection::kChunksIndexed chunks. Used by an ordinary thread; throws std::bad_alloc only.
 class RecordingWriter {
  public:
-  static constexpr std::int64_t kChunkNs = 250'000'000;        ///< length of a chunk [ns]
-  static constexpr std::size_t kChunkBytes = 8 * 1024 * 1024;  ///< size at which a chunk ends earlier [bytes]
+  static constexpr std::int64_t kChunkNs = 250'000'000;             ///< length of a chunk [ns]
+  static constexpr std::size_t kChunkBytes = std::size_t{8} << 20;  ///< size at which a chunk ends earlier [bytes]
 
   /// @param scene  outlives the writer
   RecordingWriter(const SceneSpec& scene, const RecordingInfo& info);

@@ -43,7 +43,7 @@ const official = foxgloveRoot();
 /// Fields by number: name, type, rule. A nested message stands with its full name.
 function shapeOf(type) {
   return Object.values(type.fields)
-    .map((f) => [f.id, f.name.replace(/[A-Z]/g, (c) => `_${c.toLowerCase()}`), f.resolvedType ? f.resolvedType.fullName : f.type, f.repeated])
+    .map((f) => [f.id, f.name, f.resolvedType ? f.resolvedType.fullName : f.type, f.repeated])
     .sort((a, b) => a[0] - b[0]);
 }
 /// A message of Foxglove with all messages in its fields.
@@ -91,7 +91,7 @@ async function readWhole(file, bytes) {
   }
   check(`${file}: every message decodes by its schema`, decoded);
   check(`${file}: messages come in the order of time`, ordered);
-  check(`${file}: a seat has CRTK words`, ["measuredCp", "measuredCv", "measuredCf", "servoCf"].every((key) => typeof seat?.[key]?.x === "number"));
+  check(`${file}: a seat has CRTK words`, ["measured_cp", "measured_cv", "measured_cf", "servo_cf"].every((key) => seat?.[key]?.xyz?.length === 3));
   const statistics = reader.statistics;
   check(`${file}: statistics are true`, [...reader.channelsById.keys()].every((id) => (statistics.channelMessageCounts.get(id) ?? 0n) === (counted.get(id) ?? 0n)) && statistics.channelCount === reader.channelsById.size);
 
