@@ -21,7 +21,7 @@ struct SizeLimit {
   double bytes_per_seat_minute;
 };
 constexpr SizeLimit kSizeLimits[] = {
-    {"lesson", 8e6}, {"eight_seats", 8e6}, {"contact", 8e6}, {"two_by_two", 11e6}, {"guidance", 14e6}};
+    {"lesson", 8e6}, {"eight_seats", 8e6}, {"contact", 8.5e6}, {"two_by_two", 11e6}, {"guidance", 14e6}};
 
 /// Plaintexts of the newest datagram of every seat. They are the inputs of the session if no datagram is lost.
 std::string inputs_of(const Session& session, const std::vector<wire::Codec>& codecs, std::uint32_t tick) {
