@@ -41,7 +41,7 @@ bool exists(const std::string& path) {
 /// Path of the repaired file.
 std::string target_of(const std::string& path) {
   if (!path.ends_with(kPart)) return path;
-  const std::string whole = path.substr(0, path.size() - kPart.size());
+  std::string whole = path.substr(0, path.size() - kPart.size());
   if (!exists(whole)) return whole;
   const std::string stem = whole.ends_with(kMcap) ? whole.substr(0, whole.size() - kMcap.size()) : whole;
   for (unsigned k = 2; k <= kCopiesMax; ++k)

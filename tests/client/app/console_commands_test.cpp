@@ -185,7 +185,7 @@ TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
             "\"alpha\": {\"trainer\": 0.25, \"trainee\": 0.75}}], \"stop\": {\"number\": 3, \"kind\": \"stop\", "
             "\"seat\": \"\", \"workstation\": \"desk\", \"role\": \"operator\", "
             "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true}, \"drain\": null, "
-            "\"held\": null}\n");
+            "\"held\": null, \"recording\": null}\n");
 }
 
 TEST(ConsoleCommands, ReportEventsOnceAndOnlyThoseAfterTheFirstStatus) {
@@ -273,7 +273,8 @@ TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
 }
 
 TEST(ConsoleCommands, TellWhoRecordsAndWhatIsMissing) {
-  rpc::Status before{.name = "lab"}, now = before;
+  rpc::Status before, now;
+  before.name = now.name = "lab";
   EXPECT_EQ(status_changes_text(before, now), "");
   EXPECT_NE(status_json(now).find("\"recording\": null"), std::string::npos);
   now.recording = rpc::StatusRecording{.by_server = true, .by_recorders = 2, .pseudonyms = true};
