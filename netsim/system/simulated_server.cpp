@@ -6,8 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "hal/sim/sim_device.h"
+#include "hal/sim/local_slaves.h"
 #include "netsim/system/simulated_handshake.h"
+#include "server/session/build_text.h"
 
 namespace tandem::netsim {
 namespace {
@@ -82,29 +83,14 @@ void SimulatedServer::update_checkpoint(Time now, bool participants_changed) {
   checkpoint_at_ = now;
 }
 
-/// @param from  positions of the slaves; null: those of the scene
-std::expected<SimulatedServer::Slaves, std::string> SimulatedServer::make_local_slaves(
-    Time now, const server::Checkpoint* from) const {
-  Slaves slaves;
-  for (std::size_t j = 0; j < config_->scene.tools.size(); ++j) {
-    const ToolSpec& tool = config_->scene.tools[j];
-    slaves.emplace_back();
-    if (tool.remote || tool.is_virtual) continue;
-    hal::sim::SimSetup sim{tool.slave, HandSpec{}, tool.environment, nullptr, now};
-    if (from != nullptr) sim.joints = from->tools[j].slave;
-    auto slave = hal::sim::SimDevice::make(sim);
-    if (!slave) return std::unexpected("tool " + tool.name + ": " + slave.error().message);
-    slaves.back() = std::move(*slave);
-  }
-  return slaves;
-}
-
 std::string SimulatedServer::make_session(Time now, const server::Checkpoint* from) {
-  auto slaves = make_local_slaves(now, from);
-  if (!slaves) return slaves.error();
   const auto& scene = config_->scene;
+  auto slaves = hal::sim::make_local_slaves(
+      scene, now, [&](std::size_t tool) { return from != nullptr ? &from->tools[tool].slave : nullptr; });
+  if (!slaves) return slaves.error().front();
   session_ = from == nullptr ? std::make_unique<server::Session>(scene, std::move(*slaves), scale_)
                              : std::make_unique<server::Session>(scene, std::move(*slaves), scale_, *from);
+  if (config_->journal != nullptr) session_->attach_journal(*config_->journal, now, server::build_text(), from);
   session_->set_telemetry_every_tick(config_->telemetry_every_tick);
   for (std::size_t j = 0; config_->contact_source && j < scene.tools.size(); ++j)
     session_->set_contact_source(j, config_->contact_source(j));

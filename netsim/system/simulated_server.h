@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <expected>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,8 +46,6 @@ class SimulatedServer {
   [[nodiscard]] const server::Checkpoint& checkpoint() const noexcept { return checkpoint_; }
 
  private:
-  using Slaves = std::vector<std::unique_ptr<hal::SteppedDevice>>;
-  [[nodiscard]] std::expected<Slaves, std::string> make_local_slaves(Time now, const server::Checkpoint* from) const;
   /// Makes the session and its slaves.
   /// @param from  where they continue; null: at the beginning
   /// @return an error: a slave that cannot be made; empty: none

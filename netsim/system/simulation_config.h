@@ -18,6 +18,10 @@ namespace tandem::hal::sim {
 class RecordedMotion;
 }
 
+namespace tandem::server {
+class InputJournal;
+}
+
 namespace tandem::netsim {
 
 class Replay;
@@ -47,6 +51,9 @@ struct SimulationConfig {
   [[nodiscard]] std::uint64_t heap_taken() const noexcept { return heap_count != nullptr ? heap_count() : 0; }
   /// Clients send telemetry at every tick. False: at 60 Hz, as to a live server that records nothing.
   bool telemetry_every_tick = true;
+  /// Receives all inputs of the session, and of those after restarts of the server (netsim/replay); null: none. Drain it
+  /// after every tick. Must outlive the simulation.
+  server::InputJournal* journal = nullptr;
   bool keep_record = true;  ///< false: Simulation::record() stays empty; for runs that only judge invariants
 };
 

@@ -8,6 +8,7 @@
 
 #include "common/transport/secure_channel.h"
 #include "proto/wire/wire_codec.h"
+#include "server/session/output_digest.h"
 #include "server/session/path_validation.h"
 #include "server/session/peer_address.h"
 #include "server/session/rate_limit.h"
@@ -23,15 +24,22 @@ class Connection {
   Connection(Time now, std::unique_ptr<transport::SecureChannel> link, Duration tick) noexcept
       : link_(std::move(link)), admitted_(now), rate_(tick) {}
 
-  /// Opens a datagram and handles path messages. @return a message for the owner; nullopt if it was handled or dropped
+  using Opened = transport::SecureChannel::Opened;
+
+  /// Opens a datagram. @return its content; nullopt if it is not of this client, or was opened before
   /// @param header  of the datagram `bytes`
-  [[nodiscard]] std::optional<transport::SecureChannel::Opened> open(Time now, const PeerAddress& from,
-                                                                     const transport::Header& header,
-                                                                     std::span<const std::byte> bytes,
-                                                                     wire::Codec& codec) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::optional<Opened> authenticate(Time now, const transport::Header& header,
+                                                   std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  /// Handles path messages and the rate limit. @return a message for the owner; nullopt if it was handled or dropped
+  [[nodiscard]] std::optional<Opened> handle(Time now, const PeerAddress& from, const Opened& opened,
+                                            wire::Codec& codec) noexcept TANDEM_REALTIME;
+  /// `authenticate`, then `handle`.
+  [[nodiscard]] std::optional<Opened> open(Time now, const PeerAddress& from, const transport::Header& header,
+                                           std::span<const std::byte> bytes,
+                                           wire::Codec& codec) noexcept TANDEM_REALTIME;
   /// Records a message that was decoded, is in range and is newer than all before.
   /// @param tokens  for a challenge, if the message came from an address that is not the validated one
-  void on_accepted_message(Time now, const PeerAddress& from, const transport::SecureChannel::Opened& opened,
+  void on_accepted_message(Time now, const PeerAddress& from, const Opened& opened,
                            const wire::Preamble& preamble, PathTokens& tokens) noexcept TANDEM_REALTIME;
 
   /// An address is being validated, so a challenge may be due.
@@ -48,6 +56,8 @@ class Connection {
     return {*proven_address_, write(now, tick, type, message, codec, buffer)};
   }
 
+  /// Sets the digest to which all messages from now on are added; null: none. It must outlive this.
+  void record_outputs(OutputDigest* outputs) noexcept { outputs_ = outputs; }
   /// True once per flood of this client's own datagrams that lasts longer than RateLimit::kWarnAfter.
   [[nodiscard]] bool poll_flood() noexcept { return rate_.poll_warning(); }
 
@@ -79,6 +89,8 @@ class Connection {
                     std::span<std::byte> buffer) noexcept {
     if (buffer.size() < transport::kHeaderSize) return 0;
     const std::size_t plain = codec.encode(link_->preamble(now, tick), message, buffer.subspan(transport::kHeaderSize));
+    if (outputs_ != nullptr) [[unlikely]]
+      outputs_->add(type, buffer.subspan(transport::kHeaderSize, plain));
     return plain == 0 ? 0 : link_->seal(now, type, buffer, plain);
   }
 
@@ -88,6 +100,7 @@ class Connection {
   PathValidation path_validation_;
   RateLimit rate_;
   Time last_force_{};  ///< time of the last FORCE that was sent
+  OutputDigest* outputs_ = nullptr;
 };
 
 }  // namespace tandem::server

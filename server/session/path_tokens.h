@@ -25,12 +25,17 @@ class PathTokens {
   }
   [[nodiscard]] std::optional<std::uint64_t> take() noexcept {
     if (size_ == 0) return std::nullopt;
-    return tokens_[--size_];
+    ++taken_;
+    return last_ = tokens_[--size_];
   }
+  /// Number of tokens taken so far, and the last of them.
+  [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
+  [[nodiscard]] const std::uint64_t& last_taken() const noexcept { return last_; }
 
  private:
   std::array<std::uint64_t, kMax> tokens_{};
   std::size_t size_ = 0;
+  std::uint64_t taken_ = 0, last_ = 0;
 };
 
 }  // namespace tandem::server

@@ -74,7 +74,7 @@ SeatConnection SeatCatalogue::make_connection(std::size_t seat, transport::Secur
                                               const tandem::rpc::DeviceFacts& device) const {
   link.outgoing = transport::Direction::kToClient;
   link.tick = tick();
-  return {std::make_unique<transport::SecureChannel>(link), ends_of(setup_for(seat, device), scale_), {}, 1};
+  return {std::make_unique<transport::SecureChannel>(link), ends_of(setup_for(seat, device), scale_), {}, 1, device};
 }
 
 }  // namespace tandem::server

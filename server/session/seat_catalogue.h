@@ -26,6 +26,7 @@ struct SeatConnection {
   std::vector<std::unique_ptr<control::ChannelEnd>> ends;
   std::array<std::byte, 32> resume{};  ///< resume_hash of the client's resume secret; zero: none
   double force_scale = 1;              ///< of the client's ticket, 0 to 1; kept for a resume
+  tandem::rpc::DeviceFacts device{};   ///< for which the ends were made
 };
 
 /// Server ends of a seat's springs as the scene defines them: one per tool for masters under law REPLICA, one for all

@@ -62,6 +62,7 @@ SeatEndpoint::SeatEndpoint(const SceneSpec& scene, std::size_t seat, const AxisA
 void SeatEndpoint::attach(Time now, SeatConnection& entry) noexcept {
   std::unique_ptr<transport::SecureChannel> before = connection_ ? connection_->release_link() : nullptr;
   connection_.emplace(now, std::exchange(entry.link, std::move(before)), tick_);
+  connection_->record_outputs(outputs_);
   std::swap(ends_, entry.ends);  // both have the same number of ends
   taken_ = true;
   generation_ = 0;
@@ -81,7 +82,10 @@ void SeatEndpoint::attach(Time now, SeatConnection& entry) noexcept {
 SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& from, const transport::Header& header,
                                                  std::span<const std::byte> bytes, PathTokens& tokens) noexcept {
   Received heard;
-  const auto opened = connection_->open(now, from, header, bytes, codec_);
+  const auto authentic = connection_->authenticate(now, header, bytes);
+  if (!authentic) return heard;
+  heard.plaintext = authentic->plaintext;
+  const auto opened = connection_->handle(now, from, *authentic, codec_);
   if (!opened) return heard;
   transport::SecureChannel& link = connection_->link();
   if (!allowed(role_, opened->type)) {

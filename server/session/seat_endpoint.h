@@ -25,6 +25,11 @@ class SeatEndpoint {
  public:
   SeatEndpoint(const SceneSpec& scene, std::size_t seat, const AxisArray& scale);
 
+  /// Sets the digest to which everything sent to this seat is added; null: none. It must outlive this.
+  void record_outputs(OutputDigest* outputs) noexcept {
+    outputs_ = outputs;
+    if (connection_) connection_->record_outputs(outputs);
+  }
   /// Attaches a client to the seat. Energies, statistics and link timing start from zero.
   /// @param entry  out: the previous contents of the seat, so that the caller's thread frees the memory
   void attach(Time now, SeatConnection& entry) noexcept;
@@ -44,6 +49,9 @@ class SeatEndpoint {
     bool close = false;
     bool accepted_state = false;  ///< a newer STATE took effect
     bool forbidden = false;       ///< the role may not send this type
+    /// Authenticated content, also of a datagram that was dropped then; valid until the next datagram. Its data() is
+    /// null if the datagram did not authenticate.
+    std::span<const std::byte> plaintext;
   };
   /// @param header  of the datagram `bytes`
   Received on_datagram(Time now, const PeerAddress& from, const transport::Header& header,
@@ -169,6 +177,7 @@ class SeatEndpoint {
   /// Index in `coupled_tools_`; 0 also for tools without a coupling.
   std::array<std::uint8_t, kToolsMax> coupling_index_{};
   std::optional<Connection> connection_;  ///< kept after its client has left, until another client joins
+  OutputDigest* outputs_ = nullptr;
   bool taken_ = false;
   wire::Codec codec_;
   control::EndInput input_;  ///< of the last `move`: kept, because most of its array entries are beyond the axes in use

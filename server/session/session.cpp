@@ -58,11 +58,36 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
     audit_.emit(Time{}, AuditEvent::What::kRestored, AuditEvent::kNoSeat, static_cast<std::uint32_t>(epoch_));
 }
 
+bool Session::attach_journal(InputJournal& journal, Time start, std::string_view build, const Checkpoint* from) {
+  if (clock_.ticked() || std::ranges::any_of(seats_, &SeatEndpoint::taken)) return false;
+  journal.begin({.build = build,
+                 .start = start,
+                 .from = from,
+                 .scale = seat_catalogue_.setup(0).axis_scale,
+                 .scene = scene_hash_,
+                 .seats = seats_.size()});
+  for (std::size_t i = 0; i < seats_.size(); ++i) seats_[i].record_outputs(&journal.outputs(i));
+  journal_ = &journal;
+  return true;
+}
+
+void Session::end(wire::CloseReason why) noexcept {
+  if (journal_ != nullptr && !participants_.closing().session.begun()) journal_->end(why);
+  participants_.end(why);
+}
+
+bool Session::remove(std::size_t seat, wire::CloseReason why) noexcept {
+  const bool removed = participants_.remove(seat, why);
+  if (removed && journal_ != nullptr) journal_->remove(seat, why);
+  return removed;
+}
+
 bool Session::set_contact_source(std::size_t tool, std::unique_ptr<ContactSource> source) {
   if (scene_->channel.law != LawKind::kReplica || tool >= control_.tools().size() ||
       control_.tools()[tool].body() == nullptr)
     return false;
   control_.tools()[tool].set_contact_source(std::move(source));
+  if (journal_ != nullptr) journal_->contacts(tool);
   return true;
 }
 
@@ -91,7 +116,11 @@ Checkpoint Session::checkpoint() const noexcept {
 
 JoinResult Session::admit(Time now, std::size_t i, SeatConnection& entry, bool same_owner) noexcept {
   const JoinResult result = participants_.admit(now, i, entry, same_owner);
-  if (result == JoinResult::kAccepted) stop_.clear_seat(i);
+  if (result != JoinResult::kAccepted) return result;
+  stop_.clear_seat(i);
+  if (journal_ != nullptr)
+    journal_->admit(now, i, seats_[i].link()->own_cid(), seats_[i].link()->peer_cid(), entry.device,
+                    seats_[i].force_scale(), same_owner);
   return result;
 }
 
@@ -108,7 +137,12 @@ void Session::on_datagram(Time now, const PeerAddress& from, std::span<const std
       ++unmatched_datagrams_;
     return;
   }
-  handle_message(now, i, seats_[i].on_datagram(now, from, *header, bytes, path_tokens_));
+  const std::uint64_t tokens = path_tokens_.taken();
+  const SeatEndpoint::Received heard = seats_[i].on_datagram(now, from, *header, bytes, path_tokens_);
+  if (journal_ != nullptr && heard.plaintext.data() != nullptr) [[unlikely]]
+    journal_->datagram(now, i, from, *header, heard.plaintext,
+                       path_tokens_.taken() != tokens ? &path_tokens_.last_taken() : nullptr);
+  handle_message(now, i, heard);
 }
 
 void Session::handle_message(Time now, std::size_t i, const SeatEndpoint::Received& heard) noexcept {
@@ -133,6 +167,8 @@ void Session::handle_requests(Time now, std::size_t i) noexcept {
 void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   recorded_ = false;
   if (over()) return;
+  if (journal_ != nullptr) [[unlikely]]
+    journal_->tick(now, missed, {lifecycle_.load_state(), telemetry_due(), record_interval_});
   const std::uint32_t catch_up = clock_.begin_tick(now, missed);
   for (std::uint32_t i = 0; i <= catch_up && !over(); ++i) run_one_tick(now);
   // Until the session runs, every tick makes a record, so that the first running one has a record at any interval.
@@ -211,7 +247,7 @@ void Session::fill_force_messages(Time now) noexcept {
     m.session_tick = clock_.session_tick();
     m.authority_version = authority_.version();
     m.missing = missing_now;
-    m.telemetry_every_tick = telemetry_every_tick_ || watchers_.record_every_tick(lifecycle_.load_state().level);
+    m.telemetry_every_tick = telemetry_due();
     m.stops = stop_.latch().stops();
     authority_.fill_notice(i, timeline_waits, m);
   }
@@ -223,8 +259,11 @@ std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> bu
   if (out) return out;
   if (link_test_peers_.any()) out = link_test_peers_.poll_transmit(now, clock_.tick(), buffer);
   if (!out && watchers_.any()) out = watchers_.poll_transmit(now, clock_.tick(), buffer);
-  if (!out) send_.rewind();
-  return out;
+  if (out) return out;
+  send_.rewind();
+  if (journal_ != nullptr) [[unlikely]]
+    journal_->end_tick();
+  return std::nullopt;
 }
 
 }  // namespace tandem::server

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/base/time.h"
@@ -13,6 +14,7 @@
 #include "server/session/authority_control.h"
 #include "server/session/checkpoint.h"
 #include "server/session/fault_monitor.h"
+#include "server/session/input_journal.h"
 #include "server/session/leading_hands.h"
 #include "server/session/link_test_peers.h"
 #include "server/session/participants.h"
@@ -65,6 +67,20 @@ class Session {
 
   /// The constant part of the session, readable on any thread: the control plane answers join requests from it.
   [[nodiscard]] const SeatCatalogue& seat_catalogue() const noexcept { return seat_catalogue_; }
+  /// Writes all inputs from now on to a journal, so that netsim/replay can repeat the session. Call it right after the
+  /// constructor; the caller then polls all datagrams directly after each tick, with the time of that tick.
+  /// @param journal  must outlive this
+  /// @param start    time at which the slaves were made
+  /// @param build    version and build of the program
+  /// @param from     as given to the constructor; null: none
+  /// @return false if something has entered the session already: then nothing is written
+  bool attach_journal(InputJournal& journal, Time start, std::string_view build, const Checkpoint* from = nullptr);
+  /// The journal of this session; null: none.
+  [[nodiscard]] InputJournal* journal() noexcept { return journal_; }
+  /// Ends the session for all clients, as Participants::end.
+  void end(wire::CloseReason why) noexcept;
+  /// Removes the client of a seat, as Participants::remove.
+  bool remove(std::size_t seat, wire::CloseReason why) noexcept;
   /// Attaches a client to a seat, as Participants::admit. Requests of the client before are withdrawn.
   [[nodiscard]] JoinResult admit(Time now, std::size_t seat, SeatConnection& entry, bool same_owner) noexcept;
   [[nodiscard]] LinkTestPeers& link_test_peers() noexcept { return link_test_peers_; }
@@ -120,6 +136,10 @@ class Session {
   void run_one_tick(Time now) noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   void serve_watchers(Time now) noexcept TANDEM_REALTIME;
+  /// Clients are to send telemetry at every tick.
+  [[nodiscard]] bool telemetry_due() const noexcept {
+    return telemetry_every_tick_ || watchers_.record_every_tick(lifecycle_.load_state().level);
+  }
 
   const SceneSpec* scene_;
   std::size_t masters_;
@@ -146,6 +166,7 @@ class Session {
   std::uint32_t record_interval_ = 1, since_record_ = 0;  ///< [ticks]
   bool recorded_ = false;                                 ///< the last tick made a record
   TickRecord record_{};
+  InputJournal* journal_ = nullptr;
 };
 
 }  // namespace tandem::server

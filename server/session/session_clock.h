@@ -40,6 +40,8 @@ class SessionClock {
   [[nodiscard]] Duration begin_step() noexcept { return std::exchange(step_, tick_length_); }
   /// Number of the server's tick; 0 for the first.
   [[nodiscard]] std::uint32_t tick() const noexcept { return tick_; }
+  /// A tick began already.
+  [[nodiscard]] bool ticked() const noexcept { return started_.has_value(); }
   [[nodiscard]] Time last_tick() const noexcept { return last_tick_; }
   /// Time from the server's first tick to the last one.
   [[nodiscard]] Duration elapsed() const noexcept { return started_ ? last_tick_ - *started_ : Duration{0}; }

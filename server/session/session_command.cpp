@@ -79,10 +79,11 @@ Result remove_client(Session& session, std::size_t seat, std::uint32_t cid, wire
   if (seat >= session.scene().seats.size()) return Result::kNoSuchSeat;
   const transport::SecureChannel* const link = session.seat(seat).link();
   if (link == nullptr || (cid != 0 && link->own_cid() != cid)) return Result::kNothingToDo;
-  return session.participants().remove(seat, why) ? Result::kDone : Result::kNothingToDo;
+  return session.remove(seat, why) ? Result::kDone : Result::kNothingToDo;
 }
 
 CommandOutcome execute_command(Session& session, Time now, const SessionCommand& command) noexcept {
+  if (InputJournal* const journal = session.journal()) journal->command(now, command);
   Effect effect;
   const Result result = holds_seat(session, command)
                             ? std::visit(Execution{session, now, command, effect}, command.body)

@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 47> kLayers{{
+const std::array<Layer, 48> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -195,6 +195,10 @@ const std::array<Layer, 47> kLayers{{
       "netsim/system", "proto", "server"},
      {},
      "scenarios check text against a scene and judge reports: no JSON, no files; those belong to netsim/app"},
+    {"netsim/replay",
+     {"common/base", "common/transport", "hal/sim", "netsim/replay", "proto", "server"},
+     {},
+     "a replay feeds recorded inputs into the session core: no socket, clock or file; those belong to netsim/app"},
     {"netsim/testing",
      {"common", "netsim/engine", "netsim/profiles", "netsim/system", "netsim/testing", "proto", "server"},
      {"gtest"},

@@ -1,6 +1,7 @@
 #include "server/app/process/local_slaves.h"
 
 #include "hal/core/port_map.h"
+#include "hal/sim/local_slaves.h"
 #include "hal/sim/sim_device.h"
 
 namespace tandem::server {
@@ -9,17 +10,12 @@ std::expected<LocalSlaves, std::vector<std::string>> make_local_slaves(const Sce
                                                                        const Checkpoint* from) {
   LocalSlaves slaves;
   std::vector<std::string> mistakes;
-  for (const ToolSpec& tool : scene.tools) {
-    if (tool.remote || tool.is_virtual) {
-      slaves.devices.push_back(nullptr);
-      continue;
-    }
-    hal::sim::SimSetup setup{tool.slave, HandSpec{}, tool.environment, nullptr, start};
-    if (from != nullptr) setup.joints = from->tools[slaves.devices.size()].slave;
-    auto device = hal::sim::SimDevice::make(setup);
-    if (!device) mistakes.push_back("tool " + tool.name + ": " + device.error().message);
-    slaves.devices.push_back(device ? std::move(*device) : nullptr);
-  }
+  auto devices = hal::sim::make_local_slaves(
+      scene, start, [&](std::size_t tool) { return from != nullptr ? &from->tools[tool].slave : nullptr; });
+  if (devices)
+    slaves.devices = std::move(*devices);
+  else
+    mistakes = std::move(devices.error());
   // Clients connect their devices later. The gains are scaled at the working pose of the scene, which is the first
   // seat's start pose.
   for (const SeatSpec& seat : scene.seats) {

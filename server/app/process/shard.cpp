@@ -66,7 +66,7 @@ void Shard::run() noexcept {
     if (stop_.load(std::memory_order_acquire)) {
       if (!serving()) break;
       for (LiveSession* s : sessions_)
-        if (s != nullptr) s->session().participants().end(stop_reason_.load(std::memory_order_relaxed));
+        if (s != nullptr) s->session().end(stop_reason_.load(std::memory_order_relaxed));
     }
     Time now = io::monotonic_now();
     if (now < due) continue;
@@ -169,7 +169,7 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
           slots_of(live->session(), request.peers).remove(request.place, request.cid, wire::CloseReason::kRevoked));
       break;
     case ShardRequest::What::kEndSession:
-      live->session().participants().end(wire::CloseReason::kServerStops);
+      live->session().end(wire::CloseReason::kServerStops);
       break;
     case ShardRequest::What::kAddSession:
       break;

@@ -10,10 +10,12 @@
 #include "client/seat/device_facts.h"
 #include "client/seat/seat.h"
 #include "common/base/rng.h"
+#include "hal/sim/local_slaves.h"
 #include "hal/sim/sim_device.h"
 #include "netsim/system/simulated_handshake.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
+#include "server/session/build_text.h"
 #include "server/session/session.h"
 
 namespace tandem::server::test {
@@ -52,17 +54,22 @@ class SessionFixture {
   /// @param key     selects keys and connection ids
   /// @param rekey   policy of both ends
   /// @param change  modifies the scene before any client joins
+  /// @param as_server  only tools that the server simulates have a slave, as in a server
+  /// @param journal    records the inputs of the session; null: nothing does. @pre as_server
   explicit SessionFixture(const std::string& scene_name = "one_axis", std::uint64_t key = 3,
                           const transport::RekeyPolicy& rekey = {}, std::uint8_t slot = 0,
-                          void (*change)(SceneSpec&) = nullptr)
+                          void (*change)(SceneSpec&) = nullptr, bool as_server = false,
+                          InputJournal* journal = nullptr)
       : scene(*parse_scene(find_shipped_scene(scene_name)->text, scene_name + ".textproto")) {
     if (change != nullptr) change(scene);
     AxisArray scale;
     scale.fill(1);
     std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;
+    if (as_server) slaves = *hal::sim::make_local_slaves(scene, Time{}, [](std::size_t) { return nullptr; });
     for (const ToolSpec& tool : scene.tools)
-      slaves.push_back(std::move(*hal::sim::SimDevice::make({tool.slave, {}, tool.environment, nullptr, Time{}})));
+      if (!as_server) slaves.push_back(std::move(*hal::sim::SimDevice::make({tool.slave, {}, tool.environment, nullptr, Time{}})));
     session = std::make_unique<Session>(scene, std::move(slaves), scale);
+    if (journal != nullptr) session->attach_journal(*journal, Time{}, build_text());
     for (std::size_t i = 0; i < scene.seats.size(); ++i) {
       FixtureSeat seat;
       seat.device =

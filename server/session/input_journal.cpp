@@ -1,0 +1,240 @@
+#include "server/session/input_journal.h"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+#include <variant>
+
+#include "common/base/raw_bytes.h"
+#include "server/session/session_command.h"
+
+namespace tandem::server {
+namespace {
+
+/// A record under construction.
+template <std::size_t kSize>
+class RecordWriter {
+ public:
+  explicit RecordWriter(InputRecord kind) noexcept { put(kind); }
+  template <class T>
+    requires std::is_trivially_copyable_v<T>
+  void put(T value) noexcept {
+    std::memcpy(&bytes_[size_], &value, sizeof value);
+    size_ += sizeof value;
+  }
+  void put(std::span<const std::byte> bytes) noexcept {
+    std::ranges::copy(bytes, bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += bytes.size();
+  }
+  [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return std::span{bytes_}.first(size_); }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// Replaces a number that was put at `at`.
+  template <class T>
+  void replace(std::size_t at, T value) noexcept {
+    std::memcpy(&bytes_[at], &value, sizeof value);
+  }
+
+ private:
+  std::array<std::byte, kSize> bytes_;  // not cleared: only what was put is read
+  std::size_t size_ = 0;
+};
+
+/// Without what only the owners of seats may know.
+Checkpoint without_secrets(Checkpoint checkpoint) noexcept {
+  for (Checkpoint::Seat& seat : checkpoint.seats) seat.resume = {};
+  return checkpoint;
+}
+
+}  // namespace
+
+std::size_t InputJournal::drain(std::span<std::byte> out) noexcept {
+  if (out.size() <= kPieceHeader) return 0;
+  const std::uint64_t position = ring_.taken();
+  const std::size_t size = ring_.take(out.subspan(kPieceHeader));
+  if (size == 0) return 0;
+  std::memcpy(out.data(), &position, sizeof position);
+  return kPieceHeader + size;
+}
+
+std::int64_t InputJournal::since_last(Time now) noexcept {
+  const std::int64_t dt = (now - last_).count();
+  last_ = now;
+  return dt;
+}
+
+void InputJournal::write(std::span<const std::byte> head, std::span<const std::byte> body) noexcept {
+  if (overflowed_ || !ring_.fits(head.size() + body.size())) [[unlikely]] {
+    overflowed_ = true;
+    dropped_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  ring_.put(head);
+  if (!body.empty()) ring_.put(body);
+}
+
+void InputJournal::write_overflow() noexcept {
+  RecordWriter<16> record{InputRecord::kOverflow};
+  record.put(ticks_);
+  if (told_ || !ring_.fits(record.size())) return;
+  ring_.put(record.bytes());
+  ring_.publish();
+  told_ = true;
+}
+
+void InputJournal::begin(const Begin& b) noexcept {
+  for (Seat& seat : seats_) seat = {};
+  seats_n_ = b.seats;
+  settings_.reset();
+  last_ = b.start;
+  RecordWriter<kCheckpointMax + 512> record{InputRecord::kBegin};
+  record.put(std::uint16_t{0});
+  const std::size_t rest = record.size();
+  record.put(kInputJournalVersion);
+  const std::string_view build = b.build.substr(0, input::kBuildMax);
+  record.put(static_cast<std::uint8_t>(build.size()));
+  record.put(bytes_of(build));
+  record.put(std::span<const std::byte>{b.scene});
+  for (const double scale : b.scale) record.put(scale);
+  record.put(std::int64_t{b.start.time_since_epoch().count()});
+  std::array<std::byte, kCheckpointMax> checkpoint;
+  const std::size_t size = b.from == nullptr ? 0 : encode_checkpoint(without_secrets(*b.from), checkpoint);
+  record.put(static_cast<std::uint16_t>(size));
+  record.put(std::span<const std::byte>{checkpoint}.first(size));
+  record.replace(1, static_cast<std::uint16_t>(record.size() - rest));
+  // After an overflow the journal of the next session is whole again, behind the record of the overflow.
+  if (overflowed_) write_overflow();
+  overflowed_ = overflowed_ && !told_;
+  if (!overflowed_) {
+    told_ = false;
+    ticks_ = 0;
+  }
+  write(record.bytes());
+  ring_.publish();
+}
+
+void InputJournal::admit(Time now, std::size_t seat, std::uint32_t own_cid, std::uint32_t peer_cid,
+                         const rpc::DeviceFacts& device, double force_scale, bool same_owner) noexcept {
+  seats_[seat].from = {};
+  seats_[seat].next_counter = 0;
+  RecordWriter<80> record{InputRecord::kAdmit};
+  record.put(static_cast<std::uint8_t>(seat));
+  record.put(static_cast<std::uint8_t>(same_owner ? 1 : 0));
+  record.put(since_last(now));
+  record.put(own_cid);
+  record.put(peer_cid);
+  record.put(device.joints);
+  record.put(device.tip_axes);
+  record.put(static_cast<std::uint8_t>((device.simulated ? 1 : 0) | (device.prismatic ? 2 : 0)));
+  for (const double value :
+       {device.force_peak_n, device.damping_n_s_m, device.mass_kg, device.latency_s, force_scale})
+    record.put(value);
+  write(record.bytes());
+}
+
+void InputJournal::datagram(Time now, std::size_t seat, const PeerAddress& from, const transport::Header& header,
+                            std::span<const std::byte> plaintext, const std::uint64_t* token) noexcept {
+  Seat& own = seats_[seat];
+  const bool moved = !(from == own.from);
+  RecordWriter<48> record{InputRecord::kDatagram};
+  record.put(static_cast<std::uint8_t>(seat | (moved ? input::kNewAddress : 0) |
+                                       (token != nullptr ? input::kTokenTaken : 0)));
+  record.put(static_cast<std::uint8_t>(header.type));
+  record.put(header.key_phase);
+  record.put(static_cast<std::uint16_t>(plaintext.size()));
+  record.put(since_last(now));
+  record.put(header.counter - own.next_counter);
+  own.next_counter = header.counter + 1;
+  if (moved) [[unlikely]] {
+    own.from = from;
+    record.put(transport::keyed_hash(address_key_, std::span{from.bytes}.first(from.size)));
+  }
+  if (token != nullptr) [[unlikely]]
+    record.put(*token);
+  write(record.bytes(), plaintext);
+}
+
+void InputJournal::command(Time now, const SessionCommand& command) noexcept {
+  RecordWriter<48 + 8 * kMastersMax> record{InputRecord::kStop};
+  const auto head = [&](InputRecord kind) {
+    record = RecordWriter<48 + 8 * kMastersMax>{kind};
+    record.put(since_last(now));
+    record.put(static_cast<std::uint8_t>(command.role));
+    record.put(command.seat);
+    record.put(command.cid);
+  };
+  if (std::holds_alternative<rpc::StopSession>(command.body)) {
+    head(InputRecord::kStop);
+  } else if (std::holds_alternative<rpc::PauseSession>(command.body)) {
+    head(InputRecord::kPause);
+  } else if (const auto* resume = std::get_if<rpc::ResumeSession>(&command.body)) {
+    head(InputRecord::kResume);
+    record.put(resume->stop);
+  } else if (const auto* wanted = std::get_if<rpc::SetAuthority>(&command.body);
+             wanted != nullptr && wanted->alpha.size() <= kMastersMax) {
+    head(InputRecord::kAuthority);
+    record.put(static_cast<std::uint32_t>(wanted->tool));
+    record.put(static_cast<std::uint32_t>(wanted->version));
+    record.put(static_cast<std::uint8_t>(wanted->alpha.size()));
+    for (const double alpha : wanted->alpha) record.put(alpha);
+  } else {
+    return;  // the others change nothing, or arrive as `remove`
+  }
+  write(record.bytes());
+}
+
+void InputJournal::remove(std::size_t seat, wire::CloseReason why) noexcept {
+  RecordWriter<4> record{InputRecord::kRemove};
+  record.put(static_cast<std::uint8_t>(seat));
+  record.put(static_cast<std::uint8_t>(why));
+  write(record.bytes());
+}
+
+void InputJournal::end(wire::CloseReason why) noexcept {
+  RecordWriter<4> record{InputRecord::kEnd};
+  record.put(static_cast<std::uint8_t>(why));
+  write(record.bytes());
+}
+
+void InputJournal::contacts(std::size_t tool) noexcept {
+  RecordWriter<4> record{InputRecord::kContacts};
+  record.put(static_cast<std::uint8_t>(tool));
+  write(record.bytes());
+}
+
+void InputJournal::tick(Time now, std::uint32_t missed, const Settings& settings) noexcept {
+  if (settings_ != settings) [[unlikely]] {
+    settings_ = settings;
+    RecordWriter<8> record{InputRecord::kSettings};
+    record.put(static_cast<std::uint8_t>(settings.load.level));
+    record.put(
+        static_cast<std::uint8_t>((settings.load.overloaded ? 1 : 0) | (settings.telemetry_every_tick ? 2 : 0)));
+    record.put(settings.record_interval);
+    write(record.bytes());
+  }
+  RecordWriter<16> record{InputRecord::kTick};
+  record.put(since_last(now));
+  record.put(missed);
+  write(record.bytes());
+  if (!overflowed_) ++ticks_;
+}
+
+void InputJournal::end_tick() noexcept {
+  if (overflowed_) [[unlikely]]
+    return write_overflow();
+  RecordWriter<8 + 4 * kSeatsMax> record{InputRecord::kOutputs};
+  record.put(std::uint32_t{0});
+  std::uint32_t sent = 0;
+  for (std::size_t i = 0; i < seats_n_; ++i) {
+    OutputDigest& digest = seats_[i].outputs;
+    if (!digest.sent()) continue;
+    digest.clear_sent();
+    sent |= 1U << i;
+    record.put(digest.value());
+  }
+  if (sent == 0) return ring_.publish();
+  record.replace(1, sent);
+  write(record.bytes());
+  ring_.publish();
+}
+
+}  // namespace tandem::server
