@@ -277,6 +277,7 @@ bool read(const wire_pb::Status& in, Status& out) {
     if (n.number() == 0 || !is_text(n.text())) return false;
     out.events.push_back({n.number(), n.text()});
   }
+  if (in.has_recording() && !read(in.recording(), out.recording.emplace())) return false;
   return !in.has_stop() || read(in.stop(), out.stop.emplace());
 }
 void write(const Status& in, wire_pb::Status& out) {
@@ -308,6 +309,7 @@ void write(const Status& in, wire_pb::Status& out) {
     news.set_number(n.number);
     news.set_text(n.text);
   }
+  if (in.recording) write(*in.recording, *out.mutable_recording());
   if (!in.drain) return;
   out.mutable_drain()->set_left_s(in.drain->left_s);
   out.mutable_drain()->set_sessions(in.drain->sessions);
@@ -350,6 +352,7 @@ constexpr std::array<Conversion, kKinds> kConversions{
     conversion<SessionCreated, &Pb::session_created, &Pb::mutable_session_created>(),
     conversion<EndSession, &Pb::end_session, &Pb::mutable_end_session>(),
     conversion<Note, &Pb::note, &Pb::mutable_note>(),
+    conversion<RecordSession, &Pb::record_session, &Pb::mutable_record_session>(),
 };
 
 }  // namespace

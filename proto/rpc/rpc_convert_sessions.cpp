@@ -104,4 +104,25 @@ void write(const Note& in, pb::rpc::Note& out) {
   out.set_json(in.json);
 }
 
+bool read(const pb::rpc::RecordSession& in, RecordSession& out) {
+  out.on = in.on();
+  return take(in.session_id(), out.session_id);
+}
+void write(const RecordSession& in, pb::rpc::RecordSession& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_on(in.on);
+}
+
+bool read(const pb::rpc::StatusRecording& in, StatusRecording& out) {
+  out = {in.by_server(), in.by_recorders(), in.pseudonyms(), in.dropped(), in.trouble()};
+  return (out.by_server || out.by_recorders > 0) && out.by_recorders <= kRecordersMax && is_text(out.trouble);
+}
+void write(const StatusRecording& in, pb::rpc::StatusRecording& out) {
+  out.set_by_server(in.by_server);
+  out.set_by_recorders(in.by_recorders);
+  out.set_pseudonyms(in.pseudonyms);
+  out.set_dropped(in.dropped);
+  out.set_trouble(in.trouble);
+}
+
 }  // namespace tandem::rpc

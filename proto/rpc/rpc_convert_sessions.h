@@ -3,8 +3,8 @@
 #include "proto/rpc/rpc_messages.h"
 #include "proto/schema/rpc.pb.h"
 
-/// Private to proto/rpc: conversion of the messages that list, create, end and assess sessions. `read` returns false if
-/// a value is out of its bound.
+/// Private to proto/rpc: conversion of the messages that list, create, end, assess and record sessions. `read` returns
+/// false if a value is out of its bound.
 namespace tandem::rpc {
 
 [[nodiscard]] bool read_listed(const pb::rpc::Session& in, ListedSession& out);
@@ -18,5 +18,9 @@ void write(const SessionCreated& in, pb::rpc::SessionCreated& out);
 void write(const EndSession& in, pb::rpc::EndSession& out);
 [[nodiscard]] bool read(const pb::rpc::Note& in, Note& out);
 void write(const Note& in, pb::rpc::Note& out);
+[[nodiscard]] bool read(const pb::rpc::RecordSession& in, RecordSession& out);
+void write(const RecordSession& in, pb::rpc::RecordSession& out);
+[[nodiscard]] bool read(const pb::rpc::StatusRecording& in, StatusRecording& out);
+void write(const StatusRecording& in, pb::rpc::StatusRecording& out);
 
 }  // namespace tandem::rpc

@@ -258,6 +258,17 @@ struct StatusEvent {
   friend bool operator==(const StatusEvent&, const StatusEvent&) = default;
 };
 inline constexpr std::size_t kStatusEventsMax = 4;
+/// Largest number of connected recorders in a status; a session has fewer places for them.
+inline constexpr std::uint32_t kRecordersMax = 64;
+/// Recording of a session, for all participants. At least one of `by_server` and `by_recorders` is set.
+struct StatusRecording {
+  bool by_server = false;          ///< the server writes a recording
+  std::uint32_t by_recorders = 0;  ///< number of connected recorders, at most kRecordersMax
+  bool pseudonyms = false;         ///< the server's recording has no names of participants
+  std::uint64_t dropped = 0;       ///< ticks that the server's recording lost so far
+  std::string trouble{};           ///< why it loses ticks now, at most kTextMax; empty: it loses none
+  friend bool operator==(const StatusRecording&, const StatusRecording&) = default;
+};
 /// Status of a session for clients of its control connection.
 struct Status {
   Id session_id{};
@@ -274,7 +285,8 @@ struct Status {
   /// Reason why no seat controls any tool while the session runs, at most kTextMax. Empty: a seat does, or the session
   /// does not run.
   std::string held{};
-  std::vector<StatusEvent> events{};  ///< at most kStatusEventsMax, newest last
+  std::vector<StatusEvent> events{};           ///< at most kStatusEventsMax, newest last
+  std::optional<StatusRecording> recording{};  ///< while the session is recorded
   friend bool operator==(const Status&, const Status&) = default;
 };
 
@@ -322,10 +334,18 @@ struct Note {
   friend bool operator==(const Note&, const Note&) = default;
 };
 
+/// Order to start or end the recording of a session.
+struct RecordSession {
+  Id session_id{};
+  bool on = false;
+  friend bool operator==(const RecordSession&, const RecordSession&) = default;
+};
+
 /// The message of a frame, in the order of Kind.
-using Body = std::variant<Hello, Welcome, ErrorReply, Enroll, EnrollAck, SessionListRequest, SessionList, StopSession,
-                          ResumeSession, PauseSession, SetAuthority, AuthorityReply, Drain, Ping, Pong, Ok,
-                          RemoveParticipant, StatusRequest, Status, CreateSession, SessionCreated, EndSession, Note>;
+using Body =
+    std::variant<Hello, Welcome, ErrorReply, Enroll, EnrollAck, SessionListRequest, SessionList, StopSession,
+                 ResumeSession, PauseSession, SetAuthority, AuthorityReply, Drain, Ping, Pong, Ok, RemoveParticipant,
+                 StatusRequest, Status, CreateSession, SessionCreated, EndSession, Note, RecordSession>;
 
 /// Kind of the message in a frame. It is readable before the payload, so that roles are checked first. The number is
 /// the field's number in ControlFrame.
@@ -352,10 +372,11 @@ enum class Kind : std::uint8_t {
   kCreateSession,
   kSessionCreated,
   kEndSession,
-  kNote
+  kNote,
+  kRecordSession
 };
 inline constexpr std::size_t kKinds = std::variant_size_v<Body>;
-static_assert(static_cast<std::size_t>(Kind::kNote) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
+static_assert(static_cast<std::size_t>(Kind::kRecordSession) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
 
 struct Frame {
   std::uint32_t request = 0;

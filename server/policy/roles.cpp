@@ -24,6 +24,7 @@ constexpr std::array<std::array<Grant, kAccessRoles>, kRights> kTable{{
     /* manage seats  */ {kYes, kNo, kNo, kNo, kYes, kNo},
     /* manage server */ {kNo, kNo, kNo, kNo, kYes, kNo},
     /* score         */ {kYes, kNo, kYes, kNo, kYes, kNo},
+    /* record        */ {kYes, kNo, kNo, kNo, kYes, kNo},
 }};
 
 /// Permission that a frame requires: at least `least` of `right`.
@@ -33,7 +34,7 @@ struct Need {
   Grant least;
   const char* words;  ///< "... may not WORDS"
 };
-constexpr std::array<Need, 10> kNeeds{{
+constexpr std::array<Need, 11> kNeeds{{
     {rpc::Kind::kStopSession, Right::kStopSession, Grant::kYes, "stop the session"},
     {rpc::Kind::kPauseSession, Right::kStopSession, Grant::kPart, "pause the session"},
     {rpc::Kind::kResumeSession, Right::kEndPause, Grant::kPart, "resume the session"},
@@ -44,6 +45,7 @@ constexpr std::array<Need, 10> kNeeds{{
     {rpc::Kind::kCreateSession, Right::kManageServer, Grant::kYes, "create a session"},
     {rpc::Kind::kEndSession, Right::kManageServer, Grant::kYes, "end a session"},
     {rpc::Kind::kNote, Right::kScore, Grant::kYes, "write marks and sheets"},
+    {rpc::Kind::kRecordSession, Right::kRecord, Grant::kYes, "start or end a recording"},
 }};
 
 const Need* need_of(rpc::Kind kind) noexcept {

@@ -23,8 +23,9 @@ enum class Right : std::uint8_t {
   kManageSeats,   ///< create seats and tickets, remove a participant
   kManageServer,  ///< enrol and revoke workstations, create and end sessions, drain
   kScore,         ///< write marks and sheets of an assessment
+  kRecord,        ///< start and end the server's recording of a session
 };
-inline constexpr std::size_t kRights = 9;
+inline constexpr std::size_t kRights = 10;
 
 enum class Grant : std::uint8_t { kNo, kPart, kYes };
 

@@ -22,7 +22,8 @@ std::vector<rpc::Body> every_command() {
           rpc::Drain{0},
           rpc::CreateSession{.name = "exam", .scene = "contact"},
           rpc::EndSession{kId, "why"},
-          rpc::Note{kId, rpc::NoteKind::kMark, "{}"}};
+          rpc::Note{kId, rpc::NoteKind::kMark, "{}"},
+          rpc::RecordSession{kId, true}};
 }
 
 /// Polls until the condition holds; fails the test at the time limit instead of hanging it.

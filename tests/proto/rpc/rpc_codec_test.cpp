@@ -116,7 +116,7 @@ TEST(RpcCodec, AcceptsOnlyOneEncodingPerMessage) {
   EXPECT_EQ(decode(long_varint).error(), FrameError::kMalformed) << "a number in a second form";
   EXPECT_EQ(decode(bytes({0x08, 1})).error(), FrameError::kMalformed) << "no message";
   EXPECT_EQ(decode(bytes({0x08, 1, 0x10, 7})).error(), FrameError::kMalformed);
-  EXPECT_EQ(decode(bytes({0x08, 1, 0xd2, 1, 0})).error(), FrameError::kMalformed) << "field 26 does not exist";
+  EXPECT_EQ(decode(bytes({0x08, 1, 0xda, 1, 0})).error(), FrameError::kMalformed) << "field 27 does not exist";
   EXPECT_EQ(decode(bytes({0x08, 1, 0x1b, 0x1c})).error(), FrameError::kMalformed) << "groups";
 }
 

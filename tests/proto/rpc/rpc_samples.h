@@ -153,6 +153,8 @@ inline Status status(RandomStream& r) {
   if (r.below(2) == 0) m.held = "stopped by trainer: r resumes";
   for (std::uint64_t i = r.below(rpc::kStatusEventsMax + 1); i > 0; --i)
     m.events.push_back({static_cast<std::uint32_t>(1 + r.below(1000)), "RESUMED by trainer"});
+  if (r.below(2) == 0)
+    m.recording = {true, static_cast<std::uint32_t>(r.below(9)), r.below(2) == 0, r.below(1U << 30U), text(r)};
   return m;
 }
 
@@ -276,6 +278,12 @@ inline Frame frame(RandomStream& r, Kind kind) {
       fill(r, m.session_id);
       m.kind = static_cast<NoteKind>(1 + r.below(2));
       m.json = "{\"text\": \"" + text(r) + "\"}";
+      break;
+    }
+    case Kind::kRecordSession: {
+      auto& m = f.body.emplace<RecordSession>();
+      fill(r, m.session_id);
+      m.on = r.below(2) == 0;
       break;
     }
   }

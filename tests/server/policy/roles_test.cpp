@@ -25,6 +25,7 @@ constexpr std::array<Row, kRights> kDesign{{
     {Right::kManageSeats, {"yes", "no", "no", "no", "yes", "no"}},
     {Right::kManageServer, {"no", "no", "no", "no", "yes", "no"}},
     {Right::kScore, {"yes", "no", "yes", "no", "yes", "no"}},
+    {Right::kRecord, {"yes", "no", "no", "no", "yes", "no"}},
 }};
 
 TEST(Roles, MatchTheDesignTableInEveryRight) {
@@ -92,6 +93,7 @@ constexpr std::array<KindRow, rpc::kKinds> kFrames{{
     {Kind::kSessionCreated, "-------"},
     {Kind::kEndSession, "-----x-"},
     {Kind::kNote, "-x-x-x-"},
+    {Kind::kRecordSession, "-x---x-"},
 }};
 
 TEST(Roles, MatchTheDesignTableForEveryFrame) {
@@ -113,7 +115,7 @@ TEST(Roles, MatchTheDesignTableForEveryFrame) {
 }
 
 TEST(Roles, AllowNoFrameOutsideTheTable) {
-  for (const int number : {0, 1, 2, 26, 255}) {
+  for (const int number : {0, 1, 2, 27, 255}) {
     const auto kind = static_cast<Kind>(number);
     EXPECT_FALSE(is_client_message(kind));
     EXPECT_FALSE(allowed(std::nullopt, kind));
