@@ -26,6 +26,7 @@ struct ConfiguredSessionSpec {
   bool tickets_only = false;
   bool restart = true;
   double duration_s = 0;  ///< 0: the duration of the scene
+  LocatedText record;     ///< folder or file of recordings; absent: that of the server
 };
 
 struct ConnectionLimitsSpec {
@@ -48,14 +49,25 @@ struct AuditSpec {
   std::uint32_t older_files = 7;
 };
 
+/// How sessions are recorded.
+struct RecordingSpec {
+  bool pseudonyms = false;   ///< P1, P2 ... instead of names of participants and workstations
+  bool from_start = true;    ///< a recording starts with its session, not by an order
+  double file_mib = 256;     ///< [MiB] of one file
+  double file_minutes = 10;  ///< [min] of one file
+  double total_mib = 65536;  ///< [MiB] of all files of a run; then the recording ends
+  double mib_per_min = 128;  ///< [MiB/min]; further ticks are left out and counted
+};
+
 struct ServerConfigSpec {
   std::string file;
-  LocatedText listen, state, metrics, reports, scenes;
+  LocatedText listen, state, metrics, reports, scenes, record;
   std::vector<std::string> metrics_hosts;
   std::vector<ConfiguredSessionSpec> sessions;  ///< at least one
   ConnectionLimitsSpec limits;
   LogSpec log;
   AuditSpec audit;
+  RecordingSpec recording;
 };
 
 }  // namespace tandem

@@ -24,6 +24,13 @@ constexpr std::array<MessageKey<Limits>, 9> kLimitKeys{{{"accepts_per_s", &Limit
 constexpr std::array<MessageKey<AuditSpec>, 2> kAuditKeys{
     {{"file_mib", &AuditSpec::file_mib}, {"older_files", &AuditSpec::older_files}}};
 
+constexpr std::array<MessageKey<RecordingSpec>, 6> kRecordingKeys{{{"pseudonyms", &RecordingSpec::pseudonyms},
+                                                                   {"from_start", &RecordingSpec::from_start},
+                                                                   {"file_mib", &RecordingSpec::file_mib},
+                                                                   {"file_minutes", &RecordingSpec::file_minutes},
+                                                                   {"total_mib", &RecordingSpec::total_mib},
+                                                                   {"mib_per_min", &RecordingSpec::mib_per_min}}};
+
 LocatedText placed(const std::string& value, const MessageValidator& validator, const std::string& key) {
   const text::SourceLocation place = validator.location(key);
   return {value, key, place.line, place.column};
@@ -46,6 +53,8 @@ ConfiguredSessionSpec session_from(const pb::ConfiguredSession& in, MessageValid
   out.tickets_only = in.entry() == pb::ConfiguredSession::TICKETS;
   if (in.has_restart()) out.restart = in.restart();
   out.duration_s = in.duration_s();
+  out.record = not_empty(in.has_record(), in.record(), validator, child_path(key, "record"),
+                         "name a folder or a file NAME.mcap, or leave the key out");
   return out;
 }
 
@@ -74,6 +83,7 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
       not_empty(in.has_metrics(), in.metrics(), validator, "metrics", "write HOST:PORT, or leave the key out");
   out.reports = not_empty(in.has_reports(), in.reports(), validator, "reports", "name a folder, or leave the key out");
   out.scenes = not_empty(in.has_scenes(), in.scenes(), validator, "scenes", "name a folder, or leave the key out");
+  out.record = not_empty(in.has_record(), in.record(), validator, "record", "name a folder, or leave the key out");
   if (in.session_size() == 0 && !validator.is_set("session[0]"))
     validator.error("session", "is missing: a server needs at least one session");
   for (int i = 0; i < in.session_size(); ++i) {
@@ -93,6 +103,7 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
     out.metrics_hosts.push_back(name);
   }
   text::read_keys(in.audit(), kAuditKeys, out.audit);
+  text::read_keys(in.recording(), kRecordingKeys, out.recording);
   out.log.json = in.log().format() == pb::LogConfig::JSON;
   out.log.level = static_cast<LogSpec::Level>(in.log().level());
   add_unexplained(errors, validator.take());
@@ -111,6 +122,7 @@ std::string effective_server_config_text(const ServerConfigSpec& config) {
     session.set_entry(s.tickets_only ? pb::ConfiguredSession::TICKETS : pb::ConfiguredSession::CODE);
     session.set_restart(s.restart);
     if (s.duration_s > 0) session.set_duration_s(s.duration_s);
+    if (!s.record.text.empty()) session.set_record(s.record.text);
   }
   text::write_keys(config.limits, kLimitKeys, *out.mutable_limits());
   out.mutable_log()->set_format(config.log.json ? pb::LogConfig::JSON : pb::LogConfig::TEXT);
@@ -119,7 +131,9 @@ std::string effective_server_config_text(const ServerConfigSpec& config) {
   for (const std::string& name : config.metrics_hosts) out.add_metrics_host(name);
   if (!config.reports.text.empty()) out.set_reports(config.reports.text);
   if (!config.scenes.text.empty()) out.set_scenes(config.scenes.text);
+  if (!config.record.text.empty()) out.set_record(config.record.text);
   text::write_keys(config.audit, kAuditKeys, *out.mutable_audit());
+  text::write_keys(config.recording, kRecordingKeys, *out.mutable_recording());
   return text::listing(out);
 }
 

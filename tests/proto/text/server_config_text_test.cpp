@@ -69,6 +69,34 @@ TEST(ServerConfig, ReadsSizeAndCountOfTheAuditLog) {
         << name;
 }
 
+TEST(ServerConfig, ReadsWhereAndHowSessionsAreRecorded) {
+  const auto none = parse_server_config(kSmall, "s.textproto");
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->record.text, "");
+  EXPECT_EQ(none->sessions[0].record.text, "");
+  EXPECT_FALSE(none->recording.pseudonyms);
+  EXPECT_TRUE(none->recording.from_start);
+  const auto all = parse_server_config(
+      "version: 1 listen: \"127.0.0.1:7000\" session { name: \"a\" scene: \"contact\" record: \"a.mcap\" }\n"
+      "record: \"films\" recording { pseudonyms: true from_start: false file_mib: 1 file_minutes: 0.1 total_mib: 2 "
+      "mib_per_min: 0.5 }",
+      "s.textproto");
+  ASSERT_TRUE(all) << to_text(all.error());
+  EXPECT_EQ(all->record.text, "films");
+  EXPECT_EQ(all->record.line, 2);
+  EXPECT_EQ(all->sessions[0].record.text, "a.mcap");
+  EXPECT_TRUE(all->recording.pseudonyms);
+  EXPECT_FALSE(all->recording.from_start);
+  EXPECT_EQ(all->recording.total_mib, 2);
+  const std::string listing = effective_server_config_text(*all);
+  for (const char* shown : {"record", "a.mcap", "recording.pseudonyms", "recording.mib_per_min", "MiB/min"})
+    EXPECT_NE(listing.find(shown), std::string::npos) << shown << " is not in\n" << listing;
+  for (const char* wrong : {"file_mib: 0.9", "file_mib: 4097", "file_minutes: 0.09", "file_minutes: 1441",
+                            "total_mib: 0", "mib_per_min: 0.09", "mib_per_min: 1001", "mib_per_min: nan", "names: 1"})
+    EXPECT_NE(mistakes_of(std::string(kSmall) + "recording { " + wrong + " }"), "") << wrong;
+  EXPECT_NE(mistakes_of(std::string(kSmall) + "record: \"\"").find("record"), std::string::npos);
+}
+
 TEST(ServerConfig, RequiresASession) {
   EXPECT_NE(mistakes_of("version: 1 listen: \"127.0.0.1:7000\"").find("session"), std::string::npos);
   EXPECT_NE(mistakes_of(""), "");
