@@ -42,7 +42,7 @@ std::vector<std::string> partners_of(const SceneSpec& scene, const SeatSpec& own
 std::expected<TrialPrograms, std::string> TrialPrograms::start(const std::string& scene,
                                                                const std::vector<std::string>& partners,
                                                                std::optional<double> duration, int interrupt) {
-  const std::string server_path = program_path("tandem-server"), client_path = program_path("tandem-client");
+  const std::string server_path = io::program_path("tandem-server"), client_path = io::program_path("tandem-client");
   for (const auto& [path, name] : {std::pair{&server_path, "tandem-server"}, std::pair{&client_path, "tandem-client"}})
     if (path->empty())
       return std::unexpected(std::string("it needs the program ") + name +
@@ -51,7 +51,7 @@ std::expected<TrialPrograms, std::string> TrialPrograms::start(const std::string
                              "_*.deb), or join a server on another computer with `tandem-client join`");
   std::vector<std::string> words{server_path, "run", scene, "--listen", "127.0.0.1:0", "--quiet"};
   if (duration) words.insert(words.end(), {"--duration", format("%g", *duration)});
-  auto server = ChildProgram::start("the server", words);
+  auto server = io::ChildProgram::start("the server", words);
   if (!server) return std::unexpected(server.error());
   const auto address = server->wait_for_line("listening on ", kServerStarts, interrupt);
   if (!address) {
@@ -59,13 +59,13 @@ std::expected<TrialPrograms, std::string> TrialPrograms::start(const std::string
     return std::unexpected("the server did not start" +
                            (server->last_output().empty() ? "" : ": " + server->last_output()));
   }
-  std::vector<ChildProgram> programs;
+  std::vector<io::ChildProgram> programs;
   programs.push_back(std::move(*server));
   TrialPrograms trial(std::move(programs), *address);
   for (const std::string& partner : partners) {
-    auto child =
-        ChildProgram::start("the simulated " + partner, {client_path, "join", "--server", *address, "--seat", partner,
-                                                         "--device", "sim", "--quiet", "--reconnect-timeout", "0"});
+    auto child = io::ChildProgram::start(
+        "the simulated " + partner, {client_path, "join", "--server", *address, "--seat", partner, "--device", "sim",
+                                     "--quiet", "--reconnect-timeout", "0"});
     if (!child) return std::unexpected(child.error());
     trial.children_.push_back(std::move(*child));
   }
@@ -73,7 +73,7 @@ std::expected<TrialPrograms, std::string> TrialPrograms::start(const std::string
 }
 
 std::string TrialPrograms::failure() {
-  for (ChildProgram& child : children_)
+  for (io::ChildProgram& child : children_)
     if (child.failed())
       return child.name() + " ended by itself" + (child.last_output().empty() ? "" : ": " + child.last_output());
   return "";

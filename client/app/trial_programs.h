@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/app/child_program.h"
+#include "common/io/child_program.h"
 #include "proto/spec/scene_spec.h"
 
 namespace tandem::client {
@@ -31,7 +31,7 @@ class TrialPrograms {
                                                                        const std::vector<std::string>& partners,
                                                                        std::optional<double> duration, int interrupt);
   /// @param programs  the server first, then the partners
-  explicit TrialPrograms(std::vector<ChildProgram> programs, std::string address = {})
+  explicit TrialPrograms(std::vector<io::ChildProgram> programs, std::string address = {})
       : children_(std::move(programs)), address_(std::move(address)) {}
   TrialPrograms(TrialPrograms&&) noexcept = default;
   TrialPrograms& operator=(TrialPrograms&&) = delete;
@@ -47,7 +47,7 @@ class TrialPrograms {
   }
 
  private:
-  std::vector<ChildProgram> children_;  ///< the server, then the partners
+  std::vector<io::ChildProgram> children_;  ///< the server, then the partners
   std::string address_;
 };
 

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <optional>
 
-#include "client/app/child_program.h"
 #include "client/app/commands/client_commands.h"
 #include "client/app/commands/connection_options.h"
 #include "client/app/device_list.h"
@@ -16,6 +15,7 @@
 #include "client/app/interruptible_wait.h"
 #include "client/app/motor_confirmation.h"
 #include "client/diagnostics/device_diagnostics.h"
+#include "common/io/child_program.h"
 #include "common/io/clock.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
@@ -217,7 +217,7 @@ int install_rules(const std::string& root) {
   if (problem.empty()) problem = file.close();
   if (!problem.empty()) {
     // With its folder, because sudo searches only the folders of its secure_path.
-    const std::string advice = "Run it as root: sudo " + program_path("tandem-client") + " doctor --install-udev\n";
+    const std::string advice = "Run it as root: sudo " + io::program_path("tandem-client") + " doctor --install-udev\n";
     io::print_formatted(stderr, "tandem-client doctor: %s\n%sIt would contain:\n", problem.c_str(),
                         root.empty() && geteuid() != 0 ? advice.c_str() : "");
     std::fputs(rules.c_str(), stderr);  // byte for byte, not wrapped

@@ -23,8 +23,8 @@ class EndLog {
   ~EndLog() { std::filesystem::remove(path_); }
 
   /// Starts a child that runs until SIGTERM.
-  [[nodiscard]] ChildProgram child(const std::string& name) const {
-    auto child = ChildProgram::start(
+  [[nodiscard]] io::ChildProgram child(const std::string& name) const {
+    auto child = io::ChildProgram::start(
         name, {"/bin/sh", "-c",
                "trap 'echo " + name + " >> " + path_ + "; exit 0' TERM; echo ready; while :; do sleep 0.01; done"});
     EXPECT_TRUE(child) << child.error();
@@ -45,7 +45,7 @@ TEST(TrySession, EndsThePartnersBeforeTheServerHoweverItEnds) {
   for (const bool stops : {true, false}) {
     const EndLog ends;
     {
-      std::vector<ChildProgram> programs;
+      std::vector<io::ChildProgram> programs;
       for (const char* name : {"server", "trainer", "trainee"}) programs.push_back(ends.child(name));
       TrySession trial{false, true, {"trainer", "trainee"}, TrialPrograms(std::move(programs))};
       EXPECT_EQ(trial.leave_reason(), "");
@@ -67,9 +67,9 @@ TEST(TrySession, ExtendsAShortSessionBeyondTheTutorial) {
 }
 
 TEST(TrySession, LeavesWhenAChildFailsAndNamesIt) {
-  auto child = ChildProgram::start("the simulated trainer", {"/bin/sh", "-c", "echo no seat >&2; exit 3"});
+  auto child = io::ChildProgram::start("the simulated trainer", {"/bin/sh", "-c", "echo no seat >&2; exit 3"});
   ASSERT_TRUE(child) << child.error();
-  std::vector<ChildProgram> programs;
+  std::vector<io::ChildProgram> programs;
   programs.push_back(std::move(*child));
   TrySession trial{false, true, {}, TrialPrograms(std::move(programs))};
   EXPECT_EQ(trial.failure(), "");

@@ -1,4 +1,4 @@
-#include "client/app/child_program.h"
+#include "common/io/child_program.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -18,7 +18,7 @@
 
 #include "common/io/clock.h"
 
-namespace tandem::client {
+namespace tandem::io {
 namespace {
 
 using namespace std::chrono_literals;
@@ -54,9 +54,9 @@ std::expected<ChildProgram, std::string> ChildProgram::start(std::string name,
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return trouble("pipe");
   ChildProgram child;
-  child.out_ = io::Fd{pipe[0]};
-  const io::Fd out{pipe[1]};
-  child.err_ = io::Fd{::memfd_create("said", MFD_CLOEXEC)};
+  child.out_ = Fd{pipe[0]};
+  const Fd out{pipe[1]};
+  child.err_ = Fd{::memfd_create("said", MFD_CLOEXEC)};
   if (!child.err_.open()) return trouble("memfd_create");
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
@@ -93,12 +93,12 @@ ChildProgram& ChildProgram::operator=(ChildProgram&& other) noexcept {
 ChildProgram::~ChildProgram() { stop(); }
 
 std::optional<std::string> ChildProgram::wait_for_line(std::string_view mark, Duration limit, int interrupt) {
-  const Time until = io::monotonic_now() + limit;
+  const Time until = monotonic_now() + limit;
   while (true) {
     std::istringstream lines(said_);
     for (std::string line; std::getline(lines, line) && !lines.eof();)
       if (line.starts_with(mark)) return line.substr(mark.size());
-    const Duration left = until - io::monotonic_now();
+    const Duration left = until - monotonic_now();
     if (left <= Duration::zero()) return std::nullopt;
     pollfd files[] = {{out_.get(), POLLIN, 0}, {interrupt, POLLIN, 0}};
     if (::poll(files, 2, static_cast<int>(left / 1ms) + 1) < 0 && errno != EINTR) return std::nullopt;
@@ -131,9 +131,9 @@ std::string ChildProgram::last_output() const {
 void ChildProgram::stop() noexcept {
   if (!running()) return;
   ::kill(pid_, SIGTERM);
-  const Time until = io::monotonic_now() + kGentleEnd;
+  const Time until = monotonic_now() + kGentleEnd;
   while (running()) {
-    if (io::monotonic_now() > until) ::kill(pid_, SIGKILL);
+    if (monotonic_now() > until) ::kill(pid_, SIGKILL);
     ::poll(nullptr, 0, static_cast<int>(kLook / 1ms));
   }
 }
@@ -154,4 +154,4 @@ std::string program_path(const std::string& name) {
   return "";
 }
 
-}  // namespace tandem::client
+}  // namespace tandem::io

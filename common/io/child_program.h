@@ -10,7 +10,7 @@
 #include "common/base/time.h"
 #include "common/io/fd.h"
 
-namespace tandem::client {
+namespace tandem::io {
 
 /// A child process of this program. It runs in its own process group, so that Ctrl-C in the terminal reaches only the
 /// parent. The kernel sends it SIGTERM when the parent dies for any reason. Its standard input is empty and its output
@@ -49,11 +49,11 @@ class ChildProgram {
   std::string name_;
   pid_t pid_ = 0;   ///< 0: ended and reaped
   int status_ = 0;  ///< status from waitpid
-  io::Fd out_, err_;
+  Fd out_, err_;
   std::string said_;
 };
 
 /// Returns the path of a program in the directory of this one or in $PATH; empty if there is none.
 [[nodiscard]] std::string program_path(const std::string& name);
 
-}  // namespace tandem::client
+}  // namespace tandem::io
