@@ -21,7 +21,8 @@ constexpr std::array<std::pair<Text, HandModel>, 7> kHands{{{"none", HandModel::
                                                             {"letting_go", HandModel::kLettingGo},
                                                             {"tremor", HandModel::kTremor},
                                                             {"keyboard", HandModel::kKeyboard}}};
-constexpr std::array<Text, 9> kOptions{"hand", "keyboard", "motion", "model", "columns", "rec", "scale", "axes", "end"};
+constexpr std::array<Text, 10> kOptions{"hand", "keyboard", "motion", "model", "columns",
+                                        "rec",  "scale",    "axes",   "end",   "middle"};
 
 /// Returns the error `WHAT 'word' is unknown; ...` with the nearest word and all valid ones.
 template <class Words>

@@ -28,7 +28,7 @@ struct LiveSim {
 ///   sim                                        the seat's own device and hand
 ///   sim:hand=NAME                              none leader relaxed resting letting_go tremor keyboard
 ///   sim:keyboard                               the same as hand=keyboard
-///   sim:motion=FILE.csv[,columns=P][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop]
+///   sim:motion=FILE.csv[,columns=P][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop][,middle=zero|keep]
 ///   sim:model=touch|linear[,...]               instead of the seat's device model
 ///
 /// A hand other than the scene's uses the impedance of its own model. A hand moved by a user (keyboard, recording) also

@@ -147,8 +147,12 @@ std::expected<void, std::string> set_motion_option(MotionOptions& options, Text 
   } else if (name == "end") {
     if (value != "hold" && value != "loop") return std::unexpected(whole + ": hold or loop");
     options.loop = value == "loop";
+  } else if (name == "middle") {
+    if (value != "zero" && value != "keep") return std::unexpected(whole + ": zero or keep");
+    options.keep_middle = value == "keep";
   } else {
-    return std::unexpected(quoted(name) + " is no option of a recorded hand; valid: columns, rec, scale, axes, end");
+    return std::unexpected(quoted(name) +
+                           " is no option of a recorded hand; valid: columns, rec, scale, axes, end, middle");
   }
   return {};
 }
@@ -169,7 +173,7 @@ std::expected<MotionOptions, std::string> parse_motion_options(Text text) {
     }
     const auto equals = part.find('=');
     if (equals == Text::npos)
-      return std::unexpected(quoted(part) + ": name=value is needed; valid: columns, rec, scale, axes, end");
+      return std::unexpected(quoted(part) + ": name=value is needed; valid: columns, rec, scale, axes, end, middle");
     const Text name = part.substr(0, equals);
     if (std::find(seen.begin(), seen.end(), name) != seen.end())
       return std::unexpected(quoted(name) + " is given twice");
@@ -306,7 +310,7 @@ void RecordedMotion::fit(const MotionOptions& options) {
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  middle_ = 0.5 * (low + high);
+  middle_ = options.keep_middle ? Vec3::Zero() : Vec3(0.5 * (low + high));
   double farthest = 0;
   for (const Vec3& x : x_) farthest = std::max(farthest, (x - middle_).norm());
   scale_ = options.scale ? *options.scale : farthest > kReach ? kReach / farthest : 1.0;

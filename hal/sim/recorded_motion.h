@@ -12,7 +12,8 @@
 
 namespace tandem::hal::sim {
 
-/// Options of a recorded motion: `FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop]`
+/// Options of a recorded motion:
+/// `FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop][,middle=zero|keep]`
 struct MotionOptions {
   struct Axis {
     int from = 0;
@@ -24,10 +25,11 @@ struct MotionOptions {
   std::optional<double> scale;                               ///< empty: auto
   std::array<Axis, 3> axes{{{0, 1.0}, {1, 1.0}, {2, 1.0}}};  ///< device axis i is `sign` times recorded axis `from`
   bool loop = false;
+  bool keep_middle = false;  ///< false: the middle of the motion is moved to zero, the working pose of a device
 };
 
 /// Names of the motion options, for suggestions.
-inline constexpr std::array<std::string_view, 5> kMotionOptionNames{"columns", "rec", "scale", "axes", "end"};
+inline constexpr std::array<std::string_view, 6> kMotionOptionNames{"columns", "rec", "scale", "axes", "end", "middle"};
 
 /// Sets one `name=value` of a motion option text. The error names the value and the allowed values.
 [[nodiscard]] std::expected<void, std::string> set_motion_option(MotionOptions& options, std::string_view name,
@@ -35,8 +37,8 @@ inline constexpr std::array<std::string_view, 5> kMotionOptionNames{"columns", "
 /// Parses the whole option text. The error names the option, its value and the allowed values.
 [[nodiscard]] std::expected<MotionOptions, std::string> parse_motion_options(std::string_view text);
 
-/// A recorded motion, centred and scaled. It is interpolated by cubic Hermite splines with three-point tangents, exact
-/// for parabolas also with uneven steps. Immutable.
+/// A recorded motion, scaled, and centred unless `keep_middle` is set. It is interpolated by cubic Hermite splines with
+/// three-point tangents, exact for parabolas also with uneven steps. Immutable.
 class RecordedMotion {
  public:
   /// Last interval used, so that sequential playback costs O(1). One per player.

@@ -128,7 +128,7 @@ void add_join_command(const io::Command& root) {
       "  sim:keyboard                you move the hand: arrow keys and PgUp/PgDn\n"
       "  sim:motion=FILE.csv         a recorded motion moves the hand; behind it, without spaces, also ,columns=PREFIX "
       ",rec=N\n"
-      "                              ,scale=auto|S ,axes=+x+y+z ,end=hold|loop\n" +
+      "                              ,scale=auto|S ,axes=+x+y+z ,end=hold|loop ,middle=zero|keep\n" +
       hardware +
       "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
       "serial=)\n"

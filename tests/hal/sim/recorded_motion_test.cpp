@@ -42,6 +42,8 @@ TEST(MotionOptions, ReadAllOptions) {
   EXPECT_EQ(o.axes[0].sign, -1.0);
   EXPECT_EQ(o.axes[1].from, 0);
   EXPECT_TRUE(o.loop);
+  EXPECT_FALSE(o.keep_middle);
+  EXPECT_TRUE(options("f.csv,middle=keep").keep_middle);
   EXPECT_FALSE(options("f.csv,scale=auto").scale.has_value());
 }
 
@@ -55,6 +57,7 @@ TEST(MotionOptions, ReportMistakes) {
       {"f.csv,colums=p", "valid: columns"},
       {"f.csv,rec=a", "rec=a"},
       {"f.csv,scale=0", "scale=0"},
+      {"f.csv,middle=no", "middle=no: zero or keep"},
       {"f.csv,scale=nan", "scale="},
       {"f.csv,axes=+x+x+z", "axes="},
       {"f.csv,axes=xyz", "axes=xyz"},
