@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   tandem::server::add_sessions_command(root);
   tandem::server::add_stop_command(root);
   tandem::server::add_scenes_command(root);
+  tandem::server::add_replay_live_command(root);
+  tandem::server::add_repair_command(root);
   tandem::server::add_init_command(root);
   tandem::server::add_enroll_command(root);
   tandem::server::add_ticket_command(root);

@@ -1,4 +1,6 @@
 #include <cstdio>
+#include <filesystem>
+#include <utility>
 
 #include "common/io/command_line.h"
 #include "common/io/output_file.h"
@@ -16,9 +18,17 @@ namespace {
 
 /// Arguments as given. Numbers stay text until `parse_options`, so that all errors are reported together.
 struct RunArguments {
-  std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace, metrics, log = "text";
-  bool check = false, quiet = false, fresh = false;
+  std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace, record, metrics,
+                     log = "text";
+  bool check = false, quiet = false, fresh = false, pseudonyms = false, on_order = false;
 };
+
+/// A recording never replaces a file, and a user who names one expects it there.
+std::string record_problem(const std::string& target) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(target, error)) return "exists already; choose another name";
+  return recording_target_problem(target);
+}
 
 /// Converts the arguments; adds all errors.
 ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& errors) {
@@ -51,7 +61,7 @@ ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& erro
     errors.add("--log", "\"" + arguments.log + "\" must be text or json");
   }
   if (const double s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s"); s > 0)
-    session.scene.duration = s;
+    session.scene_duration = std::exchange(session.scene.duration, s);
   plan.start_timeout_s = errors.optional_number("--start-timeout", arguments.wait, 0.1, 3e6, "s");
   std::string seed = arguments.seed;
   const std::string problem = io::whole_number()(seed);
@@ -59,6 +69,12 @@ ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& erro
   if (problem.empty()) session.seed = std::stoull(seed);
   errors.output_file("--json", session.json);
   if (!session.trace.empty()) errors.add("--trace", io::OutputFile::problem(session.trace));
+  session.record = {
+      .target = arguments.record, .pseudonyms = arguments.pseudonyms, .from_start = !arguments.on_order, .limits = {}};
+  if (!arguments.record.empty()) errors.add("--record " + arguments.record, record_problem(arguments.record));
+  if (arguments.record.empty() && (arguments.pseudonyms || arguments.on_order))
+    errors.add(arguments.pseudonyms ? "--pseudonyms" : "--record-on-order", "needs --record");
+  plan.record = session.record;
   if (!session.trace.empty() && session.trace == session.json) errors.add("--trace", "is the same file as --json");
   return plan;
 }
@@ -111,6 +127,15 @@ void add_run_command(const io::Command& root) {
       .value_name("FILE|-");
   command.add_option("--trace", arguments.trace, "writes one row per tick of the session").value_name("FILE.csv");
   command
+      .add_option("--record", arguments.record,
+                  "records the session: an MCAP file for Foxglove, Rerun, PlotJuggler and tandem-netsim. A folder gets "
+                  "one with a name of its own. All participants see that a recording runs")
+      .value_name("FILE.mcap|DIR");
+  command.add_flag("--pseudonyms", arguments.pseudonyms,
+                   "the recording has P1, P2 ... instead of names of participants and workstations");
+  command.add_flag("--record-on-order", arguments.on_order,
+                   "records only from `tandem-client control record start` on, or the button of the console");
+  command
       .add_option("--metrics", arguments.metrics,
                   "serves /metrics (Prometheus), /healthz and /readyz at this address over HTTP; default: off")
       .value_name("HOST:PORT");
@@ -137,6 +162,7 @@ void add_run_command(const io::Command& root) {
       "Examples\n"
       "  tandem-server run free_motion\n"
       "  tandem-server run contact --listen 127.0.0.1:7000 --json report.json --trace contact.csv\n"
+      "  tandem-server run lesson --record lesson.mcap --pseudonyms\n"
       "  tandem-server run mine.textproto --check");
 }
 

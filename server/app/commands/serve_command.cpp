@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "common/auth/enrolment.h"
 #include "common/io/command_line.h"
@@ -44,6 +45,18 @@ std::string folder_error(const std::string& path) {
   return ::access(path.c_str(), W_OK | X_OK) == 0 ? "" : "is not writable for this user";
 }
 
+RecordingOptions recording_options_from(const ServerConfigSpec& config, const LocatedText& record) {
+  const RecordingSpec& in = config.recording;
+  constexpr double kMib = 1 << 20;
+  return {.target = path_beside_config(config, record.text),
+          .pseudonyms = in.pseudonyms,
+          .from_start = in.from_start,
+          .limits = {.file_bytes = static_cast<std::uint64_t>(in.file_mib * kMib),
+                     .file_s = 60 * in.file_minutes,
+                     .total_bytes = static_cast<std::uint64_t>(in.total_mib * kMib),
+                     .bytes_per_s = in.mib_per_min * kMib / 60}};
+}
+
 SessionOptions session_options_from(const ServerConfigSpec& config, const ConfiguredSessionSpec& in,
                                     InputErrors& errors) {
   SessionOptions out{.name = in.name,
@@ -61,7 +74,12 @@ SessionOptions session_options_from(const ServerConfigSpec& config, const Config
     errors.push_back(in.placed_name.error(config.file,
                                           "has the form of a session code (10 letters and digits), so no client could "
                                           "join by this name; choose a shorter one"));
-  if (in.duration_s > 0) out.scene.duration = in.duration_s;
+  if (in.duration_s > 0) out.scene_duration = std::exchange(out.scene.duration, in.duration_s);
+  const LocatedText& record = in.record.text.empty() ? config.record : in.record;
+  out.record = recording_options_from(config, record);
+  if (!in.record.text.empty())
+    if (const std::string problem = recording_target_problem(out.record.target); !problem.empty())
+      errors.push_back(in.record.error(config.file, problem));
   return out;
 }
 
@@ -76,6 +94,7 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
       .created_max = limits.created_sessions,
       .scenes = path_beside_config(config, config.scenes.text),
       .reports = path_beside_config(config, config.reports.text),
+      .record = recording_options_from(config, config.record),
       .sessions_resume = true};
   ControlOptions& control = plan.control;
   control.notes = plan.reports;
@@ -101,6 +120,9 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
   if (!config.reports.text.empty())
     if (const std::string problem = folder_error(path_beside_config(config, config.reports.text)); !problem.empty())
       errors.push_back(config.reports.error(config.file, problem));
+  if (!config.record.text.empty())
+    if (const std::string problem = folder_error(path_beside_config(config, config.record.text)); !problem.empty())
+      errors.push_back(config.record.error(config.file, problem));
   std::error_code error;
   if (!plan.scenes.empty() && !fs::is_directory(plan.scenes, error))
     errors.push_back(config.scenes.error(config.file, "is not a folder"));

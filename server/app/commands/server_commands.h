@@ -7,11 +7,13 @@ class Command;
 /// The commands of tandem-server. Each function adds one to the program.
 namespace tandem::server {
 
-void add_run_command(const io::Command& root);       ///< hosts one session
-void add_serve_command(const io::Command& root);     ///< hosts all sessions of a configuration
-void add_sessions_command(const io::Command& root);  ///< lists the sessions of the running server
-void add_stop_command(const io::Command& root);      ///< asks the running server to end
-void add_scenes_command(const io::Command& root);    ///< lists or prints the shipped scenes
+void add_run_command(const io::Command& root);          ///< hosts one session
+void add_serve_command(const io::Command& root);        ///< hosts all sessions of a configuration
+void add_sessions_command(const io::Command& root);     ///< lists the sessions of the running server
+void add_stop_command(const io::Command& root);         ///< asks the running server to end
+void add_scenes_command(const io::Command& root);       ///< lists or prints the shipped scenes
+void add_replay_live_command(const io::Command& root);  ///< serves a recorded lesson live
+void add_repair_command(const io::Command& root);       ///< closes recordings that were cut
 
 // Administration of the state folder: keys, workstations, codes and tickets.
 void add_init_command(const io::Command& root);    ///< creates the keys, or replaces the one that signs tickets

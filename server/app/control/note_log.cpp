@@ -8,6 +8,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "common/auth/io/server_keystore.h"
 #include "common/base/format.h"
 #include "common/io/fd.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "server/app/control/session_commands.h"
+#include "server/app/control/session_note.h"
 
 namespace tandem::server {
 

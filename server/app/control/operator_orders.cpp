@@ -4,6 +4,7 @@
 #include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
 #include "common/base/format.h"
+#include "common/base/sanitize.h"
 #include "common/io/log.h"
 #include "server/app/control/session_commands.h"
 
@@ -57,6 +58,12 @@ void SessionCommands::order(rpc::Body command, const std::string& who, const std
       if (auto* const created = std::get_if<rpc::SessionCreated>(&reply)) complete(*created, kept, who);
       answer(std::move(reply));
     };
+  } else if (const auto* const record = std::get_if<rpc::RecordSession>(&command)) {
+    order.body = *record;
+    order.answer = [this, wanted = *record, who, answer](rpc::Body reply) {
+      if (std::holds_alternative<rpc::Ok>(reply)) conclude_recording(wanted, who);
+      answer(std::move(reply));
+    };
   } else {
     order.body = std::move(std::get<rpc::EndSession>(command));
     const rpc::EndSession& end = std::get<rpc::EndSession>(order.body);
@@ -79,6 +86,18 @@ void SessionCommands::order(rpc::Body command, const std::string& who, const std
   answer(ErrorReply{ErrorCode::kNotNow,
                     format("%zu orders about sessions wait already; repeat it when they are done", SessionOrders::kMax),
                     1});
+}
+
+void SessionCommands::conclude_recording(const rpc::RecordSession& order, const std::string& who) {
+  SessionEntry* const entry = registry_.find(order.session_id);
+  if (entry == nullptr) return;
+  const std::string& session = entry->registration.name;
+  const std::string text = std::string("the recording of the session ") + (order.on ? "STARTS" : "ENDS");
+  entry->notices.add(text + "; ordered by " + who);
+  io::log_event(io::Level::kInfo,
+                {.event = order.on ? "recording_started" : "recording_ended", .session = session, .text = who});
+  audit_.audit(auth::wall_seconds(), order.on ? "record" : "record_end", session, who);
+  if (on_message_) on_message_(text + ", ordered by " + who);
 }
 
 void SessionCommands::complete(rpc::SessionCreated& created, const rpc::CreateSession& wanted, const std::string& who) {

@@ -30,6 +30,17 @@ const rpc::Id* session_of(const rpc::Body& command) {
       command);
 }
 
+/// The recording of the session by the server, and by connected recorders.
+std::optional<rpc::StatusRecording> recording_of(const SessionEntry& entry) {
+  auto recording = entry.registration.recording ? entry.registration.recording->status() : std::nullopt;
+  const auto recorders = std::ranges::count_if(
+      entry.watchers.slots(), [](const WatcherSlots::Slot& slot) { return slot.owner && slot.recorder; });
+  if (recorders == 0) return recording;
+  if (!recording) recording.emplace();
+  recording->by_recorders = static_cast<std::uint32_t>(recorders);
+  return recording;
+}
+
 std::uint8_t seat_of(const rpc::Welcome& joined) noexcept {
   return joined.seat.empty() ? AuditEvent::kNoSeat : static_cast<std::uint8_t>(place_of(joined.server_cid) - 1);
 }
@@ -51,6 +62,8 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
   if (std::holds_alternative<rpc::CreateSession>(command) || std::holds_alternative<rpc::EndSession>(command))
     return order(std::move(command), who, answer);
   const rpc::Id* const id = session_of(command);
+  if (std::holds_alternative<rpc::RecordSession>(command) && *id == joined.session_id)
+    return order(std::move(command), who, answer);
   if (id == nullptr || *id != joined.session_id)
     return answer(
         ErrorReply{ErrorCode::kNotAllowed,
@@ -89,13 +102,15 @@ rpc::Body SessionCommands::conclude(SessionEntry& entry, const rpc::Welcome& joi
     if (const auto owner = entry.seats[outcome.target_seat].remove_owner("removed by " + by))
       entry.removed.add(owner->spki);
   }
-  if (const auto* note = std::get_if<rpc::Note>(&command); done && note != nullptr && on_note_)
-    if (const std::string problem = on_note_({joined.session_id, joined.session_name, workstation, joined.seat,
-                                              joined.role, outcome.tick, outcome.time, note->kind, note->json});
-        !problem.empty()) {
+  if (const auto* note = std::get_if<rpc::Note>(&command); done && note != nullptr) {
+    const SessionNote written{joined.session_id, joined.session_name, workstation, joined.seat, joined.role,
+                              outcome.tick,      outcome.time,        note->kind,  note->json};
+    if (const std::string problem = on_note_ ? on_note_(written) : std::string(); !problem.empty()) {
       io::log_event(io::Level::kError, {.event = "error", .session = joined.session_name, .text = problem});
       return ErrorReply{ErrorCode::kInternal, "the server cannot store the note; its log has the cause", 0};
     }
+    if (entry.registration.recording) entry.registration.recording->add_note(written);
+  }
   if (std::holds_alternative<rpc::StatusRequest>(command) && done) return status_of(entry, joined, outcome);
   if (!std::holds_alternative<rpc::StatusRequest>(command)) record(entry, who, executed.command, outcome);
   rpc::Body reply = command_reply(command, joined.role, outcome, entry.session().seat_catalogue());
@@ -145,6 +160,7 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
   for (std::size_t j = 0; j < outcome.tools; ++j)
     status.tools.push_back(
         {scene.tools[j].name, {outcome.alpha[j].begin(), outcome.alpha[j].begin() + outcome.masters}});
+  status.recording = recording_of(entry);
   if (outcome.state == wire::SessionState::kHeld)
     status.held = truncate_utf8(held_reason_text(entry.session().status(), scene), rpc::kTextMax);
   if (status.stop)

@@ -7,21 +7,11 @@
 #include <utility>
 
 #include "common/auth/io/server_keystore.h"
+#include "server/app/control/session_note.h"
 #include "server/app/control/session_orders.h"
 #include "server/app/control/session_registry.h"
 
 namespace tandem::server {
-
-/// A mark or sheet that a participant wrote, with its author and time. Recordings will store it.
-struct SessionNote {
-  rpc::Id session_id{};
-  std::string session, workstation, seat;  ///< names; seat empty: a console
-  AccessRole role = AccessRole::kObserver;
-  std::uint32_t tick = 0;
-  double time_s = 0;  ///< session clock [s]
-  rpc::NoteKind kind = rpc::NoteKind::kMark;
-  std::string json;
-};
 
 /// Executes the commands of joined control connections: drain here, orders about whole sessions on the thread that
 /// takes them from SessionOrders, all others on the session's shard. It replies to
@@ -34,7 +24,8 @@ class SessionCommands {
   SessionCommands(SessionRegistry& registry, auth::ServerKeystore& audit,
                   std::function<void(const std::string&)> on_message = {});
 
-  /// Sets the queue of orders to create and end sessions, before any command. Without it, such orders are rejected.
+  /// Sets the queue of orders to create, end and record sessions, before any command. Without it, such orders are
+  /// rejected.
   void set_orders(SessionOrders& orders) noexcept { orders_ = &orders; }
   /// Sets the receiver of marks and sheets, called on the control plane's thread. It returns why a note could not be
   /// stored; then the note is rejected.
@@ -49,10 +40,12 @@ class SessionCommands {
   void disconnect_revoked();
 
  private:
-  /// Queues an order to create or end a session.
+  /// Queues an order to create, end or record a session.
   void order(rpc::Body command, const std::string& who, const std::function<void(rpc::Body)>& answer);
   /// Adds the tickets of the named workstations to the reply of a created session, and audits both.
   void complete(rpc::SessionCreated& created, const rpc::CreateSession& wanted, const std::string& who);
+  /// Tells participants, operator and audit log of a recording that was started or ended by an order.
+  void conclude_recording(const rpc::RecordSession& order, const std::string& who);
   [[nodiscard]] std::optional<rpc::ErrorReply> holder_problem(const rpc::CreateSession& wanted) const;
   /// Replies to an executed command.
   /// @param who   workstation, role and seat of the client

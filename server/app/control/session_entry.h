@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "server/app/control/status_notices.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/shard.h"
+#include "server/app/recording/recording_desk.h"
 
 namespace tandem::server {
 
@@ -29,7 +31,8 @@ struct SessionRegistration {
   const SessionSnapshot* snapshot = nullptr;  ///< source of the restore, read when it is added; null: a new session
   /// Receives the full list of removed workstations whenever one is added; null: the list is not stored.
   std::function<void(const std::vector<RemovedWorkstations::Key>&)> on_removed{};
-  Time resume_until{};  ///< former participants can resume until then; only with `snapshot`
+  std::shared_ptr<RecordingDesk> recording{};  ///< tells of the recording and takes notes for it; null: none
+  Time resume_until{};                         ///< former participants can resume until then; only with `snapshot`
 };
 
 /// A registered session, and what the control plane alone knows about its clients.

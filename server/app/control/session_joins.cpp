@@ -306,13 +306,15 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
     params.tick = catalogue.tick();
     joins.what = ShardRequest::What::kAdmitPeer;
     joins.connection.link = std::make_unique<transport::SecureChannel>(params);
-    const auto occupy = [by = request.workstation, cid = welcome.server_cid](auto& slots, const ShardRequest& asked) {
+    const bool recorder = is_watcher(welcome) && welcome.role == AccessRole::kRecorder;
+    const auto occupy = [by = request.workstation, cid = welcome.server_cid, recorder](auto& slots,
+                                                                                       const ShardRequest& asked) {
       if (asked.result != JoinResult::kAccepted) return slots.cancel_join();
-      slots.admit(asked.place, by, cid);
+      slots.admit(asked.place, by, cid, recorder);
     };
     if (is_watcher(welcome)) {
       joins.peers = ShardRequest::Peers::kWatchers;
-      joins.every_tick = welcome.role == AccessRole::kRecorder;
+      joins.every_tick = recorder;
       joins.done = [this, entry, occupy, welcome](ShardRequest& asked) {
         occupy(entry->watchers, asked);
         if (!entry->consoles.contains(welcome.resume_secret)) stop_watching(*entry, welcome);  // it has gone already
@@ -330,6 +332,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
              .same_owner = true,  // the query succeeded, and the seat has been reserved since
              .connection = catalogue.make_connection(seat, params, request.hello.device),
              .done = [&reservation](ShardRequest&) { reservation.end_join(); }};
+    if (entry->registration.recording) entry->registration.recording->set_person(seat, request.workstation.name);
     joins.connection.resume = secret;
     joins.connection.force_scale = reservation.force_scale();
     if (std::string softer = catalogue.softened_spring_text(seat, request.hello.device); !softer.empty())

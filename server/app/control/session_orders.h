@@ -13,9 +13,9 @@
 
 namespace tandem::server {
 
-/// Order of an operator to create or end a session.
+/// Order of an operator to create or end a session, or of an operator or instructor to record it.
 struct SessionOrder {
-  std::variant<rpc::CreateSession, rpc::EndSession> body{};
+  std::variant<rpc::CreateSession, rpc::EndSession, rpc::RecordSession> body{};
   std::string who{};                        ///< workstation and role of the operator
   std::function<void(rpc::Body)> answer{};  ///< called once, on the control plane's thread
 };

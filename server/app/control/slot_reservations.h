@@ -27,6 +27,7 @@ class SlotReservations {
   struct Slot {
     std::optional<WorkstationRow> owner{};  ///< last admitted peer; nullopt: none, or removed
     std::uint32_t cid = 0;                  ///< connection id of its datagrams
+    bool recorder = false;                  ///< it gets every tick, to record the session
   };
 
   /// @return false if as many joins as slots are in progress
@@ -39,9 +40,9 @@ class SlotReservations {
   [[nodiscard]] bool enough(std::size_t free_slots) const noexcept { return free_slots >= joining_; }
   void cancel_join() noexcept { --joining_; }
   /// The session has admitted the peer to this slot.
-  void admit(std::size_t slot, const WorkstationRow& owner, std::uint32_t cid) {
+  void admit(std::size_t slot, const WorkstationRow& owner, std::uint32_t cid, bool recorder = false) {
     --joining_;
-    slots_[slot] = {owner, cid};
+    slots_[slot] = {owner, cid, recorder};
   }
 
   /// Place in the connection id of the next peer. The places are assigned in turn.

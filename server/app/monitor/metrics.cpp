@@ -102,6 +102,14 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
     page.count("tandem_audit_events_lost_total",
                "Events of the session lost because its queue was full: they are not in the audit log",
                {{"session", name}}, static_cast<double>(status.audit_dropped));
+    const auto recording = entry.registration.recording ? entry.registration.recording->status() : std::nullopt;
+    page.gauge("tandem_recording", "1: the server records the session", {{"session", name}}, recording ? 1 : 0);
+    if (recording) {
+      page.count("tandem_recording_dropped_ticks_total", "Ticks that the recording of the session lost",
+                 {{"session", name}}, static_cast<double>(recording->dropped));
+      page.gauge("tandem_recording_failing", "1: the recording loses ticks now", {{"session", name}},
+                 recording->trouble.empty() ? 0 : 1);
+    }
     page.gauge("tandem_session_broken", "1: an invariant that the session's law promises was broken",
                {{"session", name}}, static_cast<double>(status.violations));
   }

@@ -150,6 +150,7 @@ std::vector<io::ScreenItem> screen_items(std::span<const SessionScreenEntry> ses
     if (!all && row + 1 >= rows) break;
     std::vector<io::ScreenItem> more =
         status_items(s.status, *s.scene, sessions.size() == 1 ? "" : s.name, row, s.reach);
+    if (!s.recording.empty()) more.insert(more.begin() + 1, {s.recording, "", row});
     for (io::ScreenItem& item : more) {
       if (each == 1) item.row = row;
       item.stays = sessions.size() > 1;  // keeps each session's text in its own line

@@ -73,7 +73,8 @@ struct SessionScreenEntry {
   std::string name;
   SessionStatus status;
   const SceneSpec* scene = nullptr;
-  std::string reach{};  ///< as for `status_items`
+  std::string reach{};      ///< as for `status_items`
+  std::string recording{};  ///< words about its recording; empty: none
 };
 /// Screen of a server: two lines per session, or one if `rows` are too few, then the number of sessions not shown.
 /// @param drain  shown first; empty: the server does not drain

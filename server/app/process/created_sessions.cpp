@@ -15,6 +15,8 @@ using rpc::ErrorReply;
 void SessionTable::execute(SessionOrder order) {
   if (const auto* const wanted = std::get_if<rpc::CreateSession>(&order.body)) {
     reply(order, create_session(*wanted));
+  } else if (const auto* const record = std::get_if<rpc::RecordSession>(&order.body)) {
+    reply(order, record_session(*record));
   } else {
     end_session(std::move(order));
   }
@@ -72,6 +74,7 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
   auto checked = created_session_options(wanted, options_.scenes);
   if (!checked) return std::move(checked.error());
   checked->reports = options_.reports;
+  checked->record = options_.record;
   const auto options = std::make_shared<const SessionOptions>(std::move(*checked));
   const auto slot = find_slot(options->scene);
   if (!slot) return slot.error();
@@ -107,6 +110,7 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
   }
   sessions_.push_back(std::move(*opened));
   announce(session);
+  start_recording(session);
   return created;
 }
 

@@ -33,7 +33,8 @@ LiveSession::LiveSession(const SceneSpec& scene, LocalSlaves slaves, std::uint8_
       slot_(slot),
       session_(from == nullptr ? Session(scene, std::move(slaves.devices), slaves.scale)
                                : Session(scene, std::move(slaves.devices), slaves.scale, *from)),
-      records_(&records) {
+      records_(&records),
+      seldom_interval_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / wire::kTelemetryHz))) {
   draw_path_tokens();
 }
 
@@ -46,17 +47,15 @@ void LiveSession::draw_path_tokens() noexcept {
   for (const std::uint64_t token : wanted) tokens.add(token);
 }
 
-void LiveSession::set_recorded(bool on) noexcept {
-  session_.set_telemetry_every_tick(on);
-  record_interval_ = on ? 1 : static_cast<std::uint32_t>(std::ceil(scene_->tick_hz / wire::kTelemetryHz));
-}
-
 SessionStatus LiveSession::status() const { return published_.read(); }
 
 void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
   session_.lifecycle().set_load_state(machine.load_state);
   const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
-  session_.set_record_interval(std::max(record_interval_, seldom ? kRecordIntervalShedding : 1));
+  const bool every_tick = reported_ || recording_.load(std::memory_order_relaxed);
+  session_.set_telemetry_every_tick(every_tick);
+  session_.set_record_interval(std::max(every_tick ? 1 : seldom_interval_, seldom ? kRecordIntervalShedding : 1));
+  if (ticks_ == 0) first_tick_.store(now.time_since_epoch().count(), std::memory_order_release);
   session_.on_tick(now, missed);
   while (const auto event = session_.audit().poll()) {
     audit_.push(*event);
@@ -68,7 +67,7 @@ void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& mach
   if (session_.record().running) {
     if (session_.recorded()) {
       records_->push(session_.record());
-    } else if (record_interval_ == 1) {
+    } else if (every_tick) {
       ++skipped_records_;
     }
   }

@@ -39,18 +39,26 @@ class LiveSession {
 
   /// Sets whether a report or trace is made of the records, before a shard serves the session. Without one, clients
   /// send telemetry at 60 Hz, and as many ticks are recorded.
-  void set_recorded(bool on) noexcept;
+  void set_recorded(bool on) noexcept { reported_ = on; }
 
   // ---- Any thread ----
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
   [[nodiscard]] const SeatCatalogue& seat_catalogue() const noexcept { return session_.seat_catalogue(); }
   [[nodiscard]] std::uint8_t slot() const noexcept { return slot_; }
+  /// Time of the session's first tick, from which its records count; nullopt: it has not ticked.
+  [[nodiscard]] std::optional<Time> first_tick() const noexcept {
+    const std::int64_t ns = first_tick_.load(std::memory_order_acquire);
+    return ns == 0 ? std::nullopt : std::optional(Time{Duration{ns}});
+  }
   /// Recent status, updated every 64 ticks, or every 256 while the shard sheds telemetry.
   [[nodiscard]] SessionStatus status() const;
   /// File descriptor that becomes readable when the session is over.
   [[nodiscard]] int over_fd() const noexcept { return over_event_.get(); }
   /// No shard serves the session any more. All members may be read, and it may be destroyed.
   [[nodiscard]] bool over() const noexcept { return over_.load(std::memory_order_acquire); }
+
+  /// Sets whether a recording is made of the records, from one of the next ticks on; as `set_recorded`.
+  void set_recording(bool on) noexcept { recording_.store(on, std::memory_order_relaxed); }
 
   /// Queue of audit events for one reading thread. If it is full, events are dropped and counted.
   [[nodiscard]] AuditEventQueue& audit() noexcept { return audit_; }
@@ -80,7 +88,10 @@ class LiveSession {
   Violations violations_;
   std::atomic<bool> over_{false};
   io::EventFd over_event_;
-  std::uint32_t record_interval_ = 1;  ///< [ticks], unless the shard sheds load
+  std::uint32_t seldom_interval_;            ///< [ticks] between records that nothing needs
+  bool reported_ = true;                     ///< every tick is needed: for a report or a trace
+  std::atomic<bool> recording_{false};       ///< likewise: for a recording
+  std::atomic<std::int64_t> first_tick_{0};  ///< [ns]; 0: none
   std::uint64_t ticks_ = 0, skipped_records_ = 0;
   SessionStatus status_;
   io::Published<SessionStatus> published_;

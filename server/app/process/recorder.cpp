@@ -1,6 +1,7 @@
 #include "server/app/process/recorder.h"
 
 #include <chrono>
+#include <utility>
 
 namespace tandem::server {
 
@@ -29,10 +30,17 @@ void Recorder::run() {
   flush();
 }
 
+void Recorder::copy_to(std::shared_ptr<TickFeed> recording) {
+  const std::lock_guard lock(lock_);
+  recording_ = std::move(recording);
+}
+
 void Recorder::drain() {
+  const std::lock_guard lock(lock_);
   for (const TickRecord* record = records_->front(); record != nullptr; record = records_->front()) {
     builder_.add(*record);
     csv_.append(*record, rows_);
+    if (recording_) recording_->push(*record);
     records_->pop();
     if (rows_.size() > kRowsMax) flush();
   }

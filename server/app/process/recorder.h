@@ -1,12 +1,15 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 
 #include "common/io/output_file.h"
 #include "common/transport/digest.h"
 #include "server/app/process/shard.h"
+#include "server/app/process/tick_feed.h"
 #include "server/report/report.h"
 #include "server/report/trace_csv.h"
 
@@ -20,6 +23,9 @@ class Recorder {
   Recorder(const SceneSpec& scene, TickQueue& records, io::OutputFile& trace);
   ~Recorder() { finish(); }
 
+  /// Copies every further record to a recording; null: to none. From the thread that made this. Waits while the
+  /// recorder works on its queue.
+  void copy_to(std::shared_ptr<TickFeed> recording);
   /// Processes the rest of the queue and ends the thread. Call it when the session is over.
   void finish();
   /// Call it after `finish`.
@@ -32,6 +38,8 @@ class Recorder {
   void flush();
 
   TickQueue* records_;
+  std::mutex lock_;
+  std::shared_ptr<TickFeed> recording_;
   io::OutputFile* trace_;
   ReportBuilder builder_;
   TraceCsv csv_;

@@ -17,12 +17,15 @@
 #include "common/io/systemd_notify.h"
 #include "server/app/monitor/load_events.h"
 #include "server/app/process/session_table.h"
+#include "server/app/recording/leftover_repair.h"
 
 namespace tandem::server {
 namespace {
 
 constexpr int kPollIntervalMs = 250;
 constexpr Duration kDrainMax = std::chrono::seconds(3);
+constexpr int kRecordingsIntervalMs = 20;
+constexpr Duration kRecordingsMax = std::chrono::seconds(2);
 
 std::vector<double> tick_rates(const ServerOptions& options) {
   std::vector<double> rates;
@@ -54,6 +57,7 @@ class ServerProcess {
     output_.print(format("Ctrl-C ends the session%s gently\n", sessions_->all().size() == 1 ? "" : "s"));
     io::systemd_notify("READY=1");
     while (!sessions_->all().empty()) run_once();
+    complete_recordings();
     output_.print_posted();
     if (checkpoints_) checkpoints_->stop();
     output_.clear();
@@ -76,6 +80,7 @@ class ServerProcess {
     control_ = std::move(*opened);
     if (const std::string problem = open_checkpoint_store(); !problem.empty()) return trouble(problem);
     sessions_.emplace(options_, shards_, *control_, checkpoints_.get(), output_);
+    leftovers_.emplace(recording_folders(), [this](const RecordingRepair& repair) { report_repair(repair); });
     if (const int code = sessions_->open(); code != 0) return code;
     if (checkpoints_) checkpoints_->start();
     memory_locked_ = io::lock_memory();
@@ -86,6 +91,7 @@ class ServerProcess {
     shards_.run();
     // Scripts wait for this line.
     output_.print("listening on " + io::to_text(control_->address()) + "\n");
+    if (options_.on_listening) options_.on_listening(io::to_text(control_->address()));
     if (const auto at = control_->metrics_address())
       output_.print("metrics on http://" + io::to_text(*at) + "/metrics\n");
     return 0;
@@ -103,6 +109,26 @@ class ServerProcess {
     return {};
   }
 
+  [[nodiscard]] std::vector<std::string> recording_folders() const {
+    std::vector<std::string> folders;
+    const auto add = [&folders](const RecordingOptions& record) {
+      if (record.target.empty()) return;
+      std::string folder = recording_folder(record.target);
+      if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(std::move(folder));
+    };
+    add(options_.record);
+    for (const SessionOptions& session : options_.sessions) add(session.record);
+    return folders;
+  }
+
+  /// On the thread that repairs.
+  void report_repair(const RecordingRepair& repair) {
+    if (repair.kind == RecordingRepair::Kind::kInUse) return;  // of another server with the same folder
+    const bool failed = repair.kind == RecordingRepair::Kind::kFailed;
+    io::log_event(failed ? io::Level::kWarn : io::Level::kInfo, {.event = "recording_repaired", .text = repair.text});
+    output_.post_message("recording of an earlier run: " + repair.text);
+  }
+
   /// Waits for at most 250 ms, then services signals, messages, sessions and the status line.
   void run_once() {
     std::vector<pollfd> files{{signals_.get(), POLLIN, 0}};
@@ -118,6 +144,7 @@ class ServerProcess {
     report_machine();
     while (auto order = control_->orders().take()) sessions_->execute(std::move(*order));
     sessions_->service(now);
+    sessions_->service_recordings();
     if (!output_.due(now) || drain_began_) return;
     output_.show(now, sessions_->screen_entries(),
                  due ? format("DRAINING, %.0f s left", std::max(0.0, std::ceil(seconds(*due - now)))) : "",
@@ -135,6 +162,16 @@ class ServerProcess {
     const bool realtime = sessions_->all().front()->live_session().status().machine.realtime;
     if (const std::string notice = io::realtime_warning(realtime, memory_locked_, awake_.granted()); !notice.empty())
       output_.note(notice);
+  }
+
+  /// Waits for the last files of recordings, at most kRecordingsMax.
+  void complete_recordings() {
+    const Time until = io::monotonic_now() + kRecordingsMax;
+    sessions_->service_recordings();
+    while (sessions_->recordings_busy() && io::monotonic_now() < until) {
+      poll(nullptr, 0, kRecordingsIntervalMs);
+      sessions_->service_recordings();
+    }
   }
 
   void take_signal() {
@@ -182,6 +219,7 @@ class ServerProcess {
   std::unique_ptr<CheckpointStore> checkpoints_;  ///< null: no client could resume after a restart
   std::optional<SessionTable> sessions_;
   LoadEvents load_events_;
+  std::optional<LeftoverRepair> leftovers_;
   std::optional<Time> drain_began_;
   std::uint64_t punctual_ = 0;
   bool memory_locked_ = false, realtime_reported_ = false;

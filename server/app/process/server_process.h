@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/io/log.h"
@@ -18,8 +20,11 @@ struct ServerOptions {
   std::optional<io::Level> json_log{};                ///< set: log lines are JSON, of this level and above
   double start_timeout_s = 0;                         ///< [s] for the required seats to get ready; 0: no limit
   std::size_t created_max = kCreatedSessionsDefault;  ///< sessions created at run time that are open at a time
-  std::string scenes{};   ///< folder of scenes for created sessions, NAME.textproto; empty: shipped scenes only
-  std::string reports{};  ///< folder for reports of created sessions; empty: none
+  std::string scenes{};       ///< folder of scenes for created sessions, NAME.textproto; empty: shipped scenes only
+  std::string reports{};      ///< folder for reports of created sessions; empty: none
+  RecordingOptions record{};  ///< of created sessions
+  /// Called once clients can join, with HOST:PORT; empty: nothing is to be done then.
+  std::function<void(const std::string& address)> on_listening{};
   bool quiet = false;
   bool no_restore = false;       ///< ignores all checkpoints
   bool sessions_resume = false;  ///< a signal ends the server but keeps its sessions: the next start restores them

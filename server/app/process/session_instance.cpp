@@ -8,9 +8,15 @@
 
 #include "common/auth/base32.h"
 #include "common/base/format.h"
+#include "common/base/hex.h"
 #include "common/io/clock.h"
 #include "common/io/exit_code.h"
+#include "common/setup/channel_factory.h"
+#include "proto/text/scene_bytes.h"
+#include "proto/text/scene_text.h"
 #include "server/app/control/session_registry.h"
+#include "server/session/build_text.h"
+#include "server/session/checkpoint.h"
 
 namespace tandem::server {
 namespace {
@@ -62,6 +68,16 @@ std::string report_name(const std::string& session, const auth::Id16& id) {
   return session + "-" + when + "-" + auth::to_hex(id).substr(0, 8) + ".json";
 }
 
+/// The scene as a file that can be read again. A session that was shortened may end before its scene's timeline, which
+/// no file may have: the text then has the duration of the scene.
+std::string readable_scene_text(const SessionOptions& options) {
+  std::string text = scene_file_text(options.scene);
+  if (options.scene_duration == 0 || parse_scene(text, options.scene.name)) return text;
+  SceneSpec whole = options.scene;
+  whole.duration = options.scene_duration;
+  return scene_file_text(whole);
+}
+
 }  // namespace
 
 SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves, std::uint8_t slot,
@@ -71,7 +87,8 @@ SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves,
       queue_(kQueueTicks),
       recorder_(plan.scene, queue_, trace_),
       live_session_(std::make_unique<LiveSession>(plan.scene, std::move(slaves), slot, queue_,
-                                                  kept != nullptr ? &kept->checkpoint : nullptr)) {
+                                                  kept != nullptr ? &kept->checkpoint : nullptr)),
+      desk_(std::make_shared<RecordingDesk>(plan.scene.seats.size(), plan.record.pseudonyms)) {
   live_session_->set_recorded(!plan.json.empty() || !plan.trace.empty() || !plan.reports.empty());
 }
 
@@ -81,6 +98,7 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
   auto slaves = make_local_slaves(plan.scene, now, kept != nullptr ? &kept->checkpoint : nullptr);
   if (!slaves) return std::unexpected(OpenError{io::kExitUsage, slaves.error()});
   std::unique_ptr<SessionInstance> run{new SessionInstance(plan, std::move(*slaves), slot, kept)};
+  if (!plan.record.target.empty() && plan.record.from_start) run->attach_journal(now, kept);
   run->epoch_ = kept != nullptr ? kept->checkpoint.epoch + 1 : epoch;
   if (kept != nullptr) {
     run->snapshot_ = *kept;
@@ -96,10 +114,69 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
   return run;
 }
 
+void SessionInstance::attach_journal(Time start, const SessionSnapshot* kept) {
+  transport::HashKey key;
+  auth::fill_random(key);
+  journal_ = std::make_unique<InputJournal>(key);
+  unrecorded_ = journal_.get();
+  live_session_->session().attach_journal(*journal_, start, build_text(),
+                                          kept != nullptr ? &kept->checkpoint : nullptr);
+}
+
 std::string SessionInstance::outcome_text(const RunReport& report) const {
   if (report.duration_s > 0) return format("%s, %.1f s", report.verdict_text(), report.duration_s);
   return std::string(snapshot_ ? "did not resume after the restart" : "never began") +
          (missing_seats.empty() ? "" : ": it waited for " + missing_seats);
+}
+
+std::string SessionInstance::start_recording() {
+  const RecordingOptions& wanted = options_->record;
+  const std::string id = auth::to_hex(id_);
+  const SceneSpec& scene = options_->scene;
+  RecordingInfo info;
+  info.session = options_->name;
+  info.scene_text = readable_scene_text(*options_);
+  info.metadata = {{"program", std::string("tandem-server")},
+                   {"session_id", id},
+                   {"epoch", std::to_string(epoch_)},
+                   {"seed", std::to_string(options_->seed)},
+                   {"duration_s", format("%g", scene.duration)},
+                   {"build", std::string(build_text())},
+                   {"law", std::string(setup::law_name(scene.channel.law))},
+                   {"scene_hash", to_hex(scene_hash(scene))},
+                   {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
+  info.persons = desk_->persons();
+  auto started = LiveRecording::start(
+      recording_path(wanted.target, options_->name, id.substr(0, 8), auth::wall_seconds()), *live_session_, info,
+      wanted.limits, wanted.pseudonyms, desk_, std::exchange(unrecorded_, nullptr));
+  if (!started) return started.error();
+  recording_ = std::move(*started);
+  recorder_.copy_to(recording_->ticks());
+  live_session_->set_recording(true);
+  return {};
+}
+
+void SessionInstance::end_recording() {
+  if (!recording_) return;
+  live_session_->set_recording(false);
+  recorder_.copy_to(nullptr);
+  recording_->begin_finish();
+  ending_.push_back(std::move(recording_));
+}
+
+std::vector<LiveRecording::Message> SessionInstance::service_recordings() {
+  std::vector<LiveRecording::Message> all;
+  const auto take = [&all](LiveRecording& from) {
+    for (LiveRecording::Message& message : from.take_messages()) all.push_back(std::move(message));
+  };
+  if (recording_ && recording_->done()) end_recording();
+  if (recording_) take(*recording_);
+  std::erase_if(ending_, [&](const std::unique_ptr<LiveRecording>& recording) {
+    const bool done = recording->done();  // before the messages, of which the last come before it is done
+    take(*recording);
+    return done;
+  });
+  return all;
 }
 
 SessionInstance::Verdict SessionInstance::finish() {

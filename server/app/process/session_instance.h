@@ -11,6 +11,8 @@
 #include "server/app/monitor/session_ending.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/recorder.h"
+#include "server/app/recording/live_recording.h"
+#include "server/app/recording/recording_target.h"
 #include "server/session/session_snapshot.h"
 
 namespace tandem::server {
@@ -19,9 +21,11 @@ namespace tandem::server {
 struct SessionOptions {
   std::string name{};  ///< for users: 1 to 32 characters of A-Z a-z 0-9 _ -
   SceneSpec scene{};
+  double scene_duration = 0;  ///< of the scene before another one replaced it [s]; 0: none did
   std::string json{}, trace{};  ///< file names; `-` (JSON only) is standard output; empty: none
   std::string reports{};        ///< directory for a report of every run; empty: none
   std::uint64_t seed = 1;       ///< for the report only: a live session draws nothing from it
+  RecordingOptions record{};
   bool tickets_only = false;
   bool restart = false;  ///< when the session is over, a new one replaces it
 };
@@ -60,11 +64,25 @@ class SessionInstance {
   }
   [[nodiscard]] std::optional<Time> ends_at() const noexcept { return ends_at_; }
 
+  /// Notes and participants for a recording, and its state; it exists without one too.
+  [[nodiscard]] const std::shared_ptr<RecordingDesk>& recording_desk() const noexcept { return desk_; }
+  /// The recording that runs; null: none.
+  [[nodiscard]] LiveRecording* recording() noexcept { return recording_.get(); }
+  /// Starts a recording in a new file. @return the error; empty: it runs
+  [[nodiscard]] std::string start_recording();
+  /// Ends the recording, if one runs. Its last file is complete when `recordings_busy` is false.
+  void end_recording();
+  /// Messages of all recordings since the last call. A recording that reached its limit is ended.
+  [[nodiscard]] std::vector<LiveRecording::Message> service_recordings();
+  /// A recording runs, or its last file is not complete: this must not be destroyed.
+  [[nodiscard]] bool recordings_busy() const noexcept { return recording_ != nullptr || !ending_.empty(); }
+
   PresenceTracker presence;
   std::string missing_seats;     ///< seats it waited for, as of the last check while it waited
   std::optional<EndReason> end;  ///< set when the server ended the session
 
-  /// Builds the report and writes the files. Call it when the session is over.
+  /// Builds the report and writes the files. Call it when the session is over; a recording goes on until
+  /// `end_recording`.
   struct Verdict {
     RunReport report;
     std::string problem;  ///< error of a report that could not be written; empty: none
@@ -76,6 +94,8 @@ class SessionInstance {
 
  private:
   SessionInstance(const SessionOptions& plan, LocalSlaves slaves, std::uint8_t slot, const SessionSnapshot* kept);
+  /// Begins the journal of the session's inputs. @param start  time at which its slaves were made
+  void attach_journal(Time start, const SessionSnapshot* kept);
 
   std::shared_ptr<const SessionOptions> created_;  ///< first, because the other members refer to it
   const SessionOptions* options_;
@@ -88,7 +108,12 @@ class SessionInstance {
   io::OutputFile json_, trace_;
   TickQueue queue_;
   Recorder recorder_;
+  std::unique_ptr<InputJournal> journal_;  ///< of a session that is recorded from its start; before the session
   std::unique_ptr<LiveSession> live_session_;
+  InputJournal* unrecorded_ = nullptr;  ///< journal that no recording has taken; it belongs to the first one
+  std::shared_ptr<RecordingDesk> desk_;
+  std::unique_ptr<LiveRecording> recording_;
+  std::vector<std::unique_ptr<LiveRecording>> ending_;  ///< whose last file is not complete
 };
 
 }  // namespace tandem::server

@@ -7,6 +7,7 @@
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "server/app/monitor/startup_banner.h"
+#include "server/recording/lesson_notes.h"
 #include "server/report/audit_text.h"
 #include "server/report/report_summary.h"
 
@@ -38,6 +39,7 @@ int SessionTable::open() {
 void SessionTable::begin() {
   began_ = io::monotonic_now();
   for (const auto& s : sessions_) {
+    start_recording(*s);
     shards_.of_slot(s->live_session().slot()).add_session(s->live_session());
     control_.registry().add(registration_of(*s));
   }
@@ -92,15 +94,11 @@ void SessionTable::report_restored(const SessionInstance& session, const Checkpo
 }
 
 SessionRegistration SessionTable::registration_of(SessionInstance& session) {
-  SessionRegistration made{session.options().name,
-                           session.id(),
-                           session.code(),
-                           session.epoch(),
-                           &session.live_session(),
-                           &shards_.of_slot(session.live_session().slot()),
-                           session.snapshot(),
-                           {},
-                           session.snapshot() != nullptr ? session.resume_until() : Time{}};
+  SessionRegistration made{session.options().name,   session.id(),
+                           session.code(),           session.epoch(),
+                           &session.live_session(),  &shards_.of_slot(session.live_session().slot()),
+                           session.snapshot(),       {},
+                           session.recording_desk(), session.snapshot() != nullptr ? session.resume_until() : Time{}};
   if (checkpoints_ != nullptr && !session.created())
     made.on_removed = [store = checkpoints_, name = session.options().name](const auto& keys) {
       store->set_removed(name, keys);
@@ -108,8 +106,9 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
   return made;
 }
 
-void SessionTable::announce_all() const {
+void SessionTable::announce_all() {
   for (const auto& session : sessions_) announce(*session);
+  for (const auto& session : sessions_) report_recordings(*session);
 }
 
 void SessionTable::announce(const SessionInstance& session) const {
@@ -121,11 +120,19 @@ void SessionTable::announce(const SessionInstance& session) const {
                 {.event = "session_opened", .session = session.options().name, .text = session.options().scene.name});
 }
 
+std::string SessionTable::recording_words(const SessionInstance& session) {
+  const auto recording = session.recording_desk()->status();
+  if (!recording) return {};
+  std::string text = recording->trouble.empty() ? "RECORDED" : "RECORDED WITH GAPS: " + recording->trouble;
+  if (recording->dropped > 0) text += format(", %llu ticks lost", static_cast<unsigned long long>(recording->dropped));
+  return text;
+}
+
 std::vector<SessionScreenEntry> SessionTable::screen_entries() const {
   std::vector<SessionScreenEntry> entries;
   for (const auto& s : sessions_)
-    entries.push_back(
-        {s->options().name, s->live_session().status(), &s->options().scene, hints_.client_options(s->options().name)});
+    entries.push_back({s->options().name, s->live_session().status(), &s->options().scene,
+                       hints_.client_options(s->options().name), recording_words(*s)});
   return entries;
 }
 
@@ -171,9 +178,13 @@ void SessionTable::report(const SessionInstance& session, const SessionStatus& s
 
 /// Joins, leaves, authority changes, stops and resumes. Commands of consoles are logged with names by SessionCommands.
 void SessionTable::write_audit_events(SessionInstance& session) {
-  while (const auto e = session.live_session().audit().take())
+  const SceneSpec& scene = session.options().scene;
+  while (const auto e = session.live_session().audit().take()) {
+    if (const auto first = session.live_session().first_tick())
+      session.recording_desk()->add_event(lesson_event(*e, scene, e->at - *first));
     if (e->seat != AuditEvent::kControlPlane || e->party != AuditEvent::kNoSeat)
-      control_.audit().post(to_text(e->what), session.options().name, audit_text(*e, session.options().scene));
+      control_.audit().post(to_text(e->what), session.options().name, audit_text(*e, scene));
+  }
 }
 
 void SessionTable::drain() {
@@ -200,6 +211,7 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   write_audit_events(session);
   const auto slot = session.live_session().slot();
   const SessionInstance::Verdict verdict = session.finish();
+  session.end_recording();
   if (!options_.quiet && !io::logs_json()) summarize(verdict.report, session);
   io::log_event(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
                 {.event = "session_over", .session = name, .text = session.outcome_text(verdict.report)});
@@ -207,10 +219,15 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   reply_ended(id);
   if (!session.options().restart || draining_ || control_.registry().drain().due()) {
     if (!session.created()) exit_code_ = std::max(exit_code_, verdict.code);
-    if (draining_) finished_.push_back(std::move(place));
+    if (draining_) {
+      finished_.push_back(std::move(place));
+    } else if (session.recordings_busy()) {
+      closing_.push_back(std::move(place));
+    }
     return false;
   }
   auto next = open_session(session.options(), slot, session.epoch() + 1);
+  if (session.recordings_busy()) closing_.push_back(std::move(place));
   if (!next) {
     exit_code_ = std::max(exit_code_, next.error());
     return false;
@@ -221,6 +238,7 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
     done();
   });
   announce(*place);
+  start_recording(*place);
   return true;
 }
 

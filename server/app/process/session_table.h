@@ -27,7 +27,7 @@ class SessionTable {
   /// Passes the sessions to the shards and the control server, before either runs.
   void begin();
   /// Prints how to join the sessions.
-  void announce_all() const;
+  void announce_all();
 
   /// Sessions that are running, or over but not yet completed.
   [[nodiscard]] const std::vector<std::unique_ptr<SessionInstance>>& all() const noexcept { return sessions_; }
@@ -39,6 +39,10 @@ class SessionTable {
   /// Executes an operator's order: creates a session, or begins to end one. Its reply follows on the control thread,
   /// for an end when the session is over.
   void execute(SessionOrder order);
+  /// Reports about recordings, also of sessions that are over, and forgets those that are complete.
+  void service_recordings();
+  /// Recordings of sessions that are over are not complete yet.
+  [[nodiscard]] bool recordings_busy() const noexcept;
   /// The server ends: all sessions count as ended by a signal, and none is replaced.
   void drain();
   /// Greatest exit code of the sessions that were not replaced.
@@ -52,6 +56,12 @@ class SessionTable {
     SessionOrder order;
   };
   [[nodiscard]] rpc::Body create_session(const rpc::CreateSession& wanted);
+  [[nodiscard]] rpc::Body record_session(const rpc::RecordSession& wanted);
+  /// Starts the recording that the options of a new session want.
+  void start_recording(SessionInstance& session);
+  void report_recordings(SessionInstance& session);
+  /// Words of the status line about a recording; empty: none runs.
+  [[nodiscard]] static std::string recording_words(const SessionInstance& session);
   void end_session(SessionOrder order);
   /// Slot for one more session of this scene, or why there is none.
   [[nodiscard]] std::expected<std::size_t, rpc::ErrorReply> find_slot(const SceneSpec& scene) const;
@@ -80,6 +90,7 @@ class SessionTable {
   ServerHints hints_;
   std::vector<std::unique_ptr<SessionInstance>> sessions_;
   std::vector<std::unique_ptr<SessionInstance>> finished_;  ///< completed, but still registered
+  std::vector<std::unique_ptr<SessionInstance>> closing_;   ///< over, but a recording is not complete
   std::vector<Ending> endings_;                             ///< orders to end sessions that are not over yet
   Time began_{};
   bool draining_ = false;

@@ -1,0 +1,92 @@
+#include "server/app/recording/recording_desk.h"
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/format.h"
+#include "common/base/sanitize.h"
+
+namespace tandem::server {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string note_member(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? sanitize(found->get<std::string>()) : std::string();
+}
+
+}  // namespace
+
+std::optional<rpc::StatusRecording> RecordingDesk::status() const {
+  const std::lock_guard lock(lock_);
+  return status_;
+}
+
+void RecordingDesk::set_status(std::optional<rpc::StatusRecording> status) {
+  const std::lock_guard lock(lock_);
+  status_ = std::move(status);
+}
+
+void RecordingDesk::set_person(std::size_t seat, const std::string& name) {
+  const std::lock_guard lock(lock_);
+  if (seat < persons_.size()) persons_[seat] = named(name);
+}
+
+std::vector<std::string> RecordingDesk::persons() const {
+  const std::lock_guard lock(lock_);
+  return persons_;
+}
+
+void RecordingDesk::add_event(LessonEvent event) {
+  const std::lock_guard lock(lock_);
+  // Without a recording nothing takes the items, and a later one begins with its own.
+  if (status_ && room()) items_.events.push_back(std::move(event));
+}
+
+/// A note has the name that its author typed at the page, else the workstation.
+void RecordingDesk::add_note(const SessionNote& note) {
+  const Json object = Json::parse(note.json, nullptr, false);
+  if (!object.is_object()) return;
+  const std::string typed = note_member(object, "person");
+  const std::lock_guard lock(lock_);
+  if (!status_ || !room()) return;
+  const std::string by = named(typed.empty() ? note.workstation : typed);
+  if (note.kind == rpc::NoteKind::kMark) {
+    const auto t = object.find("t");
+    items_.marks.push_back({t != object.end() && t->is_number() ? t->get<double>() : note.time_s,
+                            std::string(to_text(note.role)) + (by.empty() ? "" : " " + by),
+                            note_member(object, "text")});
+    return;
+  }
+  LessonSheet sheet{note_member(object, "sheet"), note_member(object, "of"), by, {}, false};
+  if (const auto scores = object.find("scores"); scores != object.end() && scores->is_object())
+    for (const auto& [item, score] : scores->items())
+      if (score.is_number_integer()) sheet.scores[sanitize(item)] = score.get<int>();
+  if (const auto closed = object.find("closed"); closed != object.end() && closed->is_boolean())
+    sheet.closed = closed->get<bool>();
+  items_.sheets.push_back(std::move(sheet));
+}
+
+RecordingDesk::Items RecordingDesk::take() {
+  const std::lock_guard lock(lock_);
+  Items taken = std::move(items_);
+  items_ = {};
+  items_.lost = taken.lost;
+  return taken;
+}
+
+std::string RecordingDesk::named(const std::string& person) {
+  if (!pseudonyms_ || person.empty()) return person;
+  const auto found = names_.find(person);
+  if (found != names_.end()) return found->second;
+  if (names_.size() >= kNamesMax) return "P?";
+  return names_.emplace(person, format("P%zu", names_.size() + 1)).first->second;
+}
+
+bool RecordingDesk::room() {
+  if (items_.events.size() + items_.marks.size() + items_.sheets.size() < kItemsMax) return true;
+  ++items_.lost;
+  return false;
+}
+
+}  // namespace tandem::server

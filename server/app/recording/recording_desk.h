@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "proto/rpc/rpc_messages.h"
+#include "proto/spec/lesson.h"
+#include "server/app/control/session_note.h"
+
+namespace tandem::server {
+
+/// Contributions of other threads to the recording of a session: participants, events, marks and sheets. It also has
+/// the state of the recording for participants. It exists for the whole session; a recording may start and end. Its
+/// queue is bounded. Thread-safe; no member waits for a disk.
+class RecordingDesk {
+ public:
+  static constexpr std::size_t kItemsMax = 4096;  ///< events, marks and sheets that wait; further ones are counted
+  static constexpr std::size_t kNamesMax = 1000;  ///< pseudonyms; further participants are P?
+
+  /// @param pseudonyms  participants are P1, P2 ... in the order in which they come
+  RecordingDesk(std::size_t seats, bool pseudonyms) : persons_(seats), pseudonyms_(pseudonyms) {}
+
+  // ---- Any thread without real-time duties ----
+  /// The state of the recording; nullopt: none runs.
+  [[nodiscard]] std::optional<rpc::StatusRecording> status() const;
+  /// A participant has this seat from now on.
+  void set_person(std::size_t seat, const std::string& name);
+  /// Adds an event of the audit log.
+  void add_event(LessonEvent event);
+  /// Adds a mark or a sheet. Its JSON has been checked to be an object.
+  void add_note(const SessionNote& note);
+
+  // ---- The recording's thread ----
+  /// Events, marks and sheets that came since the last call.
+  struct Items {
+    std::vector<LessonEvent> events;
+    std::vector<LessonMark> marks;
+    std::vector<LessonSheet> sheets;
+    std::uint64_t lost = 0;  ///< items that did not fit, so far
+  };
+  [[nodiscard]] Items take();
+  /// Participants by seat, as the file names them; empty: none yet.
+  [[nodiscard]] std::vector<std::string> persons() const;
+  /// Sets the state; nullopt: the recording is over.
+  void set_status(std::optional<rpc::StatusRecording> status);
+
+ private:
+  /// Name for the file. @pre the lock is held
+  [[nodiscard]] std::string named(const std::string& person);
+  [[nodiscard]] bool room();
+
+  mutable std::mutex lock_;
+  std::vector<std::string> persons_;
+  bool pseudonyms_;
+  std::map<std::string, std::string> names_;  ///< pseudonym of each participant
+  Items items_;
+  std::optional<rpc::StatusRecording> status_;
+};
+
+}  // namespace tandem::server
