@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "client/app/recording_text.h"
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
 #include "common/base/unit_suffix.h"
@@ -120,6 +121,12 @@ ParsedCommand parse_arguments(CommandWords words) {
   return std::move(*parsed);
 }
 
+ParsedCommand parse_record(CommandWords words) {
+  if (words.size() == 2 && (words[1] == "start" || words[1] == "stop"))
+    return rpc::RecordSession{.on = words[1] == "start"};
+  return std::unexpected("record: \"" + joined(words.subspan(1)) + "\" must be start or stop");
+}
+
 ParsedCommand parse_end(CommandWords words) {
   if (words.size() == 1) return std::unexpected("end: SESSION is missing. Example: end exam");
   return with_reason(EndCommand{.session = words[1], .why = {}}, words, 2);
@@ -129,7 +136,7 @@ struct CommandName {
   std::string_view word;
   ParsedCommand (*parse)(CommandWords words);
 };
-constexpr std::array<CommandName, 13> kCommandNames{{{"status", parse_bare<rpc::StatusRequest>},
+constexpr std::array<CommandName, 14> kCommandNames{{{"status", parse_bare<rpc::StatusRequest>},
                                                      {"stop", parse_stop},
                                                      {"pause", parse_pause},
                                                      {"resume", parse_resume},
@@ -140,6 +147,7 @@ constexpr std::array<CommandName, 13> kCommandNames{{{"status", parse_bare<rpc::
                                                      {"end", parse_end},
                                                      {"sessions", parse_bare<SessionsCommand>},
                                                      {"note", parse_arguments<parse_note>},
+                                                     {"record", parse_record},
                                                      {"help", parse_bare<HelpCommand>},
                                                      {"quit", parse_bare<QuitCommand>}}};
 
@@ -171,7 +179,7 @@ std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::st
     return std::unexpected(
         "\"" + (words.empty() ? std::string() : words.front()) +
         "\" is no command; commands: status, stop, pause, resume, authority, remove, drain, create, end, "
-        "sessions, note");
+        "sessions, note, record");
   return found->parse(words);
 }
 
@@ -200,6 +208,8 @@ const char* console_commands_help() noexcept {
          "  sessions                                  the sessions of the server\n"
          "  note mark|sheet JSON                      writes a mark or a sheet of an assessment (instructor, "
          "operator)\n"
+         "  record start|stop                         starts or ends the recording of the session by the server "
+         "(instructor, operator)\n"
          "  help, quit                                in the console\n";
 }
 
@@ -278,6 +288,8 @@ std::string status_changes_text(const rpc::Status& before, const rpc::Status& no
         reported = true;
       }
   if (is_stopped(now) && (now.stops != before.stops || !is_stopped(before))) text += stop_text(now) + "\n";
+  if (const std::string change = recording_change_text(before.recording, now.recording); !change.empty())
+    text += change + "\n";
   const bool ends = now.phase == rpc::SessionPhase::kEnding;
   if (is_stopped(before) && !is_stopped(now) && !reported && !ends)
     text += format("stop %u is over: the session is %s\n", now.stops, rpc::to_text(now.phase));
@@ -301,6 +313,7 @@ std::string status_text(const rpc::Status& s) {
     text += format("  last stop: %.0f s ago, by %s\n", s.stop->ago_s, maker_of(*s.stop).c_str());
   if (!s.held.empty()) text += "  BRAKED: " + sanitize(s.held) + "\n";
   if (s.drain) text += "  " + drain_text(*s.drain) + "\n";
+  if (s.recording) text += "  " + recording_text(*s.recording) + "\n";
   for (const rpc::StatusSeat& seat : s.seats)
     text += format("  seat %-16s %-10s %s\n", seat.name.c_str(), std::string(to_text(seat.role)).c_str(),
                    !seat.taken  ? "free"
@@ -350,7 +363,8 @@ std::string status_json(const rpc::Status& s) {
   text += s.drain ? format("{\"left_s\": %u, \"sessions\": %u, \"people\": %u}", s.drain->left_s, s.drain->sessions,
                            s.drain->participants)
                   : "null";
-  return text + ", \"held\": " + (s.held.empty() ? "null" : in_quotes(s.held)) + "}\n";
+  text += ", \"held\": " + (s.held.empty() ? "null" : in_quotes(s.held));
+  return text + ", \"recording\": " + recording_json(s.recording) + "}\n";
 }
 
 }  // namespace tandem::client

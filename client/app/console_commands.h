@@ -28,7 +28,7 @@ struct QuitCommand {};
 /// receives. The sender adds the id of the session, and the number of the present stop to a ResumeSession of stop 0.
 using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::PauseSession, rpc::ResumeSession,
                                     AuthorityCommand, rpc::RemoveParticipant, rpc::Drain, CreateCommand, EndCommand,
-                                    SessionsCommand, rpc::Note, HelpCommand, QuitCommand>;
+                                    SessionsCommand, rpc::Note, rpc::RecordSession, HelpCommand, QuitCommand>;
 
 /// Parses a console command. @return the command, or the error with the expected form
 [[nodiscard]] std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::string> words);
@@ -64,7 +64,7 @@ using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::P
 /// Returns the session status as JSON: `{"session", "id", "phase", "time_s", "stops", "authority_version", "draining",
 /// "shed", "seats": [{"name", "role", "taken", "heard"}], "tools": [{"name", "alpha": {SEAT: WEIGHT}}], "stop": null or
 /// {"number", "kind", "seat", "workstation", "role", "why", "ago_s", "ends", "yours"}, "drain": null or {"left_s",
-/// "sessions", "people"}, "held": null or why no tool moves}`
+/// "sessions", "people"}, "held": null or why no tool moves, "recording": null or as `recording_json`}`
 [[nodiscard]] std::string status_json(const rpc::Status& status);
 
 }  // namespace tandem::client

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   const tandem::io::Command root = program.root();
   root.footer(
       "`tandem-client try --help`, `join --help`, `doctor --help`, `link-test --help`, `control --help`, `watch "
-      "--help` and "
+      "--help`, `record --help` and "
       "`calibrate --help` show more.\n"
       "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files. Not a medical device.");
 
@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   tandem::client::add_sessions_command(root);
   tandem::client::add_control_command(root);
   tandem::client::add_watch_command(root);
+  tandem::client::add_record_command(root);
   tandem::io::log_to_stderr("tandem-client");
   return program.run({argv + 1, argv + argc});
 }

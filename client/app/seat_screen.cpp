@@ -6,6 +6,7 @@
 
 #include "client/app/authority_transfer_text.h"
 #include "client/app/console_commands.h"
+#include "client/app/recording_text.h"
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
 
@@ -190,6 +191,7 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   };
   items.push_back(state_item(s, setup, words));
   if (words && words->drain && words->drain->left_s > 0) add(format("DRAINING: %u s left", words->drain->left_s), 0);
+  if (words && words->recording) add(recording_text(*words->recording), 0, recording_brief(*words->recording));
   if (const std::string why = motors_text(s); !why.empty()) {
     add(why, 0, s.motors.latched ? "MOTORS TOO HOT: press b" : "MOTORS TOO HOT");
   } else if (latched) {

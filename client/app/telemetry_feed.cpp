@@ -29,13 +29,15 @@ TelemetryFeed::TelemetryFeed(JoinedWatcher joined, io::UdpSocket socket)
       watch_(std::make_unique<SessionWatch>(layout_of(*scene_), joined.link.tick, joined.link)),
       in_(std::make_unique<io::ReceiveBatch>()) {}
 
-bool TelemetryFeed::serve(Time now) {
+bool TelemetryFeed::serve(Time now, const std::function<void(const SessionWatch&)>& on_newer) {
   bool newer = false;
   for (int round = 0; round < kRounds; ++round) {
     const int count = in_->receive(fd());
     for (int k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      if (!in_->too_long(i)) newer = watch_->on_datagram(now, in_->bytes(i)) || newer;
+      if (in_->too_long(i) || !watch_->on_datagram(now, in_->bytes(i))) continue;
+      newer = true;
+      on_newer(*watch_);
     }
     if (count < static_cast<int>(io::ReceiveBatch::kMax)) break;
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <expected>
+#include <functional>
 #include <memory>
 
 #include "client/app/join_client.h"
@@ -27,7 +28,11 @@ class TelemetryFeed {
   [[nodiscard]] int fd() const noexcept { return socket_.fd.get(); }
   /// Receives the waiting datagrams and sends those that are due. Call it when `fd` is readable, and every
   /// kServeIntervalMs. @return a newer TELEMETRY arrived
-  bool serve(Time now);
+  bool serve(Time now) {
+    return serve(now, [](const SessionWatch&) {});
+  }
+  /// @param on_newer  called after each TELEMETRY that is newer than all before, while `watch` has it
+  bool serve(Time now, const std::function<void(const SessionWatch&)>& on_newer);
   [[nodiscard]] const SessionWatch& watch() const noexcept { return *watch_; }
   /// Ends the watch, so that the server frees the slot at once.
   void leave(Time now);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "client/app/recording_text.h"
 #include "common/base/format.h"
 
 namespace tandem::client {
@@ -100,17 +101,20 @@ Json tool_json(const SceneSpec& scene, const SessionWatch& watch, std::size_t j)
 
 }  // namespace
 
-std::string telemetry_text(const SceneSpec& scene, const SessionWatch& watch) {
+std::string telemetry_text(const SceneSpec& scene, const SessionWatch& watch,
+                           const std::optional<rpc::StatusRecording>& recording) {
   if (!watch.newest()) return {};
   const wire::SessionTelemetry& t = *watch.newest();
   std::string text = format("%.1f s %s", t.session_tick / scene.tick_hz, to_text(t.state));
+  if (recording) text += ", " + recording_text(*recording);
   if (t.shed_level > 0) text += format(", sheds load (level %u)", t.shed_level);
   for (std::size_t i = 0; i < scene.seats.size(); ++i) text += " | " + seat_text(scene, watch, i);
   for (std::size_t j = 0; j < scene.tools.size(); ++j) text += " | " + tool_text(scene, watch, j);
   return text;
 }
 
-std::string telemetry_json(const SceneSpec& scene, const SessionWatch& watch) {
+std::string telemetry_json(const SceneSpec& scene, const SessionWatch& watch,
+                           const std::optional<rpc::StatusRecording>& recording) {
   if (!watch.newest()) return {};
   const wire::SessionTelemetry& t = *watch.newest();
   Json out = {{"tick", t.session_tick},
@@ -123,6 +127,7 @@ std::string telemetry_json(const SceneSpec& scene, const SessionWatch& watch) {
               {"tools", Json::array()}};
   for (std::size_t i = 0; i < scene.seats.size(); ++i) out["seats"].push_back(seat_json(scene, watch, i));
   for (std::size_t j = 0; j < scene.tools.size(); ++j) out["tools"].push_back(tool_json(scene, watch, j));
+  out["recording"] = Json::parse(recording_json(recording), nullptr, false);
   return out.dump();
 }
 

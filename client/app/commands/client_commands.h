@@ -13,6 +13,7 @@ void add_doctor_command(const io::Command& root);     ///< checks attached devic
 void add_enroll_command(const io::Command& root);     ///< registers this workstation at a server
 void add_join_command(const io::Command& root);       ///< attaches a device to a seat of a session
 void add_link_test_command(const io::Command& root);  ///< measures the link to a server
+void add_record_command(const io::Command& root);     ///< records a session without a seat
 void add_sessions_command(const io::Command& root);   ///< lists the sessions of a server
 void add_try_command(const io::Command& root);        ///< starts a server, simulated partners and the user's seat
 void add_watch_command(const io::Command& root);      ///< shows a session live without a seat

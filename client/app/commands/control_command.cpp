@@ -211,6 +211,11 @@ class ConsoleClient {
     return order(note) ? say(std::string(to_text(note.kind)) + ": written") : io::kExitTrouble;
   }
 
+  int run(const rpc::RecordSession& request) {
+    if (!order(request)) return io::kExitTrouble;
+    return say(request.on ? "the session is recorded; all participants see it" : "the recording ends");
+  }
+
   int run(const HelpCommand&) { return say(console_commands_help()); }
   int run(const QuitCommand&) { return io::kExitDone; }
 

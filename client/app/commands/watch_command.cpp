@@ -1,10 +1,13 @@
 #include <poll.h>
 
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "client/app/commands/client_commands.h"
 #include "client/app/commands/connection_options.h"
+#include "client/app/session_status_poller.h"
 #include "client/app/telemetry_feed.h"
 #include "client/app/telemetry_text.h"
 #include "common/io/clock.h"
@@ -47,34 +50,42 @@ std::string text_of(wire::CloseReason why) {
 
 /// Prints what the feed shows until a signal, the end of the session, or the loss of the server. @return exit code
 int show(TelemetryFeed& feed, int signals, bool json) {
+  SessionStatusPoller poller(feed.console().connection, feed.console().welcome.session_id);
+  const auto stop_asking = [&poller](int code) {
+    poller.cancel();  // a server that is gone does not reply
+    return code;
+  };
+  std::optional<rpc::StatusRecording> recording;
   Time next_line = io::monotonic_now();
   while (true) {
     pollfd files[] = {{feed.fd(), POLLIN, 0}, {signals, POLLIN, 0}, {feed.console().connection->fd(), POLLRDHUP, 0}};
     poll(files, 3, TelemetryFeed::kServeIntervalMs);
     const Time now = io::monotonic_now();
     const bool newer = feed.serve(now);
+    if (auto status = poller.take()) recording = std::move(status->recording);
     const SessionWatch& watch = feed.watch();
     const bool due = json ? newer : watch.newest() && now >= next_line;
     if (due) {
       if (!json) next_line = std::max(next_line + kLineInterval, now);
-      const std::string line = (json ? telemetry_json : telemetry_text)(feed.scene(), watch) + "\n";
-      if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return io::kExitTrouble;
+      const std::string line = (json ? telemetry_json : telemetry_text)(feed.scene(), watch, recording) + "\n";
+      if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return stop_asking(io::kExitTrouble);
     }
     if (files[1].revents != 0) {
       feed.leave(now);
-      return io::kExitDone;
+      return stop_asking(io::kExitDone);
     }
     if (const auto why = watch.closed()) {
       const bool over = *why == wire::CloseReason::kDone || *why == wire::CloseReason::kServerStops;
       const int code = end_watch(text_of(*why));
-      return over ? io::kExitDone : code;
+      return stop_asking(over ? io::kExitDone : code);
     }
     if ((files[2].revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0 && watch.silence(now) > 300ms)
-      return end_watch("the server ended this connection: it was stopped or is being restarted");
+      return stop_asking(end_watch("the server ended this connection: it was stopped or is being restarted"));
     if (watch.silence(now) > kLostAfter)
-      return end_watch(watch.newest() ? "the server was lost: no datagram for 3 s"
-                                      : "no datagram arrived, although the server accepted the join; a firewall may "
-                                        "block UDP. `tandem-client link-test` judges the link");
+      return stop_asking(end_watch(watch.newest()
+                                       ? "the server was lost: no datagram for 3 s"
+                                       : "no datagram arrived, although the server accepted the join; a firewall may "
+                                         "block UDP. `tandem-client link-test` judges the link"));
   }
 }
 
