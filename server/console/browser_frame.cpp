@@ -179,7 +179,11 @@ rpc::Body order_of(Reader& in, const std::string& order, const rpc::Id& session)
     in.only({"type", "id", "order", "session"});
     return rpc::EndSession{in.session("session"), "ended at the lesson desk"};
   }
-  in.fail("\"order\" must be stop, pause, resume, authority, remove, drain, create or end");
+  if (order == "record") {
+    in.only({"type", "id", "order", "on"});
+    return rpc::RecordSession{session, in.truth("on")};
+  }
+  in.fail("\"order\" must be stop, pause, resume, authority, remove, drain, create, end or record");
   return rpc::Ping{};
 }
 

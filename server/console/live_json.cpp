@@ -29,7 +29,8 @@ json may_of(AccessRole role, const PageOffers& offers) {
                                                       {"remove", rpc::Kind::kRemoveParticipant},
                                                       {"drain", rpc::Kind::kDrain},
                                                       {"score", rpc::Kind::kNote},
-                                                      {"create", rpc::Kind::kCreateSession}};
+                                                      {"create", rpc::Kind::kCreateSession},
+                                                      {"record", rpc::Kind::kRecordSession}};
   json may = json::array();
   for (const auto& [name, kind] : rights)
     if (server::allowed(role, kind)) may.push_back(name);

@@ -170,6 +170,15 @@ json stop_of(const std::optional<rpc::StatusStop>& stop) {
           {"yours", stop->yours}};
 }
 
+json recording_of(const std::optional<rpc::StatusRecording>& recording) {
+  if (!recording) return nullptr;
+  return {{"by_server", recording->by_server},
+          {"by_recorders", recording->by_recorders},
+          {"pseudonyms", recording->pseudonyms},
+          {"dropped", recording->dropped},
+          {"trouble", recording->trouble}};
+}
+
 void add_scene(const SceneSpec& scene, json& message) {
   message["tick_hz"] = scene.tick_hz;
   message["dof"] = scene.dof;
@@ -221,7 +230,10 @@ std::string scene_json(const LivePicture& picture) {
 }
 
 std::string state_members(const LivePicture& picture) {
-  json state{{"held", picture.status.held}, {"seats", json::array()}, {"tools", json::array()}};
+  json state{{"held", picture.status.held},
+             {"recording", recording_of(picture.status.recording)},
+             {"seats", json::array()},
+             {"tools", json::array()}};
   if (picture.live && picture.scene) {
     add_live(*picture.scene, *picture.live, state);
   } else {

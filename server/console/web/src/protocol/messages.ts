@@ -17,7 +17,8 @@ export type Right =
   | 'score'
   | 'create'
   | 'seat'
-  | 'invite';
+  | 'invite'
+  | 'record';
 export type Phase = 'WAITING' | 'RUNNING' | 'STOPPED' | 'PAUSED' | 'OVER';
 export type SheetName = 'OSATS' | 'GEARS' | 'GOALS' | 'CHECKLIST';
 
@@ -121,6 +122,15 @@ export interface ToolState {
   transfer: Transfer | null;
 }
 
+/** Recording of the session, as all participants see it. */
+export interface Recording {
+  by_server: boolean;
+  by_recorders: number;
+  pseudonyms: boolean;
+  dropped: number;
+  trouble: string;
+}
+
 export interface State {
   type: 'state';
   n: number;
@@ -132,6 +142,7 @@ export interface State {
   version: number;
   shed: number;
   held: string;
+  recording: Recording | null;
   seats: readonly SeatState[];
   tools: readonly ToolState[];
 }
@@ -215,7 +226,8 @@ export type OrderBody =
   | { order: 'remove'; seat: string; why: string }
   | { order: 'drain'; grace_s: number }
   | { order: 'create'; scene: string; name: string; people: readonly { name: string; role: string; seat: string }[] }
-  | { order: 'end'; session: string };
+  | { order: 'end'; session: string }
+  | { order: 'record'; on: boolean };
 
 /** Frames that expect a reply; the connection adds the `id`. */
 export type Request =

@@ -4,6 +4,7 @@ import {
   kToolsMax,
   type GatewayMessage,
   type Phase,
+  type Recording,
   type SceneSeat,
   type SceneTool,
   type SeatState,
@@ -148,6 +149,17 @@ function stopState(value: unknown): StopState | null {
   };
 }
 
+function recording(value: unknown): Recording | null {
+  if (!isObject(value)) return null;
+  return {
+    by_server: value.by_server === true,
+    by_recorders: count(value.by_recorders),
+    pseudonyms: value.pseudonyms === true,
+    dropped: count(value.dropped),
+    trouble: text(value.trouble),
+  };
+}
+
 function state(from: Json): State | null {
   const n = number(from.n);
   if (n === null || n < 0 || !Number.isSafeInteger(n)) return null;
@@ -162,6 +174,7 @@ function state(from: Json): State | null {
     version: count(from.version),
     shed: count(from.shed),
     held: text(from.held),
+    recording: recording(from.recording),
     seats: list(from.seats, kSeatsMax).map(seatState),
     tools: list(from.tools, kToolsMax).map(toolState),
   };

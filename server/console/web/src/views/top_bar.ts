@@ -3,6 +3,7 @@ import type { Settings } from '../app/settings';
 import { clock } from '../logic/format';
 import type { Hello } from '../protocol/messages';
 import { kLanguages, setLanguage, t, word, currentLanguage, type Language } from '../strings/strings';
+import { RecordingMark } from './recording_mark';
 import { button, checkbox, el, fillSelect, labelled, select, setAttribute, setDisabled, setText } from './dom';
 
 export const kViews: readonly ViewName[] = ['live', 'instructor', 'evaluator', 'seat', 'desk'];
@@ -32,12 +33,14 @@ export class TopBar implements View {
   private readonly invite = button(t('bar.invite'), () => void this.askInvitation());
   private readonly invitation = el('input', { type: 'text', readonly: true, 'aria-label': t('bar.invitation') });
   private known: Hello | null = null;
+  private readonly recording: RecordingMark;
 
   constructor(
     private readonly page: Page,
     settings: Settings,
     actions: TopBarActions,
   ) {
+    this.recording = new RecordingMark(page);
     this.session = select([], '', (session) => {
       void page.request(t('bar.session'), { type: 'watch', session });
     });
@@ -81,6 +84,7 @@ export class TopBar implements View {
         labelled(t('bar.session'), this.session),
         this.phase,
         this.time,
+        this.recording.node,
         this.link,
         this.person,
         sound,
@@ -121,6 +125,7 @@ export class TopBar implements View {
     setText(this.phase, state ? word('phase', state.phase) : '');
     setAttribute(this.phase, 'data-phase', state?.phase ?? null);
     setText(this.time, state ? clock(state.t) : '');
+    this.recording.update();
     setText(this.link, t(`link.${model.link}`));
     setAttribute(this.link, 'data-link', model.link);
     setDisabled(this.invite, !model.may('invite'));

@@ -24,11 +24,11 @@ const kHeaders = {
   'Referrer-Policy': 'no-referrer',
 };
 const kMay = {
-  INSTRUCTOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'seat'],
+  INSTRUCTOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'record', 'seat'],
   TRAINEE: ['stop', 'pause', 'resume', 'seat'],
   EVALUATOR: ['stop', 'pause', 'score'],
   OBSERVER: [],
-  OPERATOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'drain', 'create', 'seat', 'score'],
+  OPERATOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'drain', 'create', 'record', 'seat', 'score'],
 };
 const kRight = {
   stop: 'stop',
@@ -36,6 +36,7 @@ const kRight = {
   resume: 'resume',
   authority: 'authority',
   remove: 'remove',
+  record: 'record',
   drain: 'drain',
 };
 const kUnacknowledged = 3;

@@ -22,6 +22,7 @@ export class MockSession {
     this.marks = [];
     this.sheets = [];
     this.orders = [];
+    this.recording = null;
     this.shed = 0;
     this.evaluators = evaluators;
     this.seats = Array.from({ length: seats }, (_, i) => ({
@@ -160,6 +161,7 @@ export class MockSession {
       version: this.version,
       shed: this.shed,
       held: '',
+      recording: this.recording,
       seats: this.seats.map((seat, i) => ({
         taken: seat.taken,
         heard: seat.heard,
@@ -233,6 +235,12 @@ export class MockSession {
       case 'drain':
         this.drained = this.t + frame.grace_s;
         this.event(`${person} drains the server, grace time ${frame.grace_s} s`);
+        return '';
+      case 'record':
+        if ((this.recording !== null) === frame.on) return 'it is recorded already, or no recording runs';
+        this.recording = frame.on
+          ? { by_server: true, by_recorders: 0, pseudonyms: false, dropped: 0, trouble: '' }
+          : null;
         return '';
       default:
         return `"order" is ${frame.order}; it must be stop, pause, resume, authority, remove or drain`;

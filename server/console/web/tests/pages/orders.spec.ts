@@ -158,3 +158,17 @@ test('alarms are listed in words with their time', async ({ start, open }) => {
   await expect(page.locator('.alarms-panel')).toContainText('Seat trainee: link quality red.');
   await expect(page.locator('.card').nth(1)).toContainText('red: outside the limits for force feedback');
 });
+
+test('a recording starts and ends by the button; all see a red dot with words', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await expect(page.locator('.recording')).toBeHidden();
+  await page.getByRole('button', { name: 'Record' }).click();
+  await expect(page.locator('.recording')).toHaveText('Recorded by the server');
+  await expect(page.locator('.recording-dot')).toBeVisible();
+  gateway.session.recording = { by_server: true, by_recorders: 0, pseudonyms: false, dropped: 12, trouble: '' };
+  await expect(page.locator('.recording')).toHaveText('Recorded by the server. Ticks missing so far: 12');
+  await page.getByRole('button', { name: 'End recording' }).click();
+  await expect(page.locator('.recording')).toBeHidden();
+  expect(gateway.session.orders.at(-1)).toMatchObject({ order: 'record', on: false });
+});

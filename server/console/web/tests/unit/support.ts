@@ -37,6 +37,7 @@ export function makeState(changes: Partial<State> = {}): State {
     version: 1,
     shed: 0,
     held: '',
+    recording: null,
     seats: [makeSeat(), makeSeat({ person: 'ws-2' })],
     tools: [
       {
