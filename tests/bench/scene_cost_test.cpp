@@ -37,6 +37,23 @@ TEST(SceneCost, OfAConsoleThatWatchesIsAtMost4Percent) {
   EXPECT_GT(seen->all, alone->all) << "else no console watched";
 }
 
+// The journal of inputs is all that a recording adds to the tick of a session that makes records.
+TEST(SceneCost, OfARecordingIsAtMost3Percent) {
+  if (std::string(TANDEM_SCENE_COST).empty())
+    GTEST_SKIP() << "the instructions are those of a release build for x86-64";
+  if (std::system("valgrind --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "valgrind is not installed";
+  const auto bare = cost_of(TANDEM_SCENE_COST, row_of("eight")),
+             report = cost_of(TANDEM_SCENE_COST, row_of("eight_report")),
+             recording = cost_of(TANDEM_SCENE_COST, row_of("eight_recording"));
+  ASSERT_TRUE(bare && report && recording) << "callgrind failed";
+  std::printf(
+      "[  figures ] instructions per client-tick of 8 seats: %.0f, with a report %.0f, with a recording %.0f (%+.1f "
+      "%%)\n",
+      bare->all, report->all, recording->all, 100 * (recording->all / report->all - 1));
+  EXPECT_LE(recording->all, 1.03 * report->all);
+  EXPECT_GT(recording->all, report->all) << "else nothing was recorded";
+}
+
 TEST(SceneCost, ReadsCallgrindsFile) {
   std::istringstream file(
       "version: 1\npositions: line\nevents: Ir\n\nob=/usr/lib/libIPSec_MB.so.1\nfn=gcm\n0 100\n\n"

@@ -21,9 +21,10 @@ struct Row {
   const char* slave;
   bool recorded = false;
   std::optional<bool> watched = std::nullopt;  ///< a console sees the session; true: a recorder
+  bool inputs = false;                         ///< a recording takes the journal of its inputs
 };
 inline constexpr const char* kWall = "environment { wall { axis: X at_m: 0 k_n_m: 20000 } }";
-inline constexpr std::array<Row, 10> kRows{
+inline constexpr std::array<Row, 13> kRows{
     {{"one_axis", "1 axis, free, 1 seat", 1, 1, ""},
      {"three_axes", "3 axes, free, 1 seat", 3, 1, ""},
      {"two_seats", "3 axes, free, 2 seats", 3, 2, ""},
@@ -35,7 +36,10 @@ inline constexpr std::array<Row, 10> kRows{
       "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"},
      {"eight_seats", "3 axes, contact, 8 seats, slave an arm with gravity and friction", 3, 8,
       "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"},
-     {"recorded", "1 axis, free, 1 seat, recorded", 1, 1, "", true}}};
+     {"recorded", "1 axis, free, 1 seat, recorded", 1, 1, "", true},
+     {"eight", "3 axes, contact, 8 seats", 3, 8, kWall},
+     {"eight_report", "3 axes, contact, 8 seats, with a report", 3, 8, kWall, true},
+     {"eight_recording", "3 axes, contact, 8 seats, recording with inputs", 3, 8, kWall, true, std::nullopt, true}}};
 
 inline SceneSpec scene_of(const Row& row) {
   std::string text = "version: 1 tick_hz: 1000 duration_s: 600 dof: " + std::to_string(row.axes) + "\n";

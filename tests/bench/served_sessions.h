@@ -13,6 +13,7 @@
 #include "common/transport/secure_channel.h"
 #include "netsim/system/simulated_handshake.h"
 #include "server/app/process/local_slaves.h"
+#include "server/session/input_journal.h"
 #include "server/session/session.h"
 #include "tests/bench/bench_clients.h"
 #include "tests/bench/instruction_count.h"
@@ -80,14 +81,21 @@ inline std::unique_ptr<client::SessionWatch> watcher_of(server::Session& session
 
 /// Runs `kSessions` sessions in memory, for callgrind. @return exit code
 /// @param watched  a console sees each session; true: a recorder
-inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watched, int ticks) {
+/// @param inputs   each session writes the journal of its inputs, which is drained outside of the counted function
+inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watched, int ticks, bool inputs = false) {
   const std::size_t seats = scene.seats.size();
   std::vector<std::unique_ptr<server::Session>> sessions;
+  std::vector<std::unique_ptr<server::InputJournal>> journals;
+  std::vector<std::byte> piece(65536);
   std::vector<std::unique_ptr<BareClient>> clients;
   std::vector<std::unique_ptr<client::SessionWatch>> watchers;
   Time now{std::chrono::hours(1)};
   for (std::size_t s = 0; s < kSessions; ++s) {
     sessions.push_back(session_of(scene, recorded));
+    if (inputs) {
+      journals.push_back(std::make_unique<server::InputJournal>(transport::HashKey{}));
+      sessions.back()->attach_journal(*journals.back(), Time{}, "bench");
+    }
     for (std::size_t i = 0; i < seats; ++i)
       clients.push_back(std::make_unique<BareClient>(
           *netsim::simulate_join(*sessions.back(), now, i, caps_of(scene, i), RandomKey{s}, i)));
@@ -112,6 +120,9 @@ inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watc
         in[count++].size = *size;
       }
     const std::size_t sent = serve_one_tick(sessions, seats, now, std::span{in}.first(count), out);
+    for (const auto& journal : journals)
+      while (journal->drain(piece) > 0) {
+      }
     for (const Carried& d : std::span{out}.first(sent)) {
       const std::size_t to = client_at(d.address);
       const auto bytes = std::span{d.bytes}.first(d.size);

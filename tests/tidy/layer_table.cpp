@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 48> kLayers{{
+const std::array<Layer, 49> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -128,6 +128,11 @@ const std::array<Layer, 48> kLayers{{
      {},
      "server/recording turns records of a session into the bytes of a recording: the container, messages, plain "
      "records; no session, no file"},
+    {"server/recording/io",
+     {"common/base", "common/io", "common/mcap", "proto", "server/recording", "server/report"},
+     {},
+     "server/recording/io has the files of recordings, for the programs that write and repair them: no session, no "
+     "network"},
     {"server/session",
      {"common/base", "common/control", "common/setup", "common/transport", "proto", "hal/core/device.h",
       "hal/core/port_map.h", "server/policy", "server/report", "server/session"},

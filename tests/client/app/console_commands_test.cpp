@@ -60,6 +60,8 @@ TEST(ConsoleCommands, ParseEveryCommand) {
   EXPECT_TRUE(std::holds_alternative<SessionsCommand>(*parse_command(Words{"sessions"})));
   EXPECT_EQ(parsed<rpc::Note>({"note", "sheet", "{\"a\":", "1}"}),
             (rpc::Note{{}, rpc::NoteKind::kSheet, "{\"a\": 1}"}));
+  EXPECT_TRUE(parsed<rpc::RecordSession>({"record", "start"}).on);
+  EXPECT_FALSE(parsed<rpc::RecordSession>({"record", "stop"}).on);
   EXPECT_TRUE(std::holds_alternative<HelpCommand>(*parse_command(Words{"help"})));
   EXPECT_TRUE(std::holds_alternative<QuitCommand>(*parse_command(Words{"quit"})));
 }
@@ -68,6 +70,9 @@ TEST(ConsoleCommands, ReportTheExpectedInputForEachMistake) {
   for (const Words& words : {Words{},
                              {""},
                              {"halt"},
+                             {"record"},
+                             {"record", "on"},
+                             {"record", "start", "now"},
                              {"Stop"},
                              {"status", "now"},
                              {"resume", "0"},
@@ -265,6 +270,30 @@ TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
             "DRAINING: 2 s left, 2 sessions, 3 participants on their seats\n"
             "DRAINING: 1 s left, 2 sessions, 3 participants on their seats\n"
             "DRAINING: 0 s left, 2 sessions, 3 participants on their seats\n");
+}
+
+TEST(ConsoleCommands, TellWhoRecordsAndWhatIsMissing) {
+  rpc::Status before, now;
+  before.name = now.name = "lab";
+  EXPECT_EQ(status_changes_text(before, now), "");
+  EXPECT_NE(status_json(now).find("\"recording\": null"), std::string::npos);
+  now.recording = rpc::StatusRecording{.by_server = true, .by_recorders = 2, .pseudonyms = true};
+  EXPECT_EQ(status_changes_text(before, now), "RECORDED by the server, without names, and 2 recorders\n");
+  EXPECT_NE(status_text(now).find("RECORDED by the server"), std::string::npos);
+  before = now;
+  now.recording->dropped = 7;
+  EXPECT_EQ(status_changes_text(before, now), "") << "a counter alone is no news";
+  now.recording->trouble = "the disk is full";
+  EXPECT_NE(
+      status_changes_text(before, now).find("7 ticks are missing so far; ticks are missing now: the disk is full"),
+      std::string::npos);
+  EXPECT_NE(status_json(now).find("\"dropped_ticks\":7,\"trouble\":\"the disk is full\""), std::string::npos)
+      << status_json(now);
+  before = now;
+  now.recording = rpc::StatusRecording{.by_recorders = 1};
+  EXPECT_EQ(status_changes_text(before, now), "RECORDED by 1 recorder\n");
+  now.recording.reset();
+  EXPECT_EQ(status_changes_text(before, now), "the session is no longer recorded\n");
 }
 
 }  // namespace

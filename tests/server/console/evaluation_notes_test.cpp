@@ -164,5 +164,22 @@ TEST(DeskFrames, CreateAndEndSessionsForOperatorsOnly) {
                      AccessRole::kOperator));
 }
 
+TEST(DeskFrames, StartAndEndRecordingsForInstructorsAndOperatorsOnly) {
+  const auto parse = [](const char* text, AccessRole role) { return parse_browser_frame(text, role, rpc::Id{}); };
+  const char* const start = R"({"type":"order","id":1,"order":"record","on":true})";
+  for (const AccessRole role : {AccessRole::kInstructor, AccessRole::kOperator}) {
+    const auto order = parse(start, role);
+    ASSERT_TRUE(order);
+    EXPECT_TRUE(std::get<rpc::RecordSession>(std::get<Order>(*order).body).on);
+  }
+  for (const AccessRole role :
+       {AccessRole::kTrainee, AccessRole::kEvaluator, AccessRole::kObserver, AccessRole::kRecorder})
+    EXPECT_FALSE(parse(start, role));
+  for (const char* wrong :
+       {R"({"type":"order","id":1,"order":"record"})", R"({"type":"order","id":1,"order":"record","on":1})",
+        R"({"type":"order","id":1,"order":"record","on":true,"why":"x"})"})
+    EXPECT_FALSE(parse(wrong, AccessRole::kOperator)) << wrong;
+}
+
 }  // namespace
 }  // namespace tandem::console

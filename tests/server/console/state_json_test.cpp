@@ -201,5 +201,21 @@ TEST(LiveJson, HelloHasTheRightsOfTheRole) {
   EXPECT_TRUE(json::parse(reply_json({}, false, "x"))["id"].is_null());
 }
 
+TEST(StateJson, ShowsTheRecordingOfTheSession) {
+  LivePicture out = picture();
+  const auto state_of = [](const LivePicture& p) {
+    return nlohmann::json::parse("{" + state_members(p) + "}", nullptr, false);
+  };
+  EXPECT_TRUE(state_of(out)["recording"].is_null());
+  out.status.recording =
+      rpc::StatusRecording{.by_server = true, .by_recorders = 1, .dropped = 4, .trouble = "\xff full"};
+  const auto recording = state_of(out)["recording"];
+  EXPECT_EQ(recording["by_server"], true);
+  EXPECT_EQ(recording["by_recorders"], 1);
+  EXPECT_EQ(recording["pseudonyms"], false);
+  EXPECT_EQ(recording["dropped"], 4);
+  EXPECT_NE(recording["trouble"].get<std::string>().find("full"), std::string::npos) << "valid UTF-8";
+}
+
 }  // namespace
 }  // namespace tandem::console

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "common/io/clock.h"
@@ -71,7 +70,7 @@ class TableRig {
     ASSERT_TRUE(session.live_session().over());
   }
   /// Executes an operator's order, and services the table until the reply is there; the test fails after 30 s.
-  rpc::Body order(std::variant<rpc::CreateSession, rpc::EndSession> body) {
+  rpc::Body order(decltype(SessionOrder::body) body) {
     std::optional<rpc::Body> reply;
     table->execute(
         {.body = std::move(body), .who = "office (operator)", .answer = [&](rpc::Body b) { reply = std::move(b); }});

@@ -1,0 +1,51 @@
+// A disk that a test makes slow or full while a program runs: a library for LD_PRELOAD. It reads one word from the file
+// that TANDEM_SLOW_DISK names before each write and sync of a recording: ok, slow or full.
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+namespace {
+
+constexpr useconds_t kSlow = 1'500'000;  // [us] of each call
+
+bool is_recording(int file) {
+  char link[4096];
+  const std::string of = "/proc/self/fd/" + std::to_string(file);
+  const long n = syscall(SYS_readlink, of.c_str(), link, sizeof link);
+  return n > 0 && std::string_view(link, static_cast<std::size_t>(n)).ends_with(".mcap.part");
+}
+
+/// @return whether the call succeeds
+bool pass(int file) {
+  const char* const control = std::getenv("TANDEM_SLOW_DISK");
+  if (control == nullptr || !is_recording(file)) return true;
+  char word[8]{};
+  const int in = static_cast<int>(syscall(SYS_openat, AT_FDCWD, control, O_RDONLY));
+  if (in >= 0) {
+    [[maybe_unused]] const long n = syscall(SYS_read, in, word, sizeof word - 1);
+    syscall(SYS_close, in);
+  }
+  if (std::strncmp(word, "full", 4) == 0) {
+    errno = ENOSPC;
+    return false;
+  }
+  if (std::strncmp(word, "slow", 4) == 0) usleep(kSlow);
+  return true;
+}
+
+}  // namespace
+
+extern "C" {
+ssize_t pwrite(int file, const void* bytes, size_t size, off_t at) {
+  return pass(file) ? syscall(SYS_pwrite64, file, bytes, size, at) : -1;
+}
+ssize_t pwrite64(int file, const void* bytes, size_t size, off_t at) { return pwrite(file, bytes, size, at); }
+int fdatasync(int file) { return pass(file) ? static_cast<int>(syscall(SYS_fdatasync, file)) : -1; }
+}

@@ -1,0 +1,98 @@
+// Contributions of other threads to a recording, and pseudonyms.
+#include "server/app/recording/recording_desk.h"
+
+#include <gtest/gtest.h>
+
+namespace tandem::server {
+namespace {
+
+SessionNote mark(const std::string& json, const std::string& workstation = "desk-2") {
+  return {{}, "lab", workstation, "", AccessRole::kEvaluator, 1234, 1.25, rpc::NoteKind::kMark, json};
+}
+SessionNote sheet(const std::string& json) {
+  return {{}, "lab", "desk-2", "", AccessRole::kEvaluator, 1234, 1.25, rpc::NoteKind::kSheet, json};
+}
+
+struct Desk {
+  explicit Desk(bool pseudonyms) : desk(3, pseudonyms) { desk.set_status(rpc::StatusRecording{.by_server = true}); }
+  RecordingDesk desk;
+};
+
+TEST(RecordingDesk, PassesEventsMarksAndSheetsToTheRecording) {
+  Desk d(false);
+  d.desk.add_event({7, 7'000'000, "join", "trainer", "trainer tick 7"});
+  d.desk.add_note(mark(R"({"t": 2.5, "text": "good grip", "person": "ann"})"));
+  d.desk.add_note(mark(R"({"t": null, "text": "no name"})"));
+  d.desk.add_note(sheet(
+      R"({"sheet": "GOALS", "of": "trainee", "person": "eva", "scores": {"depth": 4, "x": "no"}, "closed": true})"));
+  const RecordingDesk::Items items = d.desk.take();
+  ASSERT_EQ(items.events.size(), 1u);
+  EXPECT_EQ(items.events[0].what, "join");
+  ASSERT_EQ(items.marks.size(), 2u);
+  EXPECT_EQ(items.marks[0].t_s, 2.5);
+  EXPECT_EQ(items.marks[0].by, "evaluator ann");
+  EXPECT_EQ(items.marks[0].text, "good grip");
+  EXPECT_EQ(items.marks[1].t_s, 1.25) << "without a time of its own, that of the session";
+  EXPECT_EQ(items.marks[1].by, "evaluator desk-2");
+  ASSERT_EQ(items.sheets.size(), 1u);
+  EXPECT_EQ(items.sheets[0].of, "trainee");
+  EXPECT_EQ(items.sheets[0].by, "eva");
+  EXPECT_EQ(items.sheets[0].scores, (std::map<std::string, int>{{"depth", 4}}));
+  EXPECT_TRUE(items.sheets[0].closed);
+  EXPECT_TRUE(d.desk.take().marks.empty());
+}
+
+TEST(RecordingDesk, ReplacesAllNamesByPseudonyms) {
+  Desk d(true);
+  d.desk.set_person(1, "ann");
+  d.desk.set_person(0, "bob");
+  d.desk.set_person(2, "ann");
+  d.desk.set_person(3, "beyond the seats");
+  EXPECT_EQ(d.desk.persons(), (std::vector<std::string>{"P2", "P1", "P1"}));
+  d.desk.add_note(mark(R"({"text": "x", "person": "ann"})"));
+  d.desk.add_note(mark(R"({"text": "x", "person": "eva"})", "bob"));
+  d.desk.add_note(mark(R"({"text": "x"})", "bob"));
+  const RecordingDesk::Items items = d.desk.take();
+  ASSERT_EQ(items.marks.size(), 3u);
+  EXPECT_EQ(items.marks[0].by, "evaluator P1");
+  EXPECT_EQ(items.marks[1].by, "evaluator P3");
+  EXPECT_EQ(items.marks[2].by, "evaluator P2");
+}
+
+TEST(RecordingDesk, TakesNothingWithoutARecordingAndCountsWhatDoesNotFit) {
+  RecordingDesk desk(1, false);
+  desk.add_event({1, 1, "stop", "", ""});
+  desk.add_note(mark(R"({"text": "early"})"));
+  desk.set_status(rpc::StatusRecording{.by_server = true});
+  EXPECT_TRUE(desk.take().events.empty());
+  for (std::size_t i = 0; i < RecordingDesk::kItemsMax + 5; ++i) desk.add_event({1, 1, "stop", "", ""});
+  const RecordingDesk::Items items = desk.take();
+  EXPECT_EQ(items.events.size(), RecordingDesk::kItemsMax);
+  EXPECT_EQ(items.lost, 5u);
+  desk.add_event({1, 1, "stop", "", ""});
+  EXPECT_EQ(desk.take().events.size(), 1u);
+}
+
+TEST(RecordingDesk, AcceptsAnyJson) {
+  Desk d(true);
+  for (const char* json : {"", "{", "[]", "1", "{}", R"({"t": 1e999, "text": 5, "person": ["ann"]})",
+                           R"({"scores": {"a": 1e300, "b": null}, "closed": 3})"}) {
+    d.desk.add_note(mark(json));
+    d.desk.add_note(sheet(json));
+  }
+  const RecordingDesk::Items items = d.desk.take();
+  EXPECT_EQ(items.marks.size(), items.sheets.size());
+  for (const LessonMark& m : items.marks) EXPECT_EQ(m.text, "");
+}
+
+TEST(RecordingDesk, ShowsTheStateToParticipants) {
+  RecordingDesk desk(1, false);
+  EXPECT_FALSE(desk.status());
+  desk.set_status(rpc::StatusRecording{.by_server = true, .dropped = 3, .trouble = "the disk is full"});
+  EXPECT_EQ(desk.status()->dropped, 3u);
+  desk.set_status(std::nullopt);
+  EXPECT_FALSE(desk.status());
+}
+
+}  // namespace
+}  // namespace tandem::server

@@ -1,0 +1,66 @@
+// A recorded lesson as a live session.
+#include "server/app/recording/replayed_lesson.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "proto/text/scene_text.h"
+#include "proto/text/scenes_embedded.h"
+
+namespace tandem::server {
+namespace {
+
+Lesson lesson_of(const std::string& scene) {
+  Lesson lesson;
+  lesson.scene = *parse_scene(find_shipped_scene(scene)->text, scene + ".textproto");
+  lesson.seats.resize(lesson.scene.seats.size());
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    lesson.tick.push_back(1000 + k);
+    for (LessonSeat& seat : lesson.seats) {
+      seat.x.push_back({0.001 * k, 0.02, -0.03});
+      seat.sample_tick.push_back(1000 + k);
+      seat.engaged.push_back(&seat == lesson.seats.data() ? 1 : 0);
+    }
+  }
+  return lesson;
+}
+
+TEST(ReplayedLesson, PlaysEngagedHandsAndFreesTheOtherSeats) {
+  Lesson lesson = lesson_of("free_motion");
+  lesson.seats[0].x[1] = {std::nan(""), 0, 0};
+  lesson.seats[0].sample_tick[3] = 1002;  // the sample before again
+  const auto replayed = replayed_lesson(lesson, {});
+  ASSERT_TRUE(replayed) << replayed.error();
+  ASSERT_EQ(replayed->hands.size(), 1u);
+  EXPECT_EQ(replayed->hands[0].seat, "trainer");
+  EXPECT_EQ(replayed->hands[0].csv, "t_s[s],px[m],py[m],pz[m]\n1.000000,0,0.02,-0.03\n1.002000,0.002,0.02,-0.03\n");
+  EXPECT_TRUE(replayed->scene.seats[0].required);
+  EXPECT_FALSE(replayed->scene.seats[1].required);
+  EXPECT_DOUBLE_EQ(replayed->scene.duration, 1.003);
+}
+
+TEST(ReplayedLesson, DividesByTheMotionScaleOfASeat) {
+  Lesson lesson = lesson_of("free_motion");
+  lesson.scene.seats[0].motion_scale = 2;
+  const auto replayed = replayed_lesson(lesson, {"trainer"});
+  ASSERT_TRUE(replayed) << replayed.error();
+  EXPECT_NE(replayed->hands[0].csv.find("1.003000,0.0015,0.01,-0.015\n"), std::string::npos) << replayed->hands[0].csv;
+}
+
+TEST(ReplayedLesson, NamesWhatCannotBePlayed) {
+  const Lesson lesson = lesson_of("free_motion");
+  EXPECT_NE(replayed_lesson(lesson, {"nurse"}).error().find("master seats: trainer, trainee"), std::string::npos);
+  Lesson still = lesson_of("free_motion");
+  for (LessonTriple& x : still.seats[1].x) x.fill(std::nan(""));
+  EXPECT_NE(replayed_lesson(still, {"trainee"}).error().find("no motion"), std::string::npos);
+  still.seats[0].engaged.assign(4, 0);
+  EXPECT_NE(replayed_lesson(still, {}).error().find("--seat"), std::string::npos);
+  Lesson empty = lesson_of("free_motion");
+  empty.tick.clear();
+  EXPECT_FALSE(replayed_lesson(empty, {}));
+  EXPECT_NE(replayed_lesson(lesson_of("contact_remote"), {}).error().find("SLAVE seat"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tandem::server
