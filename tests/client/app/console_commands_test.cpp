@@ -185,7 +185,7 @@ TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
             "\"alpha\": {\"trainer\": 0.25, \"trainee\": 0.75}}], \"stop\": {\"number\": 3, \"kind\": \"stop\", "
             "\"seat\": \"\", \"workstation\": \"desk\", \"role\": \"operator\", "
             "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true}, \"drain\": null, "
-            "\"held\": null}\n");
+            "\"held\": null, \"recording\": null}\n");
 }
 
 TEST(ConsoleCommands, ReportEventsOnceAndOnlyThoseAfterTheFirstStatus) {
