@@ -10,7 +10,8 @@ class ReplayBackend final : public Backend {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "replay"; }
   [[nodiscard]] std::string_view help() const noexcept override {
-    return "  replay:FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop][,middle=zero|keep]\n"
+    return "  "
+           "replay:FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop][,middle=zero|keep]\n"
            "                              a recorded motion is the device: it moves as recorded, whatever the tool "
            "does, from\n"
            "                              the moment the seat is taken; feels no force\n";

@@ -21,7 +21,7 @@ namespace tandem::server {
 struct SessionOptions {
   std::string name{};  ///< for users: 1 to 32 characters of A-Z a-z 0-9 _ -
   SceneSpec scene{};
-  double scene_duration = 0;  ///< of the scene before another one replaced it [s]; 0: none did
+  double scene_duration = 0;    ///< of the scene before another one replaced it [s]; 0: none did
   std::string json{}, trace{};  ///< file names; `-` (JSON only) is standard output; empty: none
   std::string reports{};        ///< directory for a report of every run; empty: none
   std::uint64_t seed = 1;       ///< for the report only: a live session draws nothing from it
