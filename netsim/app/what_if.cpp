@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "hal/sim/hand.h"
 #include "netsim/app/law_options.h"
 #include "netsim/feel/observed_feel.h"
 #include "netsim/replay/lesson_hands.h"
@@ -119,7 +120,8 @@ std::expected<WhatIfResult, std::string> play_what_if(const Lesson& lesson, cons
   other.network.apply(setup.network);
   for (const SeatSpec& seat : setup.scene.seats) {
     if (seat.kind != SeatKind::kMaster) continue;
-    auto motion = motion_of_seat(lesson, seat.name, seat.hand.trajectory.center);
+    auto motion =
+        motion_of_seat(lesson, seat.name, seat.hand.trajectory.center, hal::sim::impedance_of(HandModel::kRecorded).k);
     if (!motion) return std::unexpected(motion.error());
     setup.motions[seat.name] = std::move(*motion);
   }

@@ -77,13 +77,25 @@ TEST_F(ReplayCommand, PlaysTheHandsUnderAnotherLawAndNetwork) {
   ASSERT_EQ(netsim({"replay", path("a.mcap"), "--what-if", "law=set_position,delay=100", "--json", "-"}), 0) << err_;
   const auto result = json();
   EXPECT_NE(std::string(result["played_under"]).find("set_position"), std::string::npos) << out_;
-  const auto& tracking = result["numbers"]["leader_tool_rms_m"];
-  EXPECT_GT(tracking["recorded"], 0.0);
-  EXPECT_GT(tracking["played"], 2 * static_cast<double>(tracking["recorded"])) << "100 ms and another law";
+  const auto& stiffness = result["numbers"]["stiffness_felt_n_m"];
+  EXPECT_GT(stiffness["recorded"], 300.0);
+  EXPECT_LT(stiffness["played"], 100.0) << "law set_position is soft over 100 ms";
   for (const char* key : {"stiffness_felt_n_m", "drag_n", "trips_per_min", "delivered_error_n"})
     EXPECT_TRUE(result["numbers"].contains(key)) << key;
   for (const char* wrong : {"law=none", "delay=x", "delay=-1", "loss=101", "speed=2", ""})
     EXPECT_EQ(netsim({"replay", path("a.mcap"), std::string("--what-if=") + wrong}), *wrong == '\0' ? 0 : 2) << wrong;
+}
+
+// Under the same law and network the played hands do what was recorded: the same distance, stiffness and drag.
+TEST_F(ReplayCommand, PlaysTheSameSessionUnderTheSameConditions) {
+  record("calm.mcap", {});
+  ASSERT_EQ(netsim({"replay", path("calm.mcap"), "--what-if", "delay=0", "--json", "-"}), 0) << err_;
+  const auto numbers = json()["numbers"];
+  for (const char* key : {"leader_tool_rms_m", "stiffness_felt_n_m"}) {
+    const double recorded = numbers[key]["recorded"], played = numbers[key]["played"];
+    EXPECT_NEAR(played, recorded, 0.2 * recorded) << key;
+  }
+  EXPECT_EQ(numbers["trips_per_min"]["played"], 0.0);
 }
 
 TEST_F(ReplayCommand, ComparesTwoRecordings) {

@@ -74,8 +74,6 @@ class RecordedSession {
     };
     bool more = true;
     for (auto piece = pieces.begin(); more && piece != pieces.end(); ++piece) more = reader.add(*piece) && feed();
-    reader.finish();
-    if (more) feed();
     out.difference = replay.difference();
     out.error = replay.error() + reader.error();
     out.counts = replay.counts();
