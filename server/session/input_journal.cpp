@@ -77,13 +77,9 @@ std::int64_t InputJournal::since_last(Time now) noexcept {
   return dt;
 }
 
-std::byte* InputJournal::open(std::size_t size) noexcept {
-  std::byte* const at = overflowed_ ? nullptr : ring_.reserve(size);
-  if (at != nullptr) [[likely]]
-    return at;
+void InputJournal::lose() noexcept {
   overflowed_ = true;
   dropped_.fetch_add(1, std::memory_order_relaxed);
-  return nullptr;
 }
 
 void InputJournal::write(std::span<const std::byte> record) noexcept {
@@ -107,7 +103,7 @@ void InputJournal::write_overflow() noexcept {
 void InputJournal::begin(const Begin& b) noexcept {
   for (Seat& seat : seats_) seat = {};
   seats_n_ = b.seats;
-  settings_.reset();
+  settings_ = kNoSettings;
   in_tick_ = false;
   last_ = b.start;
   RecordWriter<kCheckpointMax + 512> record{InputRecord::kBegin};
@@ -232,7 +228,7 @@ void InputJournal::contacts(std::size_t tool) noexcept {
 }
 
 void InputJournal::write_settings(const Settings& settings) noexcept {
-  settings_ = settings;
+  settings_ = word_of(settings);
   RecordWriter<8> record{InputRecord::kSettings};
   record.put(static_cast<std::uint8_t>(settings.load.level));
   record.put(static_cast<std::uint8_t>((settings.load.overloaded ? 1 : 0) | (settings.telemetry_every_tick ? 2 : 0)));
@@ -241,7 +237,7 @@ void InputJournal::write_settings(const Settings& settings) noexcept {
 }
 
 void InputJournal::tick(Time now, std::uint32_t missed, const Settings& settings) noexcept {
-  if (settings_ != settings) [[unlikely]]
+  if (settings_ != word_of(settings)) [[unlikely]]
     write_settings(settings);
   tick_at_ = now;
   missed_ = missed;

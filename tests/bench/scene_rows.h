@@ -24,7 +24,7 @@ struct Row {
   bool inputs = false;                         ///< everything that enters the session is recorded too
 };
 inline constexpr const char* kWall = "environment { wall { axis: X at_m: 0 k_n_m: 20000 } }";
-inline constexpr std::array<Row, 12> kRows{
+inline constexpr std::array<Row, 14> kRows{
     {{"one_axis", "1 axis, free, 1 seat", 1, 1, ""},
      {"three_axes", "3 axes, free, 1 seat", 3, 1, ""},
      {"two_seats", "3 axes, free, 2 seats", 3, 2, ""},
@@ -38,7 +38,11 @@ inline constexpr std::array<Row, 12> kRows{
       "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1"},
      {"recorded", "1 axis, free, 1 seat, recorded", 1, 1, "", true},
      {"recorded_contact", "3 axes, contact, 2 seats, recorded", 3, 2, kWall, true},
-     {"inputs", "3 axes, contact, 2 seats, recorded with all inputs", 3, 2, kWall, true, std::nullopt, true}}};
+     {"inputs", "3 axes, contact, 2 seats, recorded with all inputs", 3, 2, kWall, true, std::nullopt, true},
+     {"recorded_eight", "3 axes, contact, 8 seats, slave an arm with gravity and friction, recorded", 3, 8,
+      "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1", true},
+     {"inputs_eight", "the same, recorded with all inputs", 3, 8,
+      "model: TOUCH gravity: true gravity_compensation: true friction_n: 0.1", true, std::nullopt, true}}};
 
 inline SceneSpec scene_of(const Row& row) {
   std::string text = "version: 1 tick_hz: 1000 duration_s: 600 dof: " + std::to_string(row.axes) + "\n";
