@@ -17,25 +17,23 @@ class OutputDigest {
   void add(wire::Type type, std::span<const std::byte> plaintext) noexcept {
     const std::byte* at = plaintext.data();
     std::size_t left = plaintext.size();
-    std::uint64_t h = step(value_, static_cast<std::uint64_t>(type) << 32, left);
-    for (; left >= 4 * kWord; left -= 4 * kWord, at += 4 * kWord)
-      h = step(step(h, word(at), word(at + kWord)), word(at + 2 * kWord), word(at + 3 * kWord));
-    for (; left >= kWord; left -= kWord, at += kWord) h = step(h, word(at), 0);
-    if (left > 0) h = step(h, last_word(plaintext), 0);
+    std::uint64_t h = step(value_, static_cast<std::uint64_t>(type) << 32 | left);
+    for (; left >= 4 * sizeof(std::uint64_t); left -= 4 * sizeof(std::uint64_t), at += 4 * sizeof(std::uint64_t))
+      h = step(step(step(step(h, word(at)), word(at + 8)), word(at + 16)), word(at + 24));
+    for (; left >= sizeof(std::uint64_t); left -= sizeof(std::uint64_t), at += sizeof(std::uint64_t))
+      h = step(h, word(at));
+    if (left > 0) h = step(h, last_word(plaintext));
     value_ = h;
     sent_ = true;
   }
   /// Hash of all messages so far.
-  [[nodiscard]] std::uint32_t value() const noexcept { return static_cast<std::uint32_t>(step(value_, 0, 0) >> 32); }
+  [[nodiscard]] std::uint32_t value() const noexcept { return static_cast<std::uint32_t>(value_ >> 32); }
   /// A message was added since `clear_sent`.
   [[nodiscard]] bool sent() const noexcept { return sent_; }
   void clear_sent() noexcept { sent_ = false; }
 
  private:
-  static constexpr std::size_t kWord = sizeof(std::uint64_t);
-  static std::uint64_t step(std::uint64_t h, std::uint64_t a, std::uint64_t b) noexcept {
-    return (std::rotl(h, 29) ^ a) * kFactor + b;
-  }
+  static std::uint64_t step(std::uint64_t h, std::uint64_t word) noexcept { return std::rotl(h ^ word, 29) * kFactor; }
   static std::uint64_t word(const std::byte* at) noexcept {
     std::uint64_t value;
     std::memcpy(&value, at, sizeof value);
@@ -43,7 +41,7 @@ class OutputDigest {
   }
   /// The last eight bytes, or all of a shorter text.
   static std::uint64_t last_word(std::span<const std::byte> text) noexcept {
-    if (text.size() >= kWord) return word(text.data() + text.size() - kWord);
+    if (text.size() >= sizeof(std::uint64_t)) return word(text.data() + text.size() - sizeof(std::uint64_t));
     std::uint64_t value = 0;
     std::memcpy(&value, text.data(), text.size());
     return value;
