@@ -72,7 +72,8 @@ SessionMeasures measured(const Lesson& lesson) {
 std::string what_if_help() {
   std::string text = "plays the recorded hands under another law or network, and shows both sessions: law=";
   for (const std::string& law : law_names()) text += (text.back() == '=' ? "" : "|") + law;
-  return text + ",delay=MS,jitter=MS,loss=PERCENT (one way each; what is not given is the law of the recording, and 0)";
+  return text +
+         ",delay=MS,jitter=MS,loss=PERCENT (one way each; without law= the law of the recording, without a number 0)";
 }
 
 std::expected<WhatIf, std::string> parse_what_if(const std::string& text) {

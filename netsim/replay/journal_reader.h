@@ -21,7 +21,7 @@ class JournalReader {
   /// Next event; nullopt if another piece must be added first, at the end, and after an error.
   [[nodiscard]] std::optional<JournalEvent> next();
 
-  /// What is wrong, with the position in the journal; empty: nothing.
+  /// Error with its position in the journal; empty: none.
   [[nodiscard]] const std::string& error() const noexcept { return error_; }
   /// Bytes behind the last whole record: more than 0 if the journal was cut, once `next` returns nothing at its end.
   [[nodiscard]] std::size_t rest() const noexcept { return bytes_.size() - at_; }

@@ -129,8 +129,8 @@ TEST_F(ReplayCommand, TakesAHandOfARecording) {
             1)
       << err_;
   EXPECT_GT(json()["duration_s"], 2.9);
-  EXPECT_EQ(netsim({"run", "contact", "--hand", "trainer=" + path("a.mcap") + ",seat=nobody"}), 2);
-  EXPECT_NE(err_.find("the recording has no hand nobody"), std::string::npos) << err_;
+  EXPECT_EQ(netsim({"run", "contact", "--hand", "trainer=" + path("a.mcap") + ",seat=tutor"}), 2);
+  EXPECT_NE(err_.find("the recording has no hand tutor"), std::string::npos) << err_;
   EXPECT_EQ(netsim({"run", "contact", "--hand", "trainer=" + path("a.mcap") + ",scale=2"}), 2);
 }
 
