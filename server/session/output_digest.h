@@ -17,13 +17,13 @@ class OutputDigest {
   void add(wire::Type type, std::span<const std::byte> plaintext) noexcept {
     const std::byte* at = plaintext.data();
     std::size_t left = plaintext.size();
-    std::uint64_t h = step(value_, static_cast<std::uint64_t>(type) << 32 | left);
+    std::uint64_t h = static_cast<std::uint64_t>(type) << 32 | left;
     for (; left >= 4 * sizeof(std::uint64_t); left -= 4 * sizeof(std::uint64_t), at += 4 * sizeof(std::uint64_t))
       h = step(step(step(step(h, word(at)), word(at + 8)), word(at + 16)), word(at + 24));
     for (; left >= sizeof(std::uint64_t); left -= sizeof(std::uint64_t), at += sizeof(std::uint64_t))
       h = step(h, word(at));
     if (left > 0) h = step(h, last_word(plaintext));
-    value_ = h;
+    value_ = std::rotl(value_ ^ h, 29) * kFactor;
     sent_ = true;
   }
   /// Hash of all messages so far.
@@ -33,7 +33,8 @@ class OutputDigest {
   void clear_sent() noexcept { sent_ = false; }
 
  private:
-  static std::uint64_t step(std::uint64_t h, std::uint64_t word) noexcept { return std::rotl(h ^ word, 29) * kFactor; }
+  /// Every word of a message has another rotation, so that equal changes of two words do not cancel.
+  static std::uint64_t step(std::uint64_t h, std::uint64_t word) noexcept { return std::rotl(h, 13) ^ word; }
   static std::uint64_t word(const std::byte* at) noexcept {
     std::uint64_t value;
     std::memcpy(&value, at, sizeof value);

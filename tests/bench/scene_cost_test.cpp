@@ -38,7 +38,8 @@ TEST(SceneCost, OfAConsoleThatWatchesIsAtMost4Percent) {
   EXPECT_GT(seen->all, alone->all) << "else no console watched";
 }
 
-// Asked: at most 3 % for 8 seats. The cost per seat is constant, so that it is a larger share of a cheaper scene.
+// Asked: at most 3 % for 8 seats and 3 tools. The cost per seat is constant, so that it is a larger share of a cheaper
+// scene.
 TEST(SceneCost, OfRecordingAllInputsIsAtMost3Percent) {
   if (std::string(TANDEM_SCENE_COST).empty())
     GTEST_SKIP() << "the instructions are those of a release build for x86-64";
