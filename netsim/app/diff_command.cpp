@@ -92,7 +92,7 @@ int diff_command(const DiffArguments& arguments) {
     return io::report_usage_error(kName, "--json: " + problem);
   std::string text = diff_text(*diff);
   for (const auto& [file, lesson] : {std::pair{arguments.a, &*a}, std::pair{arguments.b, &*b}})
-    if (!lesson->complete) text += "note: " + file + " has no undamaged end; what is whole was compared\n";
+    if (!lesson->complete) text += "note: " + file + " has no undamaged end; its whole chunks were compared\n";
   io::print_formatted(json.on_stdout() ? stderr : stdout, "%s", text.c_str());
   json.write(diff_json(*diff));
   if (const auto problem = json.close(); !problem.empty()) {

@@ -32,14 +32,14 @@ std::string difference_text(const ReplayDifference& d) {
                 d.recorded.c_str(), d.replayed.c_str());
 }
 
-/// What a reader needs to judge the result.
+/// Facts that a reader needs to judge the result.
 std::vector<std::string> replay_notes(const RecordingReplay& replay) {
   std::vector<std::string> notes;
   for (const std::string& build : replay.other_builds)
     notes.push_back("recorded by another build, which may compute other values: " + build + "; this program is " +
                     std::string(server::build_text()));
   if (replay.other_scene) notes.emplace_back("the inputs were recorded with another scene than the one in the file");
-  if (!replay.complete) notes.emplace_back("the file has no undamaged end; what is whole was replayed");
+  if (!replay.complete) notes.emplace_back("the file has no undamaged end; its whole chunks were replayed");
   if (!replay.seats_compared)
     notes.emplace_back(
         "values of seats were not compared: the file has those of the hands themselves, before the network");

@@ -12,6 +12,7 @@
 #include "common/io/usage_errors.h"
 #include "common/setup/device_stiffness.h"
 #include "hal/io/motion_file.h"
+#include "hal/sim/hand.h"
 #include "netsim/app/law_options.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/run_json.h"
@@ -117,7 +118,8 @@ std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> reco
   if (!bytes) return std::unexpected(bytes.error());
   const auto lesson = read_lesson(bytes_of(*bytes));
   if (!lesson) return std::unexpected(file + ": " + lesson.error());
-  auto motion = motion_of_seat(*lesson, option.empty() ? seat : option.substr(kSeat.size()), center);
+  auto motion = motion_of_seat(*lesson, option.empty() ? seat : option.substr(kSeat.size()), center,
+                               hal::sim::impedance_of(HandModel::kRecorded).k);
   if (!motion) return std::unexpected(file + ": " + motion.error());
   return motion;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "hal/sim/hand.h"
 #include "netsim/app/law_options.h"
 #include "netsim/feel/observed_feel.h"
 #include "netsim/replay/lesson_hands.h"
@@ -71,7 +72,8 @@ SessionMeasures measured(const Lesson& lesson) {
 std::string what_if_help() {
   std::string text = "plays the recorded hands under another law or network, and shows both sessions: law=";
   for (const std::string& law : law_names()) text += (text.back() == '=' ? "" : "|") + law;
-  return text + ",delay=MS,jitter=MS,loss=PERCENT (one way each; what is not given is the law of the recording, and 0)";
+  return text +
+         ",delay=MS,jitter=MS,loss=PERCENT (one way each; without law= the law of the recording, without a number 0)";
 }
 
 std::expected<WhatIf, std::string> parse_what_if(const std::string& text) {
@@ -119,7 +121,8 @@ std::expected<WhatIfResult, std::string> play_what_if(const Lesson& lesson, cons
   other.network.apply(setup.network);
   for (const SeatSpec& seat : setup.scene.seats) {
     if (seat.kind != SeatKind::kMaster) continue;
-    auto motion = motion_of_seat(lesson, seat.name, seat.hand.trajectory.center);
+    auto motion =
+        motion_of_seat(lesson, seat.name, seat.hand.trajectory.center, hal::sim::impedance_of(HandModel::kRecorded).k);
     if (!motion) return std::unexpected(motion.error());
     setup.motions[seat.name] = std::move(*motion);
   }

@@ -73,7 +73,6 @@ struct JournalTick {
   Time at;
   std::uint32_t missed = 0;
   server::InputJournal::Settings settings;
-  bool outputs_known = false;                      ///< false if the journal ends within this tick
   std::uint32_t sent = 0;                          ///< bit i: something was sent to seat i
   std::array<std::uint32_t, kSeatsMax> outputs{};  ///< OutputDigest::value, of the seats in `sent`
 };

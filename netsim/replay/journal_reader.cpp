@@ -39,11 +39,6 @@ class JournalReader::Fields {
   }
   [[nodiscard]] bool whole() const noexcept { return whole_; }
   [[nodiscard]] std::size_t at() const noexcept { return at_; }
-  /// Kind of the record that follows; nullopt at the end of the bytes.
-  [[nodiscard]] std::optional<InputRecord> following() const noexcept {
-    if (at_ >= bytes_.size()) return std::nullopt;
-    return static_cast<InputRecord>(bytes_[at_]);
-  }
 
  private:
   std::span<const std::byte> bytes_;
@@ -79,8 +74,9 @@ void JournalReader::fail(const std::string& what) {
 }
 
 std::optional<JournalEvent> JournalReader::next() {
-  while (at_ < bytes_.size()) {
-    if (!error_.empty()) break;
+  while (error_.empty()) {
+    while (at_ < bytes_.size() && bytes_[at_] == std::byte{0}) ++at_;  // between two records
+    if (at_ == bytes_.size()) break;
     Fields fields{std::span{bytes_}.subspan(at_)};
     auto event = read(fields);
     if (!error_.empty() || !fields.whole()) break;  // damaged, or continued by the next piece
@@ -132,10 +128,6 @@ std::optional<JournalEvent> JournalReader::read(Fields& fields) {
       settings_ = {{static_cast<server::ShedLevel>(level), (flags & 1) != 0}, (flags & 2) != 0, interval};
       return std::nullopt;
     }
-    case InputRecord::kOutputs:
-      read_outputs(fields);
-      if (fields.whole()) fail("outputs without a tick before them");
-      return std::nullopt;
     case InputRecord::kOverflow:
       return JournalOverflow{fields.get<std::uint64_t>()};
   }
@@ -280,39 +272,18 @@ std::optional<JournalEvent> JournalReader::read_command(Fields& fields, InputRec
   return c;
 }
 
-JournalReader::Outputs JournalReader::read_outputs(Fields& fields) {
-  Outputs out;
-  out.seats = fields.get<std::uint32_t>();
-  for (std::size_t i = 0; i < kSeatsMax; ++i)
-    if ((out.seats >> i & 1) != 0) out.hashes[i] = fields.get<std::uint32_t>();
-  return out;
-}
-
 std::optional<JournalEvent> JournalReader::read_tick(Fields& fields) {
   JournalTick tick;
   const Duration dt{fields.get<std::int64_t>()};
   tick.missed = fields.get<std::uint32_t>();
   tick.settings = settings_;
+  tick.sent = fields.get<std::uint32_t>();
+  for (std::size_t i = 0; i < kSeatsMax; ++i)
+    if ((tick.sent >> i & 1) != 0) tick.outputs[i] = fields.get<std::uint32_t>();
   if (!fields.whole()) return std::nullopt;
-  if (const auto following = fields.following(); following == InputRecord::kOutputs) {
-    Fields outputs = fields;
-    outputs.get<InputRecord>();
-    const Outputs sent = read_outputs(outputs);
-    if (!outputs.whole() && !finished_) {
-      fields = outputs;
-      return std::nullopt;
-    }
-    tick.outputs_known = outputs.whole();  // else the journal was cut here
-    if (tick.outputs_known) {
-      fields = outputs;
-      tick.sent = sent.seats;
-      tick.outputs = sent.hashes;
-    }
-  } else if (!following && !finished_) {
-    static_cast<void>(fields.bytes(1));  // the next piece tells whether outputs follow
+  if (tick.sent >> kSeatsMax != 0) {
+    fail("outputs of a seat that no scene has");
     return std::nullopt;
-  } else {
-    tick.outputs_known = following.has_value();
   }
   tick.at = last_ += dt;
   return tick;

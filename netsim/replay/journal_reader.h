@@ -18,12 +18,10 @@ class JournalReader {
  public:
   /// Appends a piece. @return false if bytes before it are missing, or after an error: the piece is ignored
   bool add(std::span<const std::byte> piece);
-  /// No piece follows: events that wait for the next record are complete.
-  void finish() noexcept { finished_ = true; }
   /// Next event; nullopt if another piece must be added first, at the end, and after an error.
   [[nodiscard]] std::optional<JournalEvent> next();
 
-  /// What is wrong, with the position in the journal; empty: nothing.
+  /// Error with its position in the journal; empty: none.
   [[nodiscard]] const std::string& error() const noexcept { return error_; }
   /// Bytes behind the last whole record: more than 0 if the journal was cut, once `next` returns nothing at its end.
   [[nodiscard]] std::size_t rest() const noexcept { return bytes_.size() - at_; }
@@ -36,17 +34,12 @@ class JournalReader {
   std::optional<JournalEvent> read_datagram(Fields& fields);
   std::optional<JournalEvent> read_command(Fields& fields, server::InputRecord kind);
   std::optional<JournalEvent> read_tick(Fields& fields);
-  struct Outputs {
-    std::uint32_t seats = 0;
-    std::array<std::uint32_t, kSeatsMax> hashes{};
-  };
-  static Outputs read_outputs(Fields& fields);
   void fail(const std::string& what);
 
   std::vector<std::byte> bytes_;  ///< not yet dropped
   std::size_t at_ = 0;            ///< of the next record
   std::uint64_t dropped_ = 0;     ///< position of bytes_[0] in the journal
-  bool finished_ = false, begun_ = false;
+  bool begun_ = false;
   std::string error_;
 
   struct Seat {

@@ -34,7 +34,7 @@ double distance(double a, double b) noexcept {
   return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
 }
 
-/// Names of seats and tools, and axes: what decides the channels of a recording.
+/// Names of seats and tools, and axes, which decide the channels of a recording.
 std::string shape_of(const Lesson& lesson) {
   std::string text = std::to_string(lesson.scene.dof) + " axes, seats";
   for (const SeatSpec& seat : lesson.scene.seats) text += " " + seat.name;

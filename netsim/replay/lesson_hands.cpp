@@ -8,7 +8,8 @@ namespace tandem::netsim {
 
 std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> motion_of_seat(const Lesson& lesson,
                                                                                            const std::string& name,
-                                                                                           const Point& center) {
+                                                                                           const Point& center,
+                                                                                           double k) {
   const auto found = std::ranges::find_if(
       lesson.scene.seats, [&](const SeatSpec& s) { return s.name == name && s.kind == SeatKind::kMaster; });
   if (found == lesson.scene.seats.end()) {
@@ -24,7 +25,9 @@ std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> moti
   for (std::size_t row = 0; row < lesson.rows(); ++row) {
     const double time = seat.sample_tick[row] / lesson.scene.tick_hz;
     if (seat.fresh[row] == 0 || (!times.empty() && time <= times.back())) continue;
-    const hal::Vec3 x = hal::Vec3(seat.x[row].data()) / found->motion_scale - middle;
+    // Recordings have tip and force as the tool sees them.
+    const hal::Vec3 x = hal::Vec3(seat.x[row].data()) / found->motion_scale - middle -
+                        hal::Vec3(seat.f[row].data()) * (found->motion_scale / k);
     if (times.empty() && time > 0) {  // a motion begins at time 0
       times.push_back(0);
       points.push_back(x);

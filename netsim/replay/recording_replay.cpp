@@ -1,6 +1,7 @@
 #include "netsim/replay/recording_replay.h"
 
-#include <algorithm>
+#include <charconv>
+#include <string>
 
 #include "common/mcap/mcap_reader.h"
 #include "common/mcap/message_cursor.h"
@@ -50,6 +51,19 @@ class RowComparison {
   std::vector<double> before_, now_;
 };
 
+/// Hash of a scene from 64 hexadecimal digits; nullopt: it is none.
+std::optional<server::Checkpoint::Hash> scene_hash_of(const std::string& hex) {
+  server::Checkpoint::Hash hash;
+  if (hex.size() != 2 * hash.size()) return std::nullopt;
+  for (std::size_t i = 0; i < hash.size(); ++i) {
+    std::uint8_t byte = 0;
+    const auto parsed = std::from_chars(&hex[2 * i], &hex[2 * i] + 2, byte, 16);
+    if (parsed.ec != std::errc{} || parsed.ptr != &hex[2 * i] + 2) return std::nullopt;
+    hash[i] = std::byte{byte};
+  }
+  return hash;
+}
+
 /// Feeds all messages of the inputs. @return whether there are any
 bool feed(const mcap::Reader& reader, SessionReplay& replay, JournalReader& journal) {
   mcap::MessageCursor cursor{reader};
@@ -66,8 +80,6 @@ bool feed(const mcap::Reader& reader, SessionReplay& replay, JournalReader& jour
     const auto inputs = rec::decode_inputs(message->data);
     more = inputs && journal.add(inputs->data) && apply();
   }
-  journal.finish();
-  if (more) apply();
   return any;
 }
 
@@ -84,6 +96,8 @@ std::expected<RecordingReplay, std::string> replay_recording(std::span<const std
   out.seats_compared = !lesson->metadata.contains("seats");
   if (lesson->rows() > 0) out.length_s = lesson->tick.back() / lesson->scene.tick_hz;
   SessionReplay replay{lesson->scene};
+  if (const auto hash = lesson->metadata.find("scene_hash"); hash != lesson->metadata.end())
+    if (const auto bytes = scene_hash_of(hash->second)) replay.expect_scene(*bytes);
   RowComparison rows{*lesson, out.seats_compared};
   replay.compare = [&](const server::Session& session) { return rows(session); };
   JournalReader journal;

@@ -30,7 +30,7 @@ void SessionReplay::apply_event(const JournalBegin& begin) {
   ++counts_.sessions;
   if (begin.build != server::build_text() && std::ranges::find(other_builds_, begin.build) == other_builds_.end())
     other_builds_.push_back(begin.build);
-  same_scene_ = same_scene_ && begin.scene == server::scene_hash(*scene_);
+  same_scene_ = same_scene_ && begin.scene == expected_scene_.value_or(server::scene_hash(*scene_));
   std::optional<server::Checkpoint> from = begin.from;
   if (from) {
     from->scene = server::scene_hash(*scene_);  // `same_scene` tells whether it was another one
@@ -125,7 +125,7 @@ void SessionReplay::apply_event(const JournalTick& tick) {
   }
   if (compare)
     if (auto difference = compare(*session_)) differ(std::move(*difference));
-  if (!difference_ && tick.outputs_known) compare_outputs(tick);
+  if (!difference_) compare_outputs(tick);
   ++counts_.ticks;
 }
 

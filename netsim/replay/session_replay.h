@@ -42,8 +42,11 @@ class SessionReplay {
   [[nodiscard]] const std::string& error() const noexcept { return error_; }
   /// Build texts of recorders other than this program's (server::build_text).
   [[nodiscard]] const std::vector<std::string>& other_builds() const noexcept { return other_builds_; }
-  /// SHA-256 of the recorded scene is that of the replayed one.
+  /// SHA-256 of the recorded scene is that of the replayed one, or the one given to `expect_scene`.
   [[nodiscard]] bool same_scene() const noexcept { return same_scene_; }
+  /// Sets the hash of the recorded scene. A file's scene may have another text, without phases behind the session's
+  /// end. Call it before the first event.
+  void expect_scene(const server::Checkpoint::Hash& hash) noexcept { expected_scene_ = hash; }
   struct Counts {
     std::uint64_t sessions = 0, ticks = 0, datagrams = 0, outputs = 0;  ///< outputs: hashes that were compared
   };
@@ -76,6 +79,7 @@ class SessionReplay {
   std::string error_;
   std::vector<std::string> other_builds_;
   bool same_scene_ = true;
+  std::optional<server::Checkpoint::Hash> expected_scene_;
   Counts counts_;
   std::array<std::byte, transport::kDatagramMax> buffer_{};
 };

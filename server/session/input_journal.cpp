@@ -39,6 +39,21 @@ class RecordWriter {
   std::size_t size_ = 0;
 };
 
+/// Writes the fields of a record to memory that the caller reserved.
+class Cursor {
+ public:
+  Cursor(std::byte* at, InputRecord kind) noexcept : at_(at) { put(kind); }
+  template <class T>
+  void put(T value) noexcept {
+    std::memcpy(at_, &value, sizeof value);
+    at_ += sizeof value;
+  }
+  [[nodiscard]] std::byte* at() const noexcept { return at_; }
+
+ private:
+  std::byte* at_;
+};
+
 /// Without what only the owners of seats may know.
 Checkpoint without_secrets(Checkpoint checkpoint) noexcept {
   for (Checkpoint::Seat& seat : checkpoint.seats) seat.resume = {};
@@ -62,21 +77,25 @@ std::int64_t InputJournal::since_last(Time now) noexcept {
   return dt;
 }
 
-void InputJournal::write(std::span<const std::byte> head, std::span<const std::byte> body) noexcept {
-  if (overflowed_ || !ring_.fits(head.size() + body.size())) [[unlikely]] {
-    overflowed_ = true;
-    dropped_.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
-  ring_.put(head);
-  if (!body.empty()) ring_.put(body);
+void InputJournal::lose() noexcept {
+  overflowed_ = true;
+  dropped_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void InputJournal::write(std::span<const std::byte> record) noexcept {
+  std::byte* const at = open(record.size());
+  if (at == nullptr) return;
+  std::memcpy(at, record.data(), record.size());
+  ring_.commit(record.size());
 }
 
 void InputJournal::write_overflow() noexcept {
-  RecordWriter<16> record{InputRecord::kOverflow};
-  record.put(ticks_);
-  if (told_ || !ring_.fits(record.size())) return;
-  ring_.put(record.bytes());
+  constexpr std::size_t kSize = 1 + sizeof ticks_;
+  std::byte* const at = told_ ? nullptr : ring_.reserve(kSize);
+  if (at == nullptr) return;
+  Cursor cursor{at, InputRecord::kOverflow};
+  cursor.put(ticks_);
+  ring_.commit(kSize);
   ring_.publish();
   told_ = true;
 }
@@ -84,7 +103,8 @@ void InputJournal::write_overflow() noexcept {
 void InputJournal::begin(const Begin& b) noexcept {
   for (Seat& seat : seats_) seat = {};
   seats_n_ = b.seats;
-  settings_.reset();
+  settings_ = kNoSettings;
+  in_tick_ = false;
   last_ = b.start;
   RecordWriter<kCheckpointMax + 512> record{InputRecord::kBegin};
   record.put(std::uint16_t{0});
@@ -132,9 +152,15 @@ void InputJournal::admit(Time now, std::size_t seat, std::uint32_t own_cid, std:
 
 void InputJournal::datagram(Time now, std::size_t seat, const PeerAddress& from, const transport::Header& header,
                             std::span<const std::byte> plaintext, const std::uint64_t* token) noexcept {
+  constexpr std::size_t kHead = 6 + 2 * sizeof(std::uint64_t);
   Seat& own = seats_[seat];
   const bool moved = !(from == own.from);
-  RecordWriter<48> record{InputRecord::kDatagram};
+  const std::size_t size =
+      kHead + (moved ? sizeof(std::uint64_t) : 0) + (token != nullptr ? sizeof *token : 0) + plaintext.size();
+  std::byte* const memory = open(size);
+  if (memory == nullptr) [[unlikely]]
+    return;
+  Cursor record{memory, InputRecord::kDatagram};
   record.put(
       static_cast<std::uint8_t>(seat | (moved ? input::kNewAddress : 0) | (token != nullptr ? input::kTokenTaken : 0)));
   record.put(static_cast<std::uint8_t>(header.type));
@@ -149,7 +175,8 @@ void InputJournal::datagram(Time now, std::size_t seat, const PeerAddress& from,
   }
   if (token != nullptr) [[unlikely]]
     record.put(*token);
-  write(record.bytes(), plaintext);
+  std::memcpy(record.at(), plaintext.data(), plaintext.size());
+  ring_.commit(size);
 }
 
 void InputJournal::command(Time now, const SessionCommand& command) noexcept {
@@ -200,28 +227,36 @@ void InputJournal::contacts(std::size_t tool) noexcept {
   write(record.bytes());
 }
 
-void InputJournal::tick(Time now, std::uint32_t missed, const Settings& settings) noexcept {
-  if (settings_ != settings) [[unlikely]] {
-    settings_ = settings;
-    RecordWriter<8> record{InputRecord::kSettings};
-    record.put(static_cast<std::uint8_t>(settings.load.level));
-    record.put(static_cast<std::uint8_t>((settings.load.overloaded ? 1 : 0) | (settings.telemetry_every_tick ? 2 : 0)));
-    record.put(settings.record_interval);
-    write(record.bytes());
-  }
-  RecordWriter<16> record{InputRecord::kTick};
-  record.put(since_last(now));
-  record.put(missed);
+void InputJournal::write_settings(const Settings& settings) noexcept {
+  settings_ = word_of(settings);
+  RecordWriter<8> record{InputRecord::kSettings};
+  record.put(static_cast<std::uint8_t>(settings.load.level));
+  record.put(static_cast<std::uint8_t>((settings.load.overloaded ? 1 : 0) | (settings.telemetry_every_tick ? 2 : 0)));
+  record.put(settings.record_interval);
   write(record.bytes());
-  if (!overflowed_) ++ticks_;
+}
+
+void InputJournal::tick(Time now, std::uint32_t missed, const Settings& settings) noexcept {
+  if (settings_ != word_of(settings)) [[unlikely]]
+    write_settings(settings);
+  tick_at_ = now;
+  missed_ = missed;
+  in_tick_ = true;
 }
 
 void InputJournal::end_tick() noexcept {
-  if (overflowed_) [[unlikely]]
+  if (!in_tick_) return;
+  in_tick_ = false;
+  constexpr std::size_t kHead = 1 + sizeof(std::int64_t) + 2 * sizeof(std::uint32_t);
+  std::byte* const memory = open(kHead + seats_n_ * sizeof(std::uint32_t));
+  if (memory == nullptr) [[unlikely]]
     return write_overflow();
-  RecordWriter<8 + 4 * kSeatsMax> record{InputRecord::kOutputs};
-  record.put(std::uint32_t{0});
+  Cursor record{memory, InputRecord::kTick};
+  record.put(since_last(tick_at_));
+  record.put(missed_);
+  std::byte* const mask = record.at();
   std::uint32_t sent = 0;
+  record.put(sent);
   for (std::size_t i = 0; i < seats_n_; ++i) {
     OutputDigest& digest = seats_[i].outputs;
     if (!digest.sent()) continue;
@@ -229,10 +264,10 @@ void InputJournal::end_tick() noexcept {
     sent |= 1U << i;
     record.put(digest.value());
   }
-  if (sent == 0) return ring_.publish();
-  record.replace(1, sent);
-  write(record.bytes());
+  std::memcpy(mask, &sent, sizeof sent);
+  ring_.commit(static_cast<std::size_t>(record.at() - memory));
   ring_.publish();
+  ++ticks_;
 }
 
 }  // namespace tandem::server

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -82,7 +81,7 @@ class InputJournal {
     friend bool operator==(const Settings&, const Settings&) = default;
   };
   void tick(Time now, std::uint32_t missed, const Settings& settings) noexcept TANDEM_REALTIME;
-  /// Writes the hashes of what this tick sent, and shows the tick to the draining thread.
+  /// Writes the tick with the hashes of what it sent, and shows it to the draining thread.
   void end_tick() noexcept TANDEM_REALTIME;
 
  private:
@@ -92,8 +91,22 @@ class InputJournal {
     OutputDigest outputs;
   };
 
-  /// Appends a record, or counts it as dropped.
-  void write(std::span<const std::byte> head, std::span<const std::byte> body = {}) noexcept TANDEM_REALTIME;
+  /// Memory for a record of this size; null if it is lost, which is counted.
+  [[nodiscard]] std::byte* open(std::size_t size) noexcept TANDEM_REALTIME {
+    std::byte* const at = overflowed_ ? nullptr : ring_.reserve(size);
+    if (at == nullptr) [[unlikely]]
+      lose();
+    return at;
+  }
+  void lose() noexcept;
+  void write(std::span<const std::byte> record) noexcept;
+  /// The settings in one number, which is compared at every tick; never kNoSettings.
+  [[nodiscard]] static std::uint64_t word_of(const Settings& settings) noexcept {
+    return static_cast<std::uint64_t>(settings.load.level) | (settings.load.overloaded ? 0x100U : 0U) |
+           (settings.telemetry_every_tick ? 0x200U : 0U) | std::uint64_t{settings.record_interval} << 32;
+  }
+  static constexpr std::uint64_t kNoSettings = ~std::uint64_t{0};
+  void write_settings(const Settings& settings) noexcept TANDEM_REALTIME;
   void write_overflow() noexcept TANDEM_REALTIME;
   [[nodiscard]] std::int64_t since_last(Time now) noexcept;
 
@@ -101,9 +114,11 @@ class InputJournal {
   transport::HashKey address_key_;
   std::array<Seat, kSeatsMax> seats_{};
   std::size_t seats_n_ = 0;
-  std::optional<Settings> settings_;  ///< as last written
-  Time last_{};
-  std::uint64_t ticks_ = 0;  ///< kTick records since `begin`
+  std::uint64_t settings_ = kNoSettings;  ///< as last written, see word_of
+  std::uint32_t missed_ = 0;              ///< of the open tick
+  bool in_tick_ = false;                  ///< `end_tick` is due
+  Time last_{}, tick_at_{};               ///< of the last record with a time; of the open tick
+  std::uint64_t ticks_ = 0;               ///< kTick records since `begin`
   bool overflowed_ = false, told_ = false;
   std::atomic<std::uint64_t> dropped_{0};
 };

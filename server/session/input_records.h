@@ -5,7 +5,8 @@
 #include <cstdint>
 
 /// Layout of the records of an input journal (server/session/input_journal.h). Numbers are little-endian and without
-/// padding; u, i and f are unsigned, signed and floating-point. A record begins with a byte InputRecord, then:
+/// padding; u, i and f are unsigned, signed and floating-point. A record begins with a byte InputRecord, then the
+/// fields below. Zeros may lie between two records.
 ///
 ///   kBegin          u16 length of the rest, u8 kInputJournalVersion, u8 n, n bytes of build text, 32 bytes SHA-256 of
 ///                   the scene, 7 x f64 scale of the axes, i64 time at which slaves and session begin [ns],
@@ -22,10 +23,10 @@
 ///   kRemove         u8 seat, u8 wire::CloseReason
 ///   kEnd            u8 wire::CloseReason
 ///   kContacts       u8 tool whose surfaces come from a source outside of the scene
-///   kTick           i64 dt, u32 missed ticks
+///   kTick           i64 dt, u32 missed ticks, u32 n, bit i for each seat to which this tick sent, u32 hash for each of
+///                   them in order
 ///   kSettings       u8 ShedLevel, u8 flags (1: overloaded, 2: telemetry at every tick), u32 record interval [ticks];
 ///                   of the next kTick
-///   kOutputs        u32 n, bit i for each seat to which the last kTick sent, u32 hash for each of them in order
 ///   kOverflow       u64 number of kTick records before the journal lost one
 ///
 /// dt is the time since the last record with a dt, since the time in kBegin for the first [ns]. Addresses are keyed
@@ -47,7 +48,6 @@ enum class InputRecord : std::uint8_t {
   kContacts,
   kTick,
   kSettings,
-  kOutputs,
   kOverflow,
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <tuple>
 
 #include "tests/bench/scene_rows.h"
 
@@ -37,34 +38,22 @@ TEST(SceneCost, OfAConsoleThatWatchesIsAtMost3Percent) {
   EXPECT_GT(seen->all, alone->all) << "else no console watched";
 }
 
+// Asked: at most 3 % for 8 seats and 3 tools. The cost per seat is constant, so that it is a larger share of a cheaper
+// scene.
 TEST(SceneCost, OfRecordingAllInputsIsAtMost3Percent) {
   if (std::string(TANDEM_SCENE_COST).empty())
     GTEST_SKIP() << "the instructions are those of a release build for x86-64";
   if (std::system("valgrind --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "valgrind is not installed";
-  const auto without = cost_of(TANDEM_SCENE_COST, row_of("recorded_contact")),
-             with = cost_of(TANDEM_SCENE_COST, row_of("inputs"));
-  ASSERT_TRUE(without && with) << "callgrind failed";
-  std::printf("[  figures ] instructions per client-tick: %.0f recorded, %.0f with all inputs\n", without->all,
-              with->all);
-  EXPECT_LE(with->all, 1.03 * without->all);
-  EXPECT_GT(with->all, without->all) << "else nothing was recorded";
-}
-
-// The journal of inputs is all that a recording adds to the tick of a session that makes records.
-TEST(SceneCost, OfARecordingIsAtMost3Percent) {
-  if (std::string(TANDEM_SCENE_COST).empty())
-    GTEST_SKIP() << "the instructions are those of a release build for x86-64";
-  if (std::system("valgrind --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "valgrind is not installed";
-  const auto bare = cost_of(TANDEM_SCENE_COST, row_of("eight")),
-             report = cost_of(TANDEM_SCENE_COST, row_of("eight_report")),
-             recording = cost_of(TANDEM_SCENE_COST, row_of("eight_recording"));
-  ASSERT_TRUE(bare && report && recording) << "callgrind failed";
-  std::printf(
-      "[  figures ] instructions per client-tick of 8 seats: %.0f, with a report %.0f, with a recording %.0f (%+.1f "
-      "%%)\n",
-      bare->all, report->all, recording->all, 100 * (recording->all / report->all - 1));
-  EXPECT_LE(recording->all, 1.08 * report->all);
-  EXPECT_GT(recording->all, report->all) << "else nothing was recorded";
+  for (const auto& [without_name, with_name, most] :
+       {std::tuple{"recorded_eight", "inputs_eight", 1.03}, std::tuple{"recorded_contact", "inputs", 1.05}}) {
+    const auto without = cost_of(TANDEM_SCENE_COST, row_of(without_name)),
+               with = cost_of(TANDEM_SCENE_COST, row_of(with_name));
+    ASSERT_TRUE(without && with) << "callgrind failed";
+    std::printf("[  figures ] %s: %.0f instructions per client-tick, %.0f with all inputs (%+.2f %%)\n",
+                row_of(without_name).what, without->all, with->all, 100 * (with->all / without->all - 1));
+    EXPECT_LE(with->all, most * without->all);
+    EXPECT_GT(with->all, without->all) << "else nothing was recorded";
+  }
 }
 
 TEST(SceneCost, ReadsCallgrindsFile) {

@@ -38,7 +38,6 @@ SessionReplay::Counts replay_any(const SceneSpec& scene, std::span<const std::by
   SessionReplay replay{scene};
   JournalReader reader;
   EXPECT_TRUE(bytes.empty() || reader.add(piece_of(bytes, 0)));
-  reader.finish();
   while (const auto event = reader.next())
     if (!replay.apply(*event)) break;
   error = reader.error() + replay.error();
@@ -63,7 +62,6 @@ TEST(JournalReader, GivesTheSameEventsForPiecesOfAnySize) {
       ASSERT_TRUE(reader.add(piece_of(std::span{bytes}.subspan(begin, std::min(size, bytes.size() - begin)), begin)));
       read();
     }
-    reader.finish();
     read();
     EXPECT_EQ(reader.error(), "");
     EXPECT_EQ(reader.rest(), 0u);

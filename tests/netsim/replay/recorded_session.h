@@ -23,7 +23,7 @@ using Piece = std::vector<std::byte>;
 /// Key that hides addresses in tests.
 inline constexpr transport::HashKey kAddressKey{std::byte{7}};
 
-/// What a recorder keeps of a session: the journal in pieces, and of each tick a hash of its record.
+/// A recorder of a session: it keeps the journal in pieces, and a hash of the record of each tick.
 class RecordedSession {
  public:
   explicit RecordedSession(std::size_t capacity = server::InputJournal::kCapacity) : journal(kAddressKey, capacity) {}
@@ -74,8 +74,6 @@ class RecordedSession {
     };
     bool more = true;
     for (auto piece = pieces.begin(); more && piece != pieces.end(); ++piece) more = reader.add(*piece) && feed();
-    reader.finish();
-    if (more) feed();
     out.difference = replay.difference();
     out.error = replay.error() + reader.error();
     out.counts = replay.counts();

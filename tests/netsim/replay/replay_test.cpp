@@ -45,7 +45,6 @@ std::optional<ReplayDifference> first_difference(const SceneSpec& scene, const R
   };
   JournalReader reader;
   for (const auto& piece : recorded.pieces) EXPECT_TRUE(reader.add(piece)) << reader.error();
-  reader.finish();
   while (auto event = reader.next()) {
     change(*event);
     if (!replay.apply(*event)) break;

@@ -1,5 +1,5 @@
-// What enters a session is in its journal, and nothing else is: commands, removals, peers without a seat, addresses,
-// datagrams that do not authenticate, secrets.
+// Everything that enters a session is in its journal, and nothing else is: commands, removals, peers without a seat,
+// addresses, datagrams that do not authenticate, secrets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
