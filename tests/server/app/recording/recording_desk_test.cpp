@@ -6,12 +6,21 @@
 namespace tandem::server {
 namespace {
 
-SessionNote mark(const std::string& json, const std::string& workstation = "desk-2") {
-  return {{}, "lab", workstation, "", AccessRole::kEvaluator, 1234, 1.25, rpc::NoteKind::kMark, json};
+SessionNote note(rpc::NoteKind kind, const std::string& json, const std::string& workstation = "desk-2",
+                 const std::string& person = "") {
+  return {.session = "lab",
+          .workstation = workstation,
+          .person = person,
+          .role = AccessRole::kEvaluator,
+          .tick = 1234,
+          .time_s = 1.25,
+          .kind = kind,
+          .json = json};
 }
-SessionNote sheet(const std::string& json) {
-  return {{}, "lab", "desk-2", "", AccessRole::kEvaluator, 1234, 1.25, rpc::NoteKind::kSheet, json};
+SessionNote mark(const std::string& json, const std::string& workstation = "desk-2", const std::string& person = "") {
+  return note(rpc::NoteKind::kMark, json, workstation, person);
 }
+SessionNote sheet(const std::string& json) { return note(rpc::NoteKind::kSheet, json); }
 
 struct Desk {
   explicit Desk(bool pseudonyms) : desk(3, pseudonyms) { desk.set_status(rpc::StatusRecording{.by_server = true}); }
@@ -23,17 +32,19 @@ TEST(RecordingDesk, PassesEventsMarksAndSheetsToTheRecording) {
   d.desk.add_event({7, 7'000'000, "join", "trainer", "trainer tick 7"});
   d.desk.add_note(mark(R"({"t": 2.5, "text": "good grip", "person": "ann"})"));
   d.desk.add_note(mark(R"({"t": null, "text": "no name"})"));
+  d.desk.add_note(mark(R"({"text": "named", "person": "typed"})", "desk-2", "otto"));
   d.desk.add_note(sheet(
       R"({"sheet": "GOALS", "of": "trainee", "person": "eva", "scores": {"depth": 4, "x": "no"}, "closed": true})"));
   const RecordingDesk::Items items = d.desk.take();
   ASSERT_EQ(items.events.size(), 1u);
   EXPECT_EQ(items.events[0].what, "join");
-  ASSERT_EQ(items.marks.size(), 2u);
+  ASSERT_EQ(items.marks.size(), 3u);
   EXPECT_EQ(items.marks[0].t_s, 2.5);
   EXPECT_EQ(items.marks[0].by, "evaluator ann");
   EXPECT_EQ(items.marks[0].text, "good grip");
   EXPECT_EQ(items.marks[1].t_s, 1.25) << "without a time of its own, that of the session";
   EXPECT_EQ(items.marks[1].by, "evaluator desk-2");
+  EXPECT_EQ(items.marks[2].by, "evaluator otto") << "the name in the ticket comes first";
   ASSERT_EQ(items.sheets.size(), 1u);
   EXPECT_EQ(items.sheets[0].of, "trainee");
   EXPECT_EQ(items.sheets[0].by, "eva");
