@@ -340,9 +340,8 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
              .same_owner = true,  // the query succeeded, and the seat has been reserved since
              .connection = catalogue.make_connection(seat, params, request.hello.device),
              .done = [&reservation](ShardRequest&) { reservation.end_join(); }};
-    if (entry->registration.recording)
-      entry->registration.recording->set_person(seat,
-                                                welcome.person.empty() ? request.workstation.name : welcome.person);
+    if (RecordingDesk* const desk = entry->registration.recording.get())
+      desk->set_person(seat, welcome.person.empty() ? request.workstation.name : welcome.person);
     joins.connection.resume = secret;
     joins.connection.force_scale = reservation.force_scale();
     if (std::string softer = catalogue.softened_spring_text(seat, request.hello.device); !softer.empty())
@@ -362,8 +361,6 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
   if (is_watcher(welcome)) entry->watchers.cancel_join();
   restore_ticket(entry->consoles.take(welcome.resume_secret), *entry, welcome.person);
 }
-
-rpc::SessionList SessionJoins::list() { return registry_.list(); }
 
 void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                            std::function<void(rpc::Body)> answer) {
