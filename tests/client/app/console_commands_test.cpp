@@ -179,13 +179,22 @@ TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
             "{\"session\": \"lesson\", \"id\": \"ab000000000000000000000000000000\", \"phase\": \"stopped\", "
             "\"time_s\": 12.340, \"stops\": 3, \"authority_version\": 7, "
             "\"draining\": false, \"shed\": 0, \"seats\": [{\"name\": \"trainer\", \"role\": \"instructor\", "
-            "\"taken\": true, \"heard\": true}, {\"name\": \"trainee\", \"role\": \"trainee\", "
-            "\"taken\": true, \"heard\": false}, {\"name\": \"arm\", \"role\": \"observer\", \"taken\": false, "
-            "\"heard\": false}], \"tools\": [{\"name\": \"drill\", "
+            "\"taken\": true, \"heard\": true, \"person\": null}, {\"name\": \"trainee\", \"role\": \"trainee\", "
+            "\"taken\": true, \"heard\": false, \"person\": null}, {\"name\": \"arm\", \"role\": \"observer\", "
+            "\"taken\": false, "
+            "\"heard\": false, \"person\": null}], \"tools\": [{\"name\": \"drill\", "
             "\"alpha\": {\"trainer\": 0.25, \"trainee\": 0.75}}], \"stop\": {\"number\": 3, \"kind\": \"stop\", "
             "\"seat\": \"\", \"workstation\": \"desk\", \"role\": \"operator\", "
-            "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true}, \"drain\": null, "
+            "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true, \"person\": null}, "
+            "\"drain\": null, "
             "\"held\": null, \"recording\": null}\n");
+  rpc::Status named = lesson();
+  named.seats[0].person = "ann";
+  named.stop->person = "otto";
+  EXPECT_NE(status_json(named).find("\"heard\": true, \"person\": \"ann\""), std::string::npos);
+  EXPECT_NE(status_json(named).find("\"yours\": true, \"person\": \"otto\""), std::string::npos);
+  EXPECT_NE(status_text(named).find("here, ann\n"), std::string::npos) << status_text(named);
+  EXPECT_NE(status_text(named).find("STOPPED by otto at desk"), std::string::npos) << status_text(named);
 }
 
 TEST(ConsoleCommands, ReportEventsOnceAndOnlyThoseAfterTheFirstStatus) {
