@@ -41,6 +41,7 @@ void add_repair_command(const io::Command& root) {
       "Exit: 0 all files are complete; 1 a file is damaged beyond its begin, in use, or cannot be written, with the "
       "reason.\n\n"
       "Examples\n"
+      "  tandem-server repair lesson.mcap.part\n"
       "  tandem-server repair /var/lib/tandem/recordings/lab-20261126T134500Z-0f3a9c11.mcap.part");
 }
 
