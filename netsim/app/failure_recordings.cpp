@@ -94,7 +94,7 @@ void record_failures(TestResult& result, const FailureRecordingOptions& options)
     failed.resize(kFailureRecordingsMax);
   }
   std::error_code error;
-  fs::create_directories(options.folder, error);
+  if (!options.interrupted) fs::create_directories(options.folder, error);
   std::vector<FailedSeed> repeated;
   for (const FailedSeed& seed : failed) {
     std::string problem = options.interrupted ? "interrupted before the recording began"
