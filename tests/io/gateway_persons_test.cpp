@@ -13,8 +13,8 @@ namespace {
 struct Lesson : MultiClientFixture {
   Lesson() : MultiClientFixture("reports: \".\" scenes: \".\" session { name: \"a\" scene: \"one_axis\" }") {}
 
-  [[nodiscard]] std::string ticket_for(Words more, const std::string& session = "a") const {
-    Words words{"ticket", "--session", session, "--workstation", "desk", "--state", state};
+  [[nodiscard]] std::string ticket_for(Words more) const {
+    Words words{"ticket", "--session", "a", "--workstation", "desk", "--state", state};
     words.insert(words.end(), more.begin(), more.end());
     Process made = server(std::move(words));
     EXPECT_EQ(made.wait(), 0) << made.err();
@@ -159,12 +159,14 @@ TEST(LessonDesk, OffersScenesAndGivesTicketsToPersonsWithoutASeat) {
   EXPECT_NE(raised["text"].get<std::string>().find("no ticket for a console has the role operator"), std::string::npos);
   EXPECT_EQ(create({{{"name", "ted"}, {"workstation", "desk"}, {"role", "TRAINEE"}, {"seat", "trainee"}},
                     {{"name", "eva"}, {"workstation", "desk"}, {"role", "EVALUATOR"}, {"seat", ""}},
-                    {{"name", "oda"}, {"workstation", "desk"}, {"role", "OBSERVER"}, {"seat", ""}}})["ok"],
+                    {{"name", "oda"}, {"workstation", "desk"}, {"role", "OBSERVER"}, {"seat", ""}},
+                    {{"name", "rob"}, {"workstation", "desk"}, {"role", "RECORDER"}, {"seat", ""}}})["ok"],
             true);
   const Json made = desk.next("tickets");
-  ASSERT_EQ(made["tickets"].size(), 3U) << made;
-  const std::string expected[][2] = {{"ted", "TRAINEE"}, {"eva", "EVALUATOR"}, {"oda", "OBSERVER"}};
-  for (std::size_t i = 0; i < 3; ++i) {
+  ASSERT_EQ(made["tickets"].size(), 4U) << made;
+  const std::string expected[][2] = {
+      {"ted", "TRAINEE"}, {"eva", "EVALUATOR"}, {"oda", "OBSERVER"}, {"rob", "RECORDER"}};
+  for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(made["tickets"][i]["person"], expected[i][0]);
     EXPECT_EQ(made["tickets"][i]["role"], expected[i][1]);
     EXPECT_EQ(made["tickets"][i]["workstation"], "desk");
@@ -180,7 +182,7 @@ TEST(LessonDesk, OffersScenesAndGivesTicketsToPersonsWithoutASeat) {
                            {"--session", "exam", "--state", lesson.own, "--ticket", made["tickets"][0]["ticket"]});
   ASSERT_TRUE(trainee.wait_for("seat trainee at")) << trainee.err();
   Process status({TANDEM_CLIENT, "control", "--server", lesson.address, "--state", lesson.own, "--ticket",
-                  lesson.ticket_for({"--role", "recorder"}, "exam"), "--json", "status"});
+                  made["tickets"][3]["ticket"], "--json", "status"});
   EXPECT_EQ(status.wait(), 0) << status.err();
   EXPECT_NE(status.out().find("\"name\": \"trainee\", \"role\": \"trainee\", \"taken\": true"), std::string::npos);
   EXPECT_NE(status.out().find("\"person\": \"ted\""), std::string::npos) << status.out();
