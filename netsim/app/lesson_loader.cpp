@@ -15,14 +15,16 @@
 #include "proto/io/scene_file.h"
 #include "proto/recording/lesson_reader.h"
 #include "proto/spec/input_error.h"
+#include "server/export/app/hdf5_import.h"
 
 namespace tandem::netsim {
 namespace {
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 constexpr std::size_t kRecordingMax = std::size_t{1} << 32;  // [bytes]
-constexpr std::array<std::string_view, 2> kEndings{".csv", ".mcap"};
+constexpr std::array<std::string_view, 4> kEndings{".csv", ".h5", ".hdf5", ".mcap"};
 constexpr std::string_view kMcap = "\x89MCAP";
+constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
 
 struct Closing {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -70,6 +72,7 @@ std::expected<Lesson, std::string> load_lesson(const std::string& file, const st
   std::string_view piece = pieces.next(file);
   if (!pieces.error().empty()) return std::unexpected(pieces.error());
   if (score::TraceReader::is_trace(piece)) return read_trace(pieces, piece, file, scene);
+  if (piece.starts_with(kHdf5)) return server::import_hdf5(file);
   const bool recording = piece.starts_with(kMcap);
   const std::size_t most = recording ? kRecordingMax : CsvTable::kBytesMax;
   std::string bytes;

@@ -9,14 +9,15 @@
 
 namespace tandem::netsim {
 
-/// Reads a lesson from a file: a recording (MCAP), rows of `--trace` as CSV, or a table of recorded motion
-/// (netsim/score/motion_lesson.h). The content decides, not the name.
+/// Reads a lesson from a file: a recording (MCAP), its export as HDF5, rows of `--trace` as CSV, or a table of
+/// recorded motion (netsim/score/motion_lesson.h). The content decides, not the name.
 /// @param scene  file or shipped name of the scene of a trace; unused for other files
-/// Error: one line with the file, and line, column and value where the content is wrong.
+/// Error: one line with the file, and line, column and value where the content is wrong;
+/// of HDF5 the dataset.
 [[nodiscard]] std::expected<Lesson, std::string> load_lesson(const std::string& file, const std::string& scene);
 
-/// Returns the recordings that the arguments name: files as they are, of a folder those that end in `.csv` or `.mcap`,
-/// sorted by name. Error: a folder without recordings, or one that cannot be read.
+/// Returns the recordings that the arguments name: files as they are, of a folder those that end in `.csv`, `.h5`,
+/// `.hdf5` or `.mcap`, sorted by name. Error: a folder without recordings, or one that cannot be read.
 [[nodiscard]] std::expected<std::vector<std::string>, std::string> lesson_files(const std::vector<std::string>& paths);
 
 }  // namespace tandem::netsim

@@ -140,8 +140,8 @@ void add_score_command(const io::Command& root) {
   command
       .add_option(
           "files", a.files,
-          "recordings: MCAP files of --record, rows of --trace (with --scene), or tables of recorded motion; a folder: "
-          "all of its .mcap and .csv files")
+          "recordings: MCAP files of --record, their exports as HDF5, rows of --trace (with --scene), or tables of "
+          "recorded motion; a folder: all of its .mcap, .h5, .hdf5 and .csv files")
       .value_name("FILE...");
   command.add_option("--scene", a.scene, "scene of a trace: a file, or the name of a shipped scene")
       .value_name("SCENE");

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,15 @@ struct LessonSignal {
   std::function<void(std::size_t row, std::span<double>)> real;
   std::function<void(std::size_t row, std::span<std::int64_t>)> whole;
 
+  // Range of the numbers that a file may have. Real numbers without a limit may be NaN: not known.
+  double real_max = std::numeric_limits<double>::infinity();  ///< of the magnitude; finite: no NaN
+  std::int64_t whole_min = std::numeric_limits<std::int64_t>::min();
+  std::int64_t whole_max = std::numeric_limits<std::int64_t>::max();
+  // Set by signals_to_read for signals that a lesson stores; the others follow from these.
+  std::function<void(std::size_t rows)> resize;
+  std::function<void(std::size_t row, std::span<const double>)> set_real;
+  std::function<void(std::size_t row, std::span<const std::int64_t>)> set_whole;
+
   /// Numbers per tick.
   [[nodiscard]] std::size_t width() const noexcept { return columns.empty() ? 1 : columns.size(); }
 };
@@ -30,5 +40,8 @@ struct LessonSignal {
 /// Returns the signals of a lesson, session first, then seats and tools. They refer to the lesson.
 /// @pre lesson_problem(lesson).empty()
 [[nodiscard]] std::vector<LessonSignal> signals_of(const Lesson& lesson);
+/// Returns the same signals, with which a reader of exports fills the columns of a lesson without rows.
+/// @pre the scene is valid; `lesson.seats` and `lesson.tools` have its sizes
+[[nodiscard]] std::vector<LessonSignal> signals_to_read(Lesson& lesson);
 
 }  // namespace tandem::server

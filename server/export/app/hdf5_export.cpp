@@ -10,8 +10,6 @@ namespace tandem::server {
 
 namespace {
 
-constexpr double kSecondPerMillisecond = 1e-3, kSharePerPercent = 1e-2;
-
 void describe(Hdf5File& file, const std::string& path, const std::string& unit, const std::string& frame,
               const std::string& description) {
   file.attribute(path, "unit", unit);
@@ -78,14 +76,14 @@ void write_links(Hdf5File& file, const Lesson& lesson) {
   const auto column = [&](const char* name, const char* unit, const char* description, auto value) {
     write_column(file, std::string("/links/") + name, unit, description, lesson.links, value);
   };
-  const auto seconds = [](double ms) { return ms * kSecondPerMillisecond; };
+  const auto seconds = [](double ms) { return ms / kMillisecondsPerSecond; };
   column("tick", "1", "session tick", [](const LessonLink& l) { return std::int64_t{l.tick}; });
   column("seat", "1", "index of the seat, from 0", [](const LessonLink& l) { return std::int64_t{l.seat}; });
   column("rtt_p50", "s", "median round trip", [&](const LessonLink& l) { return seconds(l.rtt_p50_ms); });
   column("loss_up", "1", "share of lost datagrams to the server",
-         [](const LessonLink& l) { return l.loss_up_percent * kSharePerPercent; });
+         [](const LessonLink& l) { return l.loss_up_percent / kPercent; });
   column("loss_down", "1", "share of lost datagrams to the client",
-         [](const LessonLink& l) { return l.loss_down_percent * kSharePerPercent; });
+         [](const LessonLink& l) { return l.loss_down_percent / kPercent; });
   column("gap_up", "s", "longest gap to the server", [&](const LessonLink& l) { return seconds(l.gap_up_ms); });
   column("gap_down", "s", "longest gap to the client", [&](const LessonLink& l) { return seconds(l.gap_down_ms); });
   column("age_p99", "s", "99th percentile of the age of samples",
@@ -129,7 +127,7 @@ void write_counts(Hdf5File& file, const Lesson& lesson) {
 }
 
 void write_metadata(Hdf5File& file, const Lesson& lesson) {
-  file.attribute("/", "format", std::string("tandem-lesson-1"));
+  file.attribute("/", "format", std::string(kHdf5Format));
   file.attribute("/", "session", lesson.session);
   file.attribute("/", "tick_hz", lesson.scene.tick_hz);
   file.attribute("/", "start_unix_ns", lesson.start_unix_ns);
@@ -139,6 +137,8 @@ void write_metadata(Hdf5File& file, const Lesson& lesson) {
     if (!key.empty()) file.attribute("/metadata", key, value);
   file.texts("/scene", {lesson.scene_text});
   file.attribute("/scene", "description", std::string("scene with all effective values, as text"));
+  file.attribute("/scene", "name", lesson.scene.name);
+  file.attribute("/scene", "duration", lesson.scene.duration);
 }
 
 void write_groups(Hdf5File& file, const Lesson& lesson) {

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "proto/spec/lesson.h"
 #include "server/export/app/pending_path.h"
 
 namespace tandem::server {
+
+/// Attribute `format` of the root.
+inline constexpr std::string_view kHdf5Format = "tandem-lesson-1";
+/// Divisors of the values of links. A quotient is rounded once, so a reader finds the recorded value.
+inline constexpr double kMillisecondsPerSecond = 1e3, kPercent = 100;
 
 /// Writes a lesson as HDF5: one dataset per signal in the groups `session`, `seats/NAME` and `tools/NAME`, in SI units,
 /// with the attributes `unit`, `frame`, `description` and, for several numbers per tick, `columns`. Further datasets:

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/io/output_file.h"
-#include "server/export/app/hdf5_library.h"
+#include "server/export/app/hdf5_id.h"
 
 namespace tandem::server {
 
@@ -18,28 +18,6 @@ namespace {
 static_assert(std::is_same_v<hid_t, std::int64_t>);
 
 constexpr unsigned kTruncate = 2;  // H5F_ACC_TRUNC, which as a macro calls the library
-
-/// The library. @pre it is loaded: a file was opened
-const Hdf5Library& h5() { return *Hdf5Library::load(); }
-
-/// Owns an identifier of libhdf5.
-class Hdf5Id {
- public:
-  Hdf5Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Hdf5Id() {
-    if (id_ >= 0) close_(id_);
-  }
-  Hdf5Id(const Hdf5Id&) = delete;
-  Hdf5Id& operator=(const Hdf5Id&) = delete;
-  [[nodiscard]] hid_t get() const noexcept { return id_; }
-  [[nodiscard]] bool good() const noexcept { return id_ >= 0; }
-  /// Closes now. @return whether that failed
-  [[nodiscard]] bool close_fails() { return close_(std::exchange(id_, -1)) < 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 /// Finds `errno = N` in the descriptions of libhdf5's error stack.
 herr_t find_errno(unsigned /*number*/, const H5E_error2_t* error, void* found) {

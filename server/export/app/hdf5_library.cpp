@@ -65,6 +65,34 @@ void find_functions(Symbols& symbols, Hdf5Library& h5) {
   symbols.function(h5.H5Aclose, "H5Aclose");
 }
 
+void find_reading_functions(Symbols& symbols, Hdf5Library& h5) {
+  symbols.function(h5.H5Fopen, "H5Fopen");
+  symbols.function(h5.H5Dopen2, "H5Dopen2");
+  symbols.function(h5.H5Dget_space, "H5Dget_space");
+  symbols.function(h5.H5Dget_type, "H5Dget_type");
+  symbols.function(h5.H5Dget_create_plist, "H5Dget_create_plist");
+  symbols.function(h5.H5Dread, "H5Dread");
+  symbols.function(h5.H5Sget_simple_extent_ndims, "H5Sget_simple_extent_ndims");
+  symbols.function(h5.H5Sget_simple_extent_dims, "H5Sget_simple_extent_dims");
+  symbols.function(h5.H5Sget_simple_extent_npoints, "H5Sget_simple_extent_npoints");
+  symbols.function(h5.H5Tequal, "H5Tequal");
+  symbols.function(h5.H5Tget_class, "H5Tget_class");
+  symbols.function(h5.H5Tget_size, "H5Tget_size");
+  symbols.function(h5.H5Tis_variable_str, "H5Tis_variable_str");
+  symbols.function(h5.H5Pget_layout, "H5Pget_layout");
+  symbols.function(h5.H5Pget_chunk, "H5Pget_chunk");
+  symbols.function(h5.H5Pget_external_count, "H5Pget_external_count");
+  symbols.function(h5.H5PLset_loading_state, "H5PLset_loading_state");
+  symbols.function(h5.H5Aopen_by_name, "H5Aopen_by_name");
+  symbols.function(h5.H5Aget_space, "H5Aget_space");
+  symbols.function(h5.H5Aget_type, "H5Aget_type");
+  symbols.function(h5.H5Aread, "H5Aread");
+  symbols.function(h5.H5Aiterate2, "H5Aiterate2");
+  symbols.function(h5.H5Oopen, "H5Oopen");
+  symbols.function(h5.H5Oclose, "H5Oclose");
+  symbols.function(h5.H5free_memory, "H5free_memory");
+}
+
 std::expected<Hdf5Library, std::string> load_library() {
   void* const library = ::dlopen(TANDEM_HDF5_LIBRARY, RTLD_NOW | RTLD_LOCAL);  // stays loaded until the program ends
   if (library == nullptr)
@@ -73,6 +101,7 @@ std::expected<Hdf5Library, std::string> load_library() {
   Hdf5Library h5;
   Symbols symbols(library);
   find_functions(symbols, h5);
+  find_reading_functions(symbols, h5);
   unsigned major = 0, minor = 0, release = 0;
   if (!symbols.missing().empty() || h5.H5get_libversion(&major, &minor, &release) < 0 || major != H5_VERS_MAJOR ||
       minor != H5_VERS_MINOR)
@@ -89,6 +118,7 @@ std::expected<Hdf5Library, std::string> load_library() {
   if (!symbols.missing().empty())
     return std::unexpected(std::string(TANDEM_HDF5_LIBRARY) + " lacks " + symbols.missing());
   h5.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  h5.H5PLset_loading_state(0);  // a file must not choose libraries that are loaded
   return h5;
 }
 
