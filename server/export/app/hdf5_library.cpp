@@ -102,12 +102,13 @@ std::expected<Hdf5Library, std::string> load_library() {
   Symbols symbols(library);
   find_functions(symbols, h5);
   find_reading_functions(symbols, h5);
+  // The first call: at exit libhdf5 would try again to write a file that could not be closed, and crash.
+  if (symbols.missing().empty()) h5.H5dont_atexit();
   unsigned major = 0, minor = 0, release = 0;
   if (!symbols.missing().empty() || h5.H5get_libversion(&major, &minor, &release) < 0 || major != H5_VERS_MAJOR ||
       minor != H5_VERS_MINOR)
     return std::unexpected(std::string(TANDEM_HDF5_LIBRARY) + " is of another version than " + H5_VERS_INFO +
                            ", for which this program was built; install that of " + TANDEM_HDF5_PACKAGE);
-  h5.H5dont_atexit();  // at exit libhdf5 would try again to write a file that could not be closed
   if (h5.H5open() < 0) return std::unexpected(std::string(TANDEM_HDF5_LIBRARY) + " cannot be started");
   symbols.identifier(h5.dataset_create, "H5P_CLS_DATASET_CREATE_ID_g");
   symbols.identifier(h5.text, "H5T_C_S1_g");
