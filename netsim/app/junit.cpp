@@ -95,13 +95,19 @@ void put_case(const Scenario& scenario, const SeedOutcome& s, bool cut, std::str
   } else if (s.state == State::kNotRun) {
     out += "      <skipped" + attribute("message", "not run") + "/>\n";
   } else {
+    if (!s.recording.empty())
+      out += "      <properties>\n        <property" + attribute("name", "recording") +
+             attribute("value", s.recording) + "/>\n      </properties>\n";
     const auto all = causes(scenario, s);
     std::string text;
     for (const std::string& cause : all) text += cause + "\n";
     text += "replay: " + replay_command(scenario, s.seed) + "\n";
+    for (const std::string& line : recording_lines(s)) text += line + "\n";
     const char* const element = s.state == State::kFail ? "failure" : "error";
     out += std::string("      <") + element + attribute("message", all.empty() ? "failed" : all.front()) +
            attribute("type", name(s.state)) + ">" + escaped(text, false) + "</" + element + ">\n";
+    if (!s.recording.empty())  // readers want the attachment alone on its line
+      out += "      <system-out>\n[[ATTACHMENT|" + escaped(s.recording, false) + "]]\n</system-out>\n";
   }
   out += "    </testcase>\n";
 }

@@ -1,6 +1,7 @@
 #include "netsim/app/run_recording.h"
 
 #include <span>
+#include <utility>
 
 #include "common/base/hex.h"
 #include "common/base/rng.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr double kLinkHz = 60;
 constexpr std::size_t kPieceMax = std::size_t{1} << 16;  // of inputs [bytes]
 
-server::RecordingInfo info_of(const SimulationConfig& setup) {
+server::RecordingInfo info_of(const SimulationConfig& setup, const std::map<std::string, std::string>& facts) {
   server::RecordingInfo info;
   info.session = setup.scene.name;
   info.scene_text = scene_file_text(setup.scene);
@@ -25,6 +26,7 @@ server::RecordingInfo info_of(const SimulationConfig& setup) {
                    {"law", std::string(setup::law_name(setup.scene.channel.law))},
                    {"scene_hash", to_hex(server::scene_hash(setup.scene))},
                    {"seats", "values of their own tick, without the delay of the network"}};
+  for (const auto& [key, value] : facts) info.metadata[key] = value;
   return info;
 }
 
@@ -37,12 +39,12 @@ transport::HashKey address_key(std::uint64_t seed) noexcept {
 
 }  // namespace
 
-RunRecording::RunRecording(const SimulationConfig& setup)
-    : setup_(&setup), journal_(address_key(setup.seed)), piece_(kPieceMax) {}
+RunRecording::RunRecording(const SimulationConfig& setup, std::map<std::string, std::string> facts)
+    : setup_(&setup), facts_(std::move(facts)), journal_(address_key(setup.seed)), piece_(kPieceMax) {}
 
 std::string RunRecording::open(const std::string& name) {
   std::string problem = file_.open(name, false);
-  if (file_.is_open()) writer_ = std::make_unique<server::RecordingWriter>(setup_->scene, info_of(*setup_));
+  if (file_.is_open()) writer_ = std::make_unique<server::RecordingWriter>(setup_->scene, info_of(*setup_, facts_));
   return problem;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,12 +15,13 @@
 
 namespace tandem::netsim {
 
-/// Writes the recording of a simulated session: option --record of `run`. Seats have their values of each tick without
-/// the delay of the network, as in the trace.
+/// Writes the recording of a simulated session: options --record of `run` and --record-failures of `test`. Seats have
+/// their values of each tick without the delay of the network, as in the trace.
 class RunRecording {
  public:
   /// @param setup  of the simulation; outlives this object
-  explicit RunRecording(const SimulationConfig& setup);
+  /// @param facts  more metadata of the file (server::RecordingInfo::metadata); they replace equal names
+  explicit RunRecording(const SimulationConfig& setup, std::map<std::string, std::string> facts = {});
 
   /// Journal of the session's inputs, for SimulationConfig::journal.
   [[nodiscard]] server::InputJournal& journal() noexcept { return journal_; }
@@ -38,6 +40,7 @@ class RunRecording {
   void take_inputs(std::uint32_t tick);
 
   const SimulationConfig* setup_;
+  std::map<std::string, std::string> facts_;
   server::InputJournal journal_;
   std::vector<std::byte> piece_;
   io::OutputFile file_;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <memory>
 
+#include "netsim/app/run_recording.h"
 #include "netsim/system/run_simulation.h"
 
 namespace tandem::netsim {
@@ -16,6 +18,39 @@ double cpu_now() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
+
+/// Records one run into the requested file.
+class SeedRecorder {
+ public:
+  /// @param setup  receives the journal; outlives this object, as `request` does
+  SeedRecorder(const RecordingRequest& request, SimulationConfig& setup) : request_(&request) {
+    if (request.file.empty()) return;
+    recording_ = std::make_unique<RunRecording>(setup, request.facts);
+    setup.journal = &recording_->journal();
+  }
+  void begin(Simulation& simulation) {
+    if (recording_ == nullptr) return;
+    problem_ = recording_->open(request_->file);
+    opened_ = problem_.empty();
+    recording_->attach(simulation);
+  }
+  void on_tick(const Simulation& simulation) {
+    if (recording_ != nullptr) recording_->on_tick(simulation);
+  }
+  void end(SeedOutcome& out) {
+    if (recording_ == nullptr) return;
+    if (opened_) problem_ = recording_->close();
+    if (!opened_ && problem_.empty()) problem_ = "no session was made, so nothing could be recorded";
+    if (problem_.empty()) out.recording = request_->file;
+    out.recording_problem = problem_;
+  }
+
+ private:
+  const RecordingRequest* request_;
+  std::unique_ptr<RunRecording> recording_;
+  std::string problem_;
+  bool opened_ = false;
+};
 
 }  // namespace
 
@@ -33,7 +68,12 @@ SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRun
     if (observer.progress) observer.progress(session_s / setup.scene.duration);
     return true;
   };
-  const SimulationResult run = run_simulation(setup, {.keep_running = go_on, .trace = observer.trace});
+  SeedRecorder recorder(observer.recording, setup);
+  const SimulationResult run =
+      run_simulation(setup, {.keep_running = go_on,
+                             .trace = observer.trace,
+                             .begin = [&](Simulation& simulation) { recorder.begin(simulation); },
+                             .tick = [&](Simulation& simulation) { recorder.on_tick(simulation); }});
   SeedOutcome out{.seed = seed,
                   .trouble = run.trouble,
                   .violations = run.report.violations,
@@ -55,6 +95,7 @@ SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRun
     good = good && holds(limit, out.values.back());
   }
   out.state = !out.trouble.empty() ? State::kTrouble : good ? State::kPass : State::kFail;
+  recorder.end(out);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +35,9 @@ struct SeedOutcome {
   std::string trace_hash;
   double duration_s = 0;  ///< of the session
   double cpu_s = 0;
-  std::string report;  ///< JSON of `run --json` without cpu_s; only on request
+  std::string report;                  ///< JSON of `run --json` without cpu_s; only on request
+  std::string recording = {};          ///< file that has the run; empty: none
+  std::string recording_problem = {};  ///< why there is no such file, or what it lacks; empty: nothing
 
   [[nodiscard]] bool failed() const noexcept { return state != State::kNotRun && state != State::kPass; }
 };
@@ -42,10 +45,17 @@ struct SeedOutcome {
 /// Returns the state as in JSON, for example `pass` or `fail`.
 [[nodiscard]] std::string_view name(SeedOutcome::State state) noexcept;
 
+/// Recording of a run that is requested.
+struct RecordingRequest {
+  std::string file;                          ///< empty: nothing is recorded
+  std::map<std::string, std::string> facts;  ///< metadata of the file, as in RunRecording
+};
+
 struct SeedRunObserver {
   std::function<void(double share)> progress = {};        ///< receives the share of the session that has run [0, 1]
   std::function<void(std::string_view rows)> trace = {};  ///< as in SimulationObserver
   bool report = false;                                    ///< whether SeedOutcome::report is requested
+  RecordingRequest recording = {};                        ///< fills SeedOutcome::recording and recording_problem
 };
 
 /// Runs one seed to its end and judges invariants and limits.

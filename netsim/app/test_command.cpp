@@ -8,6 +8,7 @@
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
 #include "netsim/app/exit_status.h"
+#include "netsim/app/failure_recordings.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/scenario_loader.h"
 #include "netsim/app/signal_watcher.h"
@@ -26,7 +27,7 @@ struct TestArguments {
   std::vector<std::string> scenarios;
   std::uint64_t seed = 1;
   double seeds = 1, jobs = 0;
-  std::string junit, json, trace;
+  std::string junit, json, trace, record_failures;
   bool fail_fast = false, list = false, check = false, reports = false, quiet = false;
 };
 
@@ -72,9 +73,24 @@ void check_outputs(const TestArguments& a, io::UsageErrors& mistakes) {
   }
 }
 
+/// Records the failed seeds. Prints what could not be written; the verdict stays as it is.
+void record(const TestArguments& a, const TestOptions& options, bool interrupted, TestResult& result) {
+  record_failures(result, {.folder = a.record_failures,
+                           .jobs = options.jobs,
+                           .stop_fd = options.stop_fd,
+                           .interrupted = interrupted,
+                           .on_progress = options.on_progress});
+  for (const ScenarioResult& r : result.scenarios)
+    for (const SeedOutcome& s : r.seeds)
+      if (!s.recording_problem.empty())
+        io::print(stderr, "tandem-netsim test: --record-failures: " + r.scenario.name + ", seed " +
+                              std::to_string(s.seed) + ": " + s.recording_problem + "\n");
+}
+
 int test_command(const TestArguments& a) {
   io::UsageErrors mistakes;
   check_outputs(a, mistakes);
+  if (!a.record_failures.empty()) mistakes.add("--record-failures", recording_folder_problem(a.record_failures));
   std::vector<std::string> names = a.scenarios;
   if (names.empty() && a.list) names.emplace_back(kAllShipped);
   if (names.empty()) {
@@ -84,7 +100,8 @@ int test_command(const TestArguments& a) {
   }
   for (const auto& [only, wanted] : {std::pair{"--check", a.check}, std::pair{"--list", a.list}})
     for (const auto& [option, file] :
-         {std::pair{"--json", &a.json}, std::pair{"--junit", &a.junit}, std::pair{"--trace", &a.trace}})
+         {std::pair{"--json", &a.json}, std::pair{"--junit", &a.junit}, std::pair{"--trace", &a.trace},
+          std::pair{"--record-failures", &a.record_failures}})
       if (wanted && !file->empty())
         mistakes.add(std::string(only) + " runs nothing, so there is nothing for " + option +
                      "; leave one of them out");
@@ -132,6 +149,7 @@ int test_command(const TestArguments& a) {
   if (a.command.given("--seeds")) options.seeds = static_cast<std::uint64_t>(a.seeds);
   options.on_progress = [&](const io::JobProgress& p, std::size_t failed) { progress.show(p, failed); };
   TestResult result = run_tests(std::move(*scenarios), options);
+  if (!a.record_failures.empty()) record(a, options, interruption.signalled(), result);
   progress.end();
   result.interrupted = result.not_run() > 0 && interruption.signalled();
 
@@ -173,6 +191,11 @@ void add_test_command(const io::Command& root) {
       .value_name("FILE|-");
   command.add_flag("--reports", a.reports, "adds the report of `run --json` for each seed to --json");
   command.add_option("--trace", a.trace, "writes one row per tick; of one seed only").value_name("FILE.csv");
+  command
+      .add_option("--record-failures", a.record_failures,
+                  "repeats each failed seed, at most 20, and records it as DIR/SCENARIO-seed-N.mcap, for `replay`, "
+                  "`trace` and viewers; makes DIR")
+      .value_name("DIR");
   command.add_flag("--fail-fast", a.fail_fast,
                    "runs nothing after the first seed that fails, in the order of the table");
   command.add_flag("--list", a.list, "only lists scenarios: seeds, length, summary; without SCENARIO the shipped ones");
@@ -181,11 +204,13 @@ void add_test_command(const io::Command& root) {
   command.footer(
       "A seed passes when no promised invariant is broken (as `run` judges) and every limit of its scenario holds.\n"
       "For each failure the report has the command that repeats the seed, with the same trace_hash, with its "
-      "trace.\n\n"
+      "trace.\n"
+      "A recording that cannot be written is an error with words; the exit code is that of the verdict.\n\n"
       "Exit: 0 all passed, 1 something failed or was not run (Ctrl-C too), 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim test --list\n"
       "  tandem-netsim test shipped --junit verdict.xml\n"
+      "  tandem-netsim test shipped --junit verdict.xml --record-failures failures\n"
       "  tandem-netsim test my-scenarios/ --seeds 100 --jobs 8 --json -\n"
       "  tandem-netsim test outage-one-seat --seed 17 --seeds 1 --trace out.csv");
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/format.h"
+#include "netsim/app/failure_recordings.h"
 #include "netsim/app/test_notes.h"
 
 namespace tandem::netsim {
@@ -127,9 +128,20 @@ void put_failures(const TestResult& result, std::string& out) {
       out += "\nFAIL " + r.scenario.name + ", seed " + std::to_string(s.seed) + "\n";
       for (const std::string& cause : causes(r.scenario, s)) out += "  " + cause + "\n";
       out += "  replay: " + replay_command(r.scenario, s.seed) + "\n";
+      for (const std::string& line : recording_lines(s)) out += "  " + line + "\n";
     }
   if (failed > kFailuresShown)
     out += "\nand " + std::to_string(failed - kFailuresShown) + " more failures; --json and --junit name all of them\n";
+}
+
+/// States how many failures were recorded, and that the largest number of files was reached.
+void put_recordings(const TestResult& result, std::string& out) {
+  if (!result.recordings || result.failed() == 0) return;
+  const FailureRecordings& r = *result.recordings;
+  out += format("\nrecordings: %zu of %zu failures in ", result.recorded(), result.failed()) + r.folder;
+  if (r.left_out > 0)
+    out += format("; %zu were left out, as a call writes at most %zu files", r.left_out, kFailureRecordingsMax);
+  out += "\n";
 }
 
 }  // namespace
@@ -152,6 +164,7 @@ std::string test_summary(const TestResult& result) {
     out += notes_text(r);
   }
   put_failures(result, out);
+  put_recordings(result, out);
   if (result.not_run() > 0) {
     out += "\nnot run:";
     for (const ScenarioResult& r : result.scenarios) {

@@ -69,6 +69,12 @@ std::size_t TestResult::failed() const noexcept { return total_of(scenarios, std
 std::size_t TestResult::all() const noexcept {
   return total_of(scenarios, std::size_t{0}, [](const ScenarioResult& s) { return s.seeds.size(); });
 }
+std::size_t TestResult::recorded() const noexcept {
+  return total_of(scenarios, std::size_t{0}, [](const ScenarioResult& s) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(s.seeds, [](const SeedOutcome& seed) { return !seed.recording.empty(); }));
+  });
+}
 
 TestResult run_tests(std::vector<Scenario> scenarios, const TestOptions& options) {
   TestResult result;
@@ -138,6 +144,15 @@ std::vector<std::string> causes(const Scenario& scenario, const SeedOutcome& out
     out.push_back(limit.subject + ": " + limit.metric + " = " + short_number(value) +
                   (limit.unit.empty() || std::isnan(value) ? "" : " " + limit.unit) + ", must be " + range_text(limit));
   }
+  return out;
+}
+
+std::vector<std::string> recording_lines(const SeedOutcome& outcome) {
+  std::vector<std::string> out;
+  if (!outcome.recording.empty()) out.push_back("recording: " + outcome.recording);
+  if (!outcome.recording_problem.empty())
+    out.push_back((outcome.recording.empty() ? "not recorded: " : "note on the recording: ") +
+                  outcome.recording_problem);
   return out;
 }
 

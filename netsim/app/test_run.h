@@ -43,15 +43,23 @@ struct ScenarioResult {
   [[nodiscard]] double real_time() const noexcept;
 };
 
+/// Recordings of failed seeds (netsim/app/failure_recordings.h).
+struct FailureRecordings {
+  std::string folder;
+  std::size_t left_out = 0;  ///< failed seeds beyond the largest number of files
+};
+
 struct TestResult {
   std::vector<ScenarioResult> scenarios;
   double wall_s = 0;
-  bool interrupted = false;  ///< a signal ended it before every seed was run
+  bool interrupted = false;                          ///< a signal ended it before every seed was run
+  std::optional<FailureRecordings> recordings = {};  ///< nullopt: not requested
 
   [[nodiscard]] bool passed() const noexcept;
   [[nodiscard]] std::size_t not_run() const noexcept;
   [[nodiscard]] std::size_t failed() const noexcept;
-  [[nodiscard]] std::size_t all() const noexcept;  ///< returns the number of seeds of all scenarios
+  [[nodiscard]] std::size_t all() const noexcept;       ///< returns the number of seeds of all scenarios
+  [[nodiscard]] std::size_t recorded() const noexcept;  ///< returns the number of seeds that have a recording
 };
 
 /// Runs all seeds of all scenarios in parallel. The result does not depend on `jobs`, except for cpu_s and wall_s.
@@ -59,6 +67,10 @@ struct TestResult {
 
 /// Returns every cause of a failure, one line each; empty for a seed that passed or was not run.
 [[nodiscard]] std::vector<std::string> causes(const Scenario& scenario, const SeedOutcome& outcome);
+
+/// Returns the file with the recording of a failed seed, and why there is none or what it lacks, one line each; empty
+/// if no recording was requested, and for seeds beyond the largest number of files.
+[[nodiscard]] std::vector<std::string> recording_lines(const SeedOutcome& outcome);
 
 /// Returns the command that runs this seed again and writes its trace.
 [[nodiscard]] std::string replay_command(const Scenario& scenario, std::uint64_t seed);

@@ -55,6 +55,8 @@ Json seed_json(const Scenario& scenario, const SeedOutcome& o) {
             {"cpu_s", number(o.cpu_s)},
             {"replay", replay_command(scenario, o.seed)}};
   if (!o.report.empty()) seed["report"] = Json::parse(o.report);
+  if (!o.recording.empty()) seed["recording"] = o.recording;
+  if (!o.recording_problem.empty()) seed["recording_problem"] = o.recording_problem;
   return seed;
 }
 
@@ -128,16 +130,17 @@ std::string without_cpu_time(const std::string& report) {
 std::string test_json(const TestResult& result) {
   double cpu_s = 0;
   for (const ScenarioResult& r : result.scenarios) cpu_s += r.cpu_s();
-  return text({{"version", 1},
-               {"verdict", result.passed() ? "pass" : "fail"},
-               {"interrupted", result.interrupted},
-               {"seeds_run", result.all() - result.not_run()},
-               {"seeds_failed", result.failed()},
-               {"seeds_not_run", result.not_run()},
-               {"cpu_s", number(cpu_s)},
-               {"scenarios", array_of(result.scenarios, scenario_json)}},
-              2) +
-         "\n";
+  Json json{{"version", 1},
+            {"verdict", result.passed() ? "pass" : "fail"},
+            {"interrupted", result.interrupted},
+            {"seeds_run", result.all() - result.not_run()},
+            {"seeds_failed", result.failed()},
+            {"seeds_not_run", result.not_run()},
+            {"cpu_s", number(cpu_s)}};
+  if (const auto& r = result.recordings)
+    json["recordings"] = {{"folder", r->folder}, {"written", result.recorded()}, {"left_out", r->left_out}};
+  json["scenarios"] = array_of(result.scenarios, scenario_json);
+  return text(json, 2) + "\n";
 }
 
 std::string sweep_json(const Sweep& sweep) {
@@ -167,7 +170,9 @@ std::string to_bytes(const SeedOutcome& o) {
                {"bands", pairs(o.bands, "seat", "band")},
                {"words", o.network_text},
                {"badness", o.badness},
-               {"notes", o.notes}},
+               {"notes", o.notes},
+               {"recording", o.recording},
+               {"recording_problem", o.recording_problem}},
               -1);
 }
 
@@ -185,7 +190,9 @@ SeedOutcome outcome_from_bytes(const std::string& bytes) {
                 .trace_hash = j.at("hash"),
                 .duration_s = j.at("duration"),
                 .cpu_s = j.at("cpu"),
-                .report = j.at("report")};
+                .report = j.at("report"),
+                .recording = j.at("recording"),
+                .recording_problem = j.at("recording_problem")};
   for (const Json& value : j.at("values")) o.values.push_back(number_from(value));
   for (const Json& v : j.at("violations"))
     o.violations.push_back({v.at("invariant"), v.at("seat"), v.at("at_s"), v.at("expected"), v.at("count")});

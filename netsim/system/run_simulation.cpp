@@ -45,6 +45,7 @@ SimulationResult run_simulation(Simulation& simulation, std::uint64_t seed, cons
   const server::TraceCsv csv{simulation.scene()};
   transport::Digest digest;
   std::string rows = csv.header();
+  if (observer.begin) observer.begin(simulation);
   const auto flush = [&] {
     digest.add(rows);
     if (observer.trace) observer.trace(rows);

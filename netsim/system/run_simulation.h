@@ -20,6 +20,8 @@ struct SimulationObserver {
   std::function<bool(double session_s)> keep_running = {};
   /// Receives the rows of the trace (server/report/trace_csv.h), header first, in pieces.
   std::function<void(std::string_view rows)> trace = {};
+  /// Called once, before the first step.
+  std::function<void(Simulation& simulation)> begin = {};
   /// Called after every tick.
   std::function<void(Simulation& simulation)> tick = {};
 };

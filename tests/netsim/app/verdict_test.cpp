@@ -150,7 +150,7 @@ TEST(Verdict, KeepsTheSameFailFastSeedsForAnyNumberOfJobs) {
 /// entities escaped.
 std::string xml_trouble(const std::string& xml) {
   static const std::regex part(
-      R"(<\?xml [^<>]*\?>|<(/?)([a-z]+)((?: [a-z]+="(?:[^<>&"]|&(?:amp|lt|gt|quot|#10);)*")*)(/?)>|[^<>&]+|&(?:amp|lt|gt|quot|#10);)");
+      R"(<\?xml [^<>]*\?>|<(/?)([a-z-]+)((?: [a-z]+="(?:[^<>&"]|&(?:amp|lt|gt|quot|#10);)*")*)(/?)>|[^<>&]+|&(?:amp|lt|gt|quot|#10);)");
   std::vector<std::string> open;
   auto at = xml.begin();
   for (std::smatch m; at != xml.end(); at = m[0].second) {
@@ -175,12 +175,15 @@ TEST(Verdict, EscapesEveryTextInJUnit) {
       "control \x01\x1f\x7f tab\tline\nend \xC3\xA9 broken \xC3 \xFF \xED\xA0\x80 \xEF\xBF\xBF \xF4\x90\x80\x80 ]]>";
   r.seeds[1].state = State::kCrash;
   r.seeds[1].trouble = "]]> </failure> & <testcase> \x1b[31m";
+  r.seeds[1].recording = "a & b/<\"x\">.mcap";
   r.seeds[2].state = State::kNotRun;
   const std::string xml = junit_xml(result);
   EXPECT_EQ(xml_trouble(xml), "");
   EXPECT_NE(xml.find("value=\"control ??\x7f tab\tline&#10;end \xC3\xA9 broken ? ? ??? ??? ???? ]]&gt;\""),
             std::string::npos)
       << xml;
+  EXPECT_NE(xml.find("name=\"recording\" value=\"a &amp; b/&lt;&quot;x&quot;&gt;.mcap\"/>"), std::string::npos) << xml;
+  EXPECT_NE(xml.find("<system-out>\n[[ATTACHMENT|a &amp; b/&lt;&quot;x&quot;&gt;.mcap]]\n<"), std::string::npos) << xml;
   EXPECT_NE(xml.find("tests=\"3\" failures=\"0\" errors=\"1\" skipped=\"1\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("<skipped message=\"not run\"/>"), std::string::npos);
   EXPECT_NE(xml_trouble("<a><b></a></b>"), "") << "the check itself bites";
