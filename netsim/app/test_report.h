@@ -30,8 +30,8 @@ namespace tandem::netsim {
 /// Returns JUnit XML for CI servers: one testsuite per scenario, one testcase per seed. Broken limits and invariants
 /// are failures, troubles and crashes are errors, seeds that were not run are skipped. After an interruption the first
 /// of these in each testsuite is an error, because CI servers count a skipped case as passed. Times are CPU seconds.
-/// A testcase with a recording has the property `recording` and the line `[[ATTACHMENT|FILE]]` in system-out, from which
-/// Jenkins (plugin JUnit Attachments) and GitLab attach the file.
+/// A testcase with a recording has the property `recording` and the line `[[ATTACHMENT|FILE]]` in system-out, from
+/// which Jenkins (plugin JUnit Attachments) and GitLab attach the file.
 [[nodiscard]] std::string junit_xml(const TestResult& result);
 
 }  // namespace tandem::netsim

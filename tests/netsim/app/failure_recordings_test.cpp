@@ -176,6 +176,8 @@ TEST_F(FailureRecordingsTest, ReportFilesThatCannotBeWritten) {
 TEST_F(FailureRecordingsTest, OfASessionThatCannotBeMadeAreNone) {
   Scenario impossible = failing("impossible");
   impossible.setup.network.up.loss.probability = 2;  // no parser accepts this; the engine itself rejects it
+  fs::create_directories(path("out"));
+  std::ofstream(path("out/impossible-seed-1.mcap")) << "of an earlier call";
   const TestResult result = recorded({impossible}, 1);
   EXPECT_EQ(result.scenarios[0].seeds[0].recording, "");
   EXPECT_NE(result.scenarios[0].seeds[0].recording_problem.find("no session was made"), std::string::npos);
