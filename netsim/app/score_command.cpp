@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -100,6 +101,11 @@ int score_command(const ScoreArguments& a) {
   }
   std::vector<std::string> paths = a.files;
   paths.insert(paths.end(), a.learner.begin(), a.learner.end());
+  for (const auto& [option, file] : outputs)
+    for (const auto* inputs : {&paths, &a.experts})
+      for (const std::string& input : *inputs)
+        if (std::error_code error; std::filesystem::equivalent(input, *file, error))
+          mistakes.add(std::string(option) + ": " + *file + " is an input; name another file");
   if (paths.empty()) mistakes.add("FILE: at least one recording is needed, as FILE or with --learner");
   if (!mistakes.empty()) return mistakes.report_each(kName);
 

@@ -29,6 +29,8 @@ RecordingSummary summary_of(const Lesson& lesson) {
     out.duration_s = static_cast<double>(span) / lesson.scene.tick_hz;
     out.missing_ticks = span + 1 - std::min<std::uint64_t>(span + 1, lesson.rows());
   }
+  // Ticks after the last row, as on a full disk, are in the account only.
+  for (const auto& [topic, count] : lesson.counts) out.missing_ticks = std::max(out.missing_ticks, count.dropped);
   for (std::size_t i = 0; i < std::min(lesson.seats.size(), lesson.scene.seats.size()); ++i)
     add_person(out.persons, lesson.seats[i].person, lesson.scene.seats[i].name);
   for (const LessonMark& mark : lesson.marks) add_person(out.persons, mark.by, "notes");

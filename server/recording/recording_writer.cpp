@@ -106,13 +106,17 @@ RecordingWriter::RecordingWriter(const SceneSpec& scene, const RecordingInfo& in
       view_(scene, file_) {
   file_.add_metadata({rec::kSessionRecord, session_metadata(scene, info)});
   file_.add_metadata({rec::kSceneRecord, scene_metadata(scene, info)});
-  mcap::TextMap persons, roles;
-  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
-    roles[scene.seats[i].name] = role_text(scene.seats[i]);
-    if (i < info.persons.size()) persons[scene.seats[i].name] = info.persons[i];
-  }
-  file_.add_metadata({rec::kParticipantsRecord, std::move(persons)});
+  mcap::TextMap roles;
+  for (const SeatSpec& seat : scene.seats) roles[seat.name] = role_text(seat);
+  set_persons(info.persons);
   file_.add_metadata({rec::kRolesRecord, std::move(roles)});
+}
+
+void RecordingWriter::set_persons(const std::vector<std::string>& persons) {
+  mcap::TextMap seats;
+  for (std::size_t i = 0; i < std::min(persons.size(), scene_->seats.size()); ++i)
+    seats[scene_->seats[i].name] = persons[i];
+  file_.add_metadata({rec::kParticipantsRecord, std::move(seats)});
 }
 
 std::uint64_t RecordingWriter::log_time(std::int64_t time_ns) const noexcept {

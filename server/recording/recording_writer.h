@@ -30,6 +30,9 @@ class RecordingWriter {
   /// @param scene  outlives the writer
   RecordingWriter(const SceneSpec& scene, const RecordingInfo& info);
 
+  /// Adds the participant of each seat, in the order of the scene; empty: not known. Call it again when one changes:
+  /// the last record is the present one, and all of them name persons of the file.
+  void set_persons(const std::vector<std::string>& persons);
   /// Adds a tick. Records whose tick is not later than the last one are ignored, because the session clock stood still;
   /// so are those from before the session runs.
   void add(const TickRecord& record);

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 
 #include "common/base/sanitize.h"
 #include "common/io/print.h"
@@ -44,6 +45,9 @@ std::string export_files(const RecordingsTask& task, const std::vector<std::stri
 int export_recordings(const RecordingsTask& task) {
   std::vector<std::string> files;
   for (const std::string& name : task.names) files.push_back(task.folder.empty() ? name : task.folder + "/" + name);
+  for (const std::string& file : files)
+    if (std::error_code error; std::filesystem::equivalent(file, task.to, error))
+      return print_error("recordings export", sanitize(task.to) + " is the recording itself; name another file");
   LongWork work("export");
   const std::string problem = export_files(task, files, [&work](double share) { return work.advance(share); });
   work.clear();

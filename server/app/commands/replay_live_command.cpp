@@ -1,7 +1,9 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -101,8 +103,10 @@ class ReplayedHands {
 };
 
 std::expected<Lesson, std::string> read_file(const std::string& path) {
+  if (std::error_code error; std::filesystem::is_directory(path, error))
+    return std::unexpected("is a folder; name a recording");
   std::ifstream file(path, std::ios::binary);
-  if (!file) return std::unexpected("cannot be opened");
+  if (!file) return std::unexpected(std::string("cannot be opened: ") + std::strerror(errno));
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (file.bad()) return std::unexpected("cannot be read");
   return read_lesson(std::as_bytes(std::span(bytes)));

@@ -50,11 +50,10 @@ void RecordingDesk::add_note(const SessionNote& note) {
   const std::string typed = note_member(object, "person");
   const std::lock_guard lock(lock_);
   if (!status_ || !room()) return;
-  const std::string by = named(!note.person.empty() ? note.person : !typed.empty() ? typed : note.workstation);
+  std::string by = named(!note.person.empty() ? note.person : !typed.empty() ? typed : note.workstation);
   if (note.kind == rpc::NoteKind::kMark) {
     const auto t = object.find("t");
-    items_.marks.push_back({t != object.end() && t->is_number() ? t->get<double>() : note.time_s,
-                            std::string(to_text(note.role)) + (by.empty() ? "" : " " + by),
+    items_.marks.push_back({t != object.end() && t->is_number() ? t->get<double>() : note.time_s, std::move(by),
                             note_member(object, "text")});
     return;
   }

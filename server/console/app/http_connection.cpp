@@ -185,7 +185,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void send(Response response) {
     response.set("Content-Security-Policy", kPolicy);
     response.set("X-Content-Type-Options", "nosniff");
-    response.set("Referrer-Policy", "no-referrer");
+    // `no-referrer` would make browsers send the form of /join with `Origin: null`.
+    response.set("Referrer-Policy", "same-origin");
     const bool asset = request_.target().starts_with("/assets/") && response.result() == http::status::ok;
     response.set(http::field::cache_control, asset ? "private, no-cache" : "no-store");
     response.keep_alive(request_.keep_alive());

@@ -81,6 +81,12 @@ void RecordingFiles::begin(std::int64_t start_unix_ns) {
   writer_ = std::make_unique<RecordingWriter>(*scene_, info_);
 }
 
+void RecordingFiles::set_persons(std::vector<std::string> persons) {
+  if (info_.persons == persons) return;
+  info_.persons = std::move(persons);
+  if (begun()) writer_->set_persons(info_.persons);
+}
+
 void RecordingFiles::add(const TickRecord& record) {
   if (any_ ? record.tick <= last_tick_ : !record.running) return;  // the session clock stands still
   if (!std::exchange(any_, true)) first_tick_ = record.tick;

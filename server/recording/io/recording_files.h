@@ -47,8 +47,8 @@ class RecordingFiles {
   void add_inputs(std::uint32_t tick, std::span<const std::byte> piece);
   /// The writer of the present file, for events, marks, sheets and links. They are few: they are never left out.
   [[nodiscard]] RecordingWriter& writer() noexcept { return *writer_; }
-  /// Participants by seat, from the next file on.
-  void set_persons(std::vector<std::string> persons) { info_.persons = std::move(persons); }
+  /// Participants by seat, from now on.
+  void set_persons(std::vector<std::string> persons);
 
   /// Passes what is complete to the disk and changes files. Call it at least every 250 ms.
   void step(Time now);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "common/mcap/mcap_repair.h"
 #include "common/mcap/message_cursor.h"
+#include "proto/recording/recording_format.h"
 #include "tests/common/base/counts.h"
 #include "tests/server/recording/recording_sample.h"
 
@@ -49,6 +52,29 @@ TEST(RecordingWriter, StatesTheSession) {
   EXPECT_EQ(lesson->seats[0].person, "Ada");
   EXPECT_EQ(lesson->seats[1].person, "Bo");
   EXPECT_EQ(lesson->time_ns[0], 1'000'000);
+}
+
+TEST(RecordingWriter, KeepsEveryParticipantOfASeat) {
+  const SceneSpec scene = shipped_scene("contact");
+  RecordingWriter writer(scene, {.session = "exam", .persons = {"", ""}});
+  TickRecord record = smooth_record(scene, 1);
+  record.running = true;
+  writer.add(record);
+  writer.set_persons({"ann", ""});
+  writer.set_persons({"tim", "eva"});
+  writer.finish();
+  const std::string bytes = writer.take();
+  const auto lesson = read_lesson(bytes_of(bytes));
+  ASSERT_TRUE(lesson) << lesson.error();
+  EXPECT_EQ(lesson->seats[0].person, "tim");
+  EXPECT_EQ(lesson->seats[1].person, "eva");
+  const auto reader = mcap::Reader::open(bytes_of(bytes));
+  ASSERT_TRUE(reader);
+  std::set<std::string> all;
+  for (const mcap::Metadata& metadata : reader->metadata())
+    if (metadata.name == rec::kParticipantsRecord)
+      for (const auto& [seat, person] : metadata.values) all.insert(person);
+  EXPECT_EQ(all, (std::set<std::string>{"", "ann", "eva", "tim"})) << "all of them are named for a deletion";
 }
 
 TEST(RecordingWriter, HoldsEveryShippedScene) {

@@ -40,11 +40,11 @@ TEST(RecordingDesk, PassesEventsMarksAndSheetsToTheRecording) {
   EXPECT_EQ(items.events[0].what, "join");
   ASSERT_EQ(items.marks.size(), 3u);
   EXPECT_EQ(items.marks[0].t_s, 2.5);
-  EXPECT_EQ(items.marks[0].by, "evaluator ann");
+  EXPECT_EQ(items.marks[0].by, "ann");
   EXPECT_EQ(items.marks[0].text, "good grip");
   EXPECT_EQ(items.marks[1].t_s, 1.25) << "without a time of its own, that of the session";
-  EXPECT_EQ(items.marks[1].by, "evaluator desk-2");
-  EXPECT_EQ(items.marks[2].by, "evaluator otto") << "the name in the ticket comes first";
+  EXPECT_EQ(items.marks[1].by, "desk-2");
+  EXPECT_EQ(items.marks[2].by, "otto") << "the name in the ticket comes first";
   ASSERT_EQ(items.sheets.size(), 1u);
   EXPECT_EQ(items.sheets[0].of, "trainee");
   EXPECT_EQ(items.sheets[0].by, "eva");
@@ -65,9 +65,9 @@ TEST(RecordingDesk, ReplacesAllNamesByPseudonyms) {
   d.desk.add_note(mark(R"({"text": "x"})", "bob"));
   const RecordingDesk::Items items = d.desk.take();
   ASSERT_EQ(items.marks.size(), 3u);
-  EXPECT_EQ(items.marks[0].by, "evaluator P1");
-  EXPECT_EQ(items.marks[1].by, "evaluator P3");
-  EXPECT_EQ(items.marks[2].by, "evaluator P2");
+  EXPECT_EQ(items.marks[0].by, "P1");
+  EXPECT_EQ(items.marks[1].by, "P3");
+  EXPECT_EQ(items.marks[2].by, "P2");
 }
 
 TEST(RecordingDesk, TakesNothingWithoutARecordingAndCountsWhatDoesNotFit) {

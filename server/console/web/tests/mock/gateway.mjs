@@ -21,7 +21,7 @@ const kHeaders = {
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; " +
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
   'X-Content-Type-Options': 'nosniff',
-  'Referrer-Policy': 'no-referrer',
+  'Referrer-Policy': 'same-origin',
 };
 const kMay = {
   INSTRUCTOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'record', 'seat'],
