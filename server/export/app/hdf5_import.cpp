@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint64_t kFileMax = std::uint64_t{1} << 32;  // [bytes]
 // Processor time of a trial: reading takes a tenth of it.
-constexpr std::uint64_t kTrialSeconds = 10, kTrialBytesPerSecond = 5'000'000;
+constexpr std::uint64_t kTrialSeconds = 5, kTrialBytesPerSecond = 5'000'000;
 constexpr std::int64_t kCountMax = std::numeric_limits<std::uint32_t>::max();
 
 /// Returns the number whose quotient by `divisor` is `quotient`. Division rounds, so the product may be off by one
