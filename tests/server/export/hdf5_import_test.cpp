@@ -1,5 +1,5 @@
 // HDF5 files of lessons, read back: equal to the exported lesson; damaged and foreign files.
-#include "server/export/app/hdf5_import.h"
+#include "server/export/io/hdf5_import.h"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -9,9 +9,9 @@
 
 #include "common/base/rng.h"
 #include "proto/text/scene_bytes.h"
-#include "server/export/app/hdf5_export.h"
-#include "server/export/app/hdf5_file.h"
-#include "server/export/app/hdf5_id.h"
+#include "server/export/io/hdf5_export.h"
+#include "server/export/io/hdf5_file.h"
+#include "server/export/io/hdf5_id.h"
 #include "server/export/lesson_signals.h"
 #include "tests/io/programs.h"
 #include "tests/support/lesson_run.h"

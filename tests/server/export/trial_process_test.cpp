@@ -1,5 +1,5 @@
 // Attempts in a child process: their text, their crashes, their end.
-#include "server/export/app/trial_process.h"
+#include "server/export/io/trial_process.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
