@@ -266,7 +266,7 @@ TEST(Hdf5Import, SurvivesCutFilesAndFlippedBytes) {
   const std::string file = folder.file("a.h5");
   ASSERT_EQ(export_hdf5(lesson, file, kGoOn), "");
   const std::string whole = folder.read("a.h5");
-  constexpr std::size_t kCuts = 200, kFlips = 300;
+  constexpr std::size_t kCuts = 100, kFlips = 200;
   for (std::size_t k = 0; k < kCuts; ++k) {
     folder.write("a.h5", whole.substr(0, whole.size() * k / kCuts));
     const auto read = import_hdf5(file);
