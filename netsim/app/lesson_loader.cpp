@@ -15,7 +15,7 @@
 #include "proto/io/scene_file.h"
 #include "proto/recording/lesson_reader.h"
 #include "proto/spec/input_error.h"
-#include "server/export/app/hdf5_import.h"
+#include "server/export/io/hdf5_import.h"
 
 namespace tandem::netsim {
 namespace {

@@ -102,7 +102,7 @@ int score_command(const ScoreArguments& a) {
   std::vector<std::string> paths = a.files;
   paths.insert(paths.end(), a.learner.begin(), a.learner.end());
   for (const auto& [option, file] : outputs)
-    for (const auto* inputs : {&paths, &a.experts})
+    for (const std::vector<std::string>* inputs : {&std::as_const(paths), &a.experts})
       for (const std::string& input : *inputs)
         if (std::error_code error; std::filesystem::equivalent(input, *file, error))
           mistakes.add(std::string(option) + ": " + *file + " is an input; name another file");

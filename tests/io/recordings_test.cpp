@@ -1,4 +1,5 @@
 // `tandem-server recordings` with recordings of real programs: index, exports, deletions with their audit lines.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -77,6 +78,51 @@ TEST(Recordings, NeedTheLibraryOfHdf5ForHdf5Only) {
     EXPECT_EQ(fs::exists(out), csv);
     EXPECT_EQ(run.err().find("apt install " TANDEM_HDF5_PACKAGE) == std::string::npos, csv) << run.err();
   }
+}
+
+/// The lessons of `tandem-netsim score FILE --json -` without the name of the file.
+Json scores_of(const std::string& file) {
+  Process run({TANDEM_NETSIM, "score", file, "--quiet", "--json", "-"});
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  Json json = Json::parse(run.out(), nullptr, false);
+  EXPECT_EQ(json["lessons"].size(), 1u);
+  json["lessons"][0].erase("file");
+  return json;
+}
+
+TEST(Recordings, HaveEqualScoresInMcapAndHdf5) {
+  if (::dlopen(TANDEM_HDF5_LIBRARY, RTLD_LAZY | RTLD_LOCAL) == nullptr)
+    GTEST_SKIP() << "libhdf5 is not installed (apt install " TANDEM_HDF5_PACKAGE ")";
+  const Folder folder;
+  for (const std::string scene : {"one_axis", "contact", "evaluation"}) {
+    SCOPED_TRACE(scene);
+    Process run({TANDEM_NETSIM, "run", scene, "--duration", "4", "--delay", "10", "--jitter", "3", "--loss", "5",
+                 "--quiet", "--no-quality", "--record", folder.file("a.mcap")});
+    ASSERT_TRUE(run.wait().has_value()) << run.err();
+    Process out = recordings({"export", folder.file("a.mcap"), "--to", folder.file("a.h5")});
+    ASSERT_EQ(out.wait(), 0) << out.err();
+    const Json recorded = scores_of(folder.file("a.mcap")), exported = scores_of(folder.file("a.h5"));
+    EXPECT_EQ(recorded, exported) << Json::diff(recorded, exported).dump();
+    const Json& metrics = recorded["lessons"][0]["seats"][0]["parts"][0]["metrics"];
+    for (const char* name : {"path_length", "dissipated", "rtt_p50", "loss_up", "gap_up"})
+      EXPECT_TRUE(metrics[name]["value"].is_number()) << name << ": " << metrics[name];
+    fs::remove(folder.file("a.h5"));
+  }
+}
+
+TEST(Recordings, AreNotScoredFromHdf5WithoutItsLibraryOrADataset) {
+  const Folder folder;
+  folder.write("a.h5", std::string("\x89HDF\r\n\x1a\n") + std::string(100, '\0'));
+  folder.write(TANDEM_HDF5_LIBRARY, "no library");
+  Process without({"/usr/bin/env", "LD_LIBRARY_PATH=" + folder.file(""), TANDEM_NETSIM, "score", folder.file("a.h5")});
+  EXPECT_EQ(without.wait(), 2);
+  EXPECT_NE(without.err().find("a.h5: HDF5 files need " TANDEM_HDF5_LIBRARY ": apt install " TANDEM_HDF5_PACKAGE),
+            std::string::npos)
+      << without.err();
+  if (::dlopen(TANDEM_HDF5_LIBRARY, RTLD_LAZY | RTLD_LOCAL) == nullptr) GTEST_SKIP() << "libhdf5 is not installed";
+  Process damaged({TANDEM_NETSIM, "score", folder.file("a.h5")});
+  EXPECT_EQ(damaged.wait(), 2);
+  EXPECT_NE(damaged.err().find("a.h5: is no HDF5 file that libhdf5 can open"), std::string::npos) << damaged.err();
 }
 
 TEST(Recordings, HaveTheSummaryOfTheirLessonAlsoWhenCut) {

@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 52> kLayers{{
+const std::array<Layer, 53> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -126,8 +126,13 @@ const std::array<Layer, 52> kLayers{{
     {"server/export",
      {"common/base", "proto", "server/export", "server/report"},
      {"json"},
-     "server/export turns lessons into tables and metadata: plain records and JSON; files, libhdf5 and Node.js belong "
-     "to server/export/app"},
+     "server/export turns lessons into tables and metadata: plain records and JSON; Node.js belongs to "
+     "server/export/app, HDF5 files to server/export/io"},
+    {"server/export/io",
+     {"common/base", "common/io", "proto", "server/export"},
+     {"json"},
+     "server/export/io has HDF5 files of lessons, for the programs that write and read them: libhdf5, no session, no "
+     "network"},
     {"server/archive",
      {"common/base", "common/mcap", "proto/recording", "proto/spec", "server/archive"},
      {"json"},

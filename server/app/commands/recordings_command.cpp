@@ -8,7 +8,7 @@
 #include "server/app/commands/recordings_actions.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
-#include "server/export/app/pending_path.h"
+#include "server/export/io/pending_path.h"
 
 namespace tandem::server {
 namespace {

@@ -8,8 +8,8 @@
 #include "server/app/commands/state_option.h"
 #include "server/archive/app/lesson_file.h"
 #include "server/export/app/csv_export.h"
-#include "server/export/app/hdf5_export.h"
 #include "server/export/app/lerobot_export.h"
+#include "server/export/io/hdf5_export.h"
 #include "server/export/lesson_records.h"
 
 namespace tandem::server {

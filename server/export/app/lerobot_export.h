@@ -6,7 +6,7 @@
 #include <string>
 
 #include "proto/spec/lesson.h"
-#include "server/export/app/pending_path.h"
+#include "server/export/io/pending_path.h"
 #include "server/export/lerobot_meta.h"
 
 namespace tandem::server {

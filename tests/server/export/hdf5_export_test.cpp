@@ -1,5 +1,5 @@
 // HDF5 files as other programs read them: h5py (names, attributes, numbers) and Octave (numbers).
-#include "server/export/app/hdf5_export.h"
+#include "server/export/io/hdf5_export.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

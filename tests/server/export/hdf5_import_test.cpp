@@ -1,18 +1,17 @@
 // HDF5 files of lessons, read back: equal to the exported lesson; damaged and foreign files.
-#include "server/export/app/hdf5_import.h"
+#include "server/export/io/hdf5_import.h"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
 #include <bit>
-#include <filesystem>
-#include <set>
+#include <cmath>
 
 #include "common/base/rng.h"
 #include "proto/text/scene_bytes.h"
-#include "server/export/app/hdf5_export.h"
-#include "server/export/app/hdf5_file.h"
-#include "server/export/app/hdf5_id.h"
+#include "server/export/io/hdf5_export.h"
+#include "server/export/io/hdf5_file.h"
+#include "server/export/io/hdf5_id.h"
 #include "server/export/lesson_signals.h"
 #include "tests/io/programs.h"
 #include "tests/support/lesson_run.h"
@@ -267,29 +266,29 @@ TEST(Hdf5Import, SurvivesCutFilesAndFlippedBytes) {
   const std::string file = folder.file("a.h5");
   ASSERT_EQ(export_hdf5(lesson, file, kGoOn), "");
   const std::string whole = folder.read("a.h5");
-  std::size_t refused = 0;
-  constexpr std::size_t kCuts = 300;
+  constexpr std::size_t kCuts = 100, kFlips = 200;
   for (std::size_t k = 0; k < kCuts; ++k) {
     folder.write("a.h5", whole.substr(0, whole.size() * k / kCuts));
     const auto read = import_hdf5(file);
     ASSERT_FALSE(read) << "cut at " << whole.size() * k / kCuts;
-    EXPECT_EQ(read.error().find(file), 0u) << read.error();
+    EXPECT_TRUE(read.error().starts_with(file)) << read.error();
   }
-  const std::size_t flips = std::getenv("FLIPS") ? std::stoul(std::getenv("FLIPS")) : 600;
-  RandomStream random(std::getenv("SEED") ? std::stoull(std::getenv("SEED")) : 7u);
-  for (std::size_t k = 0; k < flips; ++k) {
+  RandomStream random(7);
+  std::size_t refused = 0;
+  for (std::size_t k = 0; k < kFlips; ++k) {
+    SCOPED_TRACE(k);
     std::string bytes = whole;
     for (std::size_t n = 0; n <= k % 4; ++n) {
       const std::size_t at = random.below(bytes.size());
       bytes[at] = static_cast<char>(bytes[at] ^ static_cast<char>(1 + random.below(255)));
     }
     folder.write("a.h5", bytes);
-    folder.write("last.h5", bytes);
     const auto read = import_hdf5(file);
     refused += read ? 0 : 1;
-    EXPECT_TRUE(read || read.error().starts_with(file)) << read.error();
+    EXPECT_TRUE(read ? read->rows() == lesson.rows() : read.error().starts_with(file)) << read.error();
   }
-  std::printf("%zu of %zu refused, %zu bytes, %zu rows\n", refused, flips, whole.size(), lesson.rows());
+  // Half of the file is space that HDF5 keeps free, or text without a checksum.
+  EXPECT_GT(refused, kFlips / 4);
 }
 
 }  // namespace

@@ -56,7 +56,10 @@ TEST(RecordingWriter, StatesTheSession) {
 
 TEST(RecordingWriter, KeepsEveryParticipantOfASeat) {
   const SceneSpec scene = shipped_scene("contact");
-  RecordingWriter writer(scene, {.session = "exam", .persons = {"", ""}});
+  RecordingInfo info;
+  info.session = "exam";
+  info.persons = {"", ""};
+  RecordingWriter writer(scene, info);
   TickRecord record = smooth_record(scene, 1);
   record.running = true;
   writer.add(record);

@@ -1,4 +1,4 @@
-#include "server/export/app/hdf5_library.h"
+#include "server/export/io/hdf5_library.h"
 
 #include <dlfcn.h>
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "server/export/app/hdf5_library.h"
+#include "server/export/io/hdf5_library.h"
 
 namespace tandem::server {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "proto/spec/lesson.h"
-#include "server/export/app/pending_path.h"
+#include "server/export/io/pending_path.h"
 
 namespace tandem::server {
 

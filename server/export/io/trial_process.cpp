@@ -1,4 +1,4 @@
-#include "server/export/app/trial_process.h"
+#include "server/export/io/trial_process.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>

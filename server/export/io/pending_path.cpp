@@ -1,4 +1,4 @@
-#include "server/export/app/pending_path.h"
+#include "server/export/io/pending_path.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -6,7 +6,7 @@
 namespace tandem::server {
 
 /// Runs `attempt` in a child process, a copy of this one, and returns its text. A library that crashes or does not end
-/// on a damaged file then ends the child only. What the child prints to standard error is dropped.
+/// on a damaged file then ends the child only. Standard error of the child is closed to users: `/dev/null`.
 /// @param attempt        returns why it fails; empty: it succeeds
 /// @param cpu_seconds    processor time after which the child is ended [s], at least 1
 /// @return the text of `attempt`; or that the child crashed, ran out of memory or was ended, with the signal; or why no

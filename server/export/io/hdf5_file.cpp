@@ -1,4 +1,4 @@
-#include "server/export/app/hdf5_file.h"
+#include "server/export/io/hdf5_file.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/io/output_file.h"
-#include "server/export/app/hdf5_id.h"
+#include "server/export/io/hdf5_id.h"
 
 namespace tandem::server {
 

@@ -1,4 +1,4 @@
-#include "server/export/app/hdf5_import.h"
+#include "server/export/io/hdf5_import.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 #include "common/base/sanitize.h"
 #include "proto/spec/input_error.h"
 #include "proto/text/scene_text.h"
-#include "server/export/app/hdf5_export.h"
-#include "server/export/app/hdf5_input.h"
-#include "server/export/app/hdf5_library.h"
-#include "server/export/app/trial_process.h"
+#include "server/export/io/hdf5_export.h"
+#include "server/export/io/hdf5_input.h"
+#include "server/export/io/hdf5_library.h"
+#include "server/export/io/trial_process.h"
 #include "server/export/lesson_records.h"
 #include "server/export/lesson_signals.h"
 
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint64_t kFileMax = std::uint64_t{1} << 32;  // [bytes]
 // Processor time of a trial: reading takes a tenth of it.
-constexpr std::uint64_t kTrialSeconds = 10, kTrialBytesPerSecond = 5'000'000;
+constexpr std::uint64_t kTrialSeconds = 5, kTrialBytesPerSecond = 5'000'000;
 constexpr std::int64_t kCountMax = std::numeric_limits<std::uint32_t>::max();
 
 /// Returns the number whose quotient by `divisor` is `quotient`. Division rounds, so the product may be off by one
@@ -234,8 +234,7 @@ std::string trial_problem(const std::string& file, std::uint64_t bytes) {
     read_lesson_file(in, lesson);
     return in.error();
   };
-  const std::string problem =
-      try_in_child(attempt, static_cast<unsigned>(kTrialSeconds + bytes / kTrialBytesPerSecond));
+  std::string problem = try_in_child(attempt, static_cast<unsigned>(kTrialSeconds + bytes / kTrialBytesPerSecond));
   if (problem.empty() || problem.starts_with(file)) return problem;
   return file + ": " + problem + "; the file may be damaged: " + kHdf5NextStep;
 }

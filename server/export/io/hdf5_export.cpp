@@ -1,8 +1,8 @@
-#include "server/export/app/hdf5_export.h"
+#include "server/export/io/hdf5_export.h"
 
 #include <nlohmann/json.hpp>
 
-#include "server/export/app/hdf5_file.h"
+#include "server/export/io/hdf5_file.h"
 #include "server/export/lesson_records.h"
 #include "server/export/lesson_signals.h"
 

@@ -1,4 +1,4 @@
-#include "server/export/app/hdf5_input.h"
+#include "server/export/io/hdf5_input.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "common/base/sanitize.h"
-#include "server/export/app/hdf5_file.h"
-#include "server/export/app/hdf5_id.h"
+#include "server/export/io/hdf5_file.h"
+#include "server/export/io/hdf5_id.h"
 
 namespace tandem::server {
 
