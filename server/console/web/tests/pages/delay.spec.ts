@@ -76,7 +76,7 @@ async function screencast(page: Page, seconds: number): Promise<{ at: number; da
   const frames: { at: number; data: string }[] = [];
   devtools.on('Page.screencastFrame', ({ data, metadata, sessionId }) => {
     frames.push({ at: (metadata.timestamp ?? NaN) * 1000, data });
-    void devtools.send('Page.screencastFrameAck', { sessionId });
+    devtools.send('Page.screencastFrameAck', { sessionId }).catch(() => undefined); // the page may be closed
   });
   // The time of a frame is a time of day. Of several readings of both clocks, the closest pair counts.
   const pairs = Array.from({ length: 200 }, () => {

@@ -62,7 +62,8 @@ export const test = base.extend<Fixtures>({
   place: async ({}, use) => {
     const made = mkdtempSync(join(tmpdir(), 'tandem-pages-'));
     await use(made);
-    rmSync(made, { recursive: true });
+    // Programs that end may still write.
+    rmSync(made, { recursive: true, maxRetries: 10, retryDelay: 200 });
   },
 });
 /** Call at the begin of a file: its tests need the built programs. */
