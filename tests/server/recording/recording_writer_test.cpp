@@ -56,8 +56,7 @@ TEST(RecordingWriter, StatesTheSession) {
 
 TEST(RecordingWriter, KeepsEveryParticipantOfASeat) {
   const SceneSpec scene = shipped_scene("contact");
-  RecordingInfo info;
-  info.session = "exam";
+  RecordingInfo info = sample_info(scene);
   info.persons = {"", ""};
   RecordingWriter writer(scene, info);
   TickRecord record = smooth_record(scene, 1);
