@@ -197,7 +197,7 @@ TEST(RecordingFiles, StayReadableWhenTheDiskIsFullToTheEnd) {
   const Folder folder;
   Recording recording(folder);
   recording.run(4);
-  recording.settle([&] { return std::filesystem::file_size(folder.file("a.mcap.part")) > 0; });
+  recording.settle([&] { return std::filesystem::file_size(folder.file("a.mcap.part")) >= recording.files().bytes(); });
   tandem::test::inject(folder.file(""), {.kind = FileFault::Kind::kNoSpace, .lasting = true});
   recording.run(4);
   recording.files().begin_close();
