@@ -67,8 +67,13 @@ export const test = base.extend<Fixtures>({
   },
 });
 /** Call at the begin of a file: its tests need the built programs. */
-export const needPrograms = (): void =>
+export const needPrograms = (): void => {
   test.skip(folder === '', 'TANDEM_PROGRAMS names no folder with tandem-console, tandem-server and tandem-client');
+  // A page that stays open draws on, and slows the tests after it.
+  test.afterEach(async ({ browser }) => {
+    for (const context of browser.contexts()) await context.close();
+  });
+};
 
 export { expect } from '@playwright/test';
 
