@@ -21,8 +21,8 @@ std::string recorders(const rpc::StatusRecording& recording) {
 std::string recording_text(const rpc::StatusRecording& recording) {
   std::string text = "RECORDED by " + recorders(recording);
   if (recording.dropped > 0)
-    text += format("; %llu ticks are missing so far", static_cast<unsigned long long>(recording.dropped));
-  if (!recording.trouble.empty()) text += "; ticks are missing now: " + sanitize(recording.trouble);
+    text += format("; %llu ticks dropped so far", static_cast<unsigned long long>(recording.dropped));
+  if (!recording.trouble.empty()) text += "; ticks are dropped now: " + sanitize(recording.trouble);
   return text;
 }
 

@@ -88,7 +88,7 @@ std::string recording_text(const RecordingRow& row) {
   text += "scene     " + sanitize(s.scene) + "\n";
   text += "begin     " + (s.start_unix_ns == 0 ? "unknown" : time_text(s.start_unix_ns) + " UTC") + "\n";
   text += format("duration  %.3f s\n", s.duration_s);
-  text += format("ticks     %llu recorded, %llu missing\n", static_cast<unsigned long long>(s.rows),
+  text += format("ticks     %llu recorded, %llu not recorded\n", static_cast<unsigned long long>(s.rows),
                  static_cast<unsigned long long>(s.missing_ticks));
   text += std::string("end       ") + (s.complete ? "complete" : "none: the file was cut or repaired") + "\n";
   return text + "persons   " + persons_text(s) + "\n";

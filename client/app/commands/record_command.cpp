@@ -108,12 +108,11 @@ class RemoteRecording {
     for (const std::string& path : files_.take_completed()) line_.note(path + " is complete");
     if (files_.trouble() != trouble_) {
       trouble_ = files_.trouble();
-      line_.note(trouble_.empty() ? "the recording goes on" : "ticks are lost: " + trouble_);
+      line_.note(trouble_.empty() ? "the recording goes on" : "ticks are dropped: " + trouble_);
     }
     if (now < next_line_) return;
     next_line_ = now + std::chrono::milliseconds(line_.interval_ms());
-    line_.show(format("%llu ticks, %llu not received or lost, %.1f MiB",
-                      static_cast<unsigned long long>(files_.recorded()),
+    line_.show(format("%llu ticks, %llu lost or dropped, %.1f MiB", static_cast<unsigned long long>(files_.recorded()),
                       static_cast<unsigned long long>(files_.lost()), static_cast<double>(files_.bytes()) / (1 << 20)));
   }
 
@@ -126,7 +125,7 @@ class RemoteRecording {
     const auto problems = files_.take_problems();
     for (const std::string& path : files_.take_completed()) io::print(stdout, path + " is complete\n");
     for (const std::string& problem : problems) record_trouble(problem);
-    io::print(stdout, format("%s: %llu ticks recorded, %llu never received or lost\n", why.c_str(),
+    io::print(stdout, format("%s: %llu ticks recorded, %llu lost or dropped\n", why.c_str(),
                              static_cast<unsigned long long>(files_.recorded()),
                              static_cast<unsigned long long>(files_.lost())));
     return lost || !problems.empty() ? io::kExitTrouble : io::kExitDone;

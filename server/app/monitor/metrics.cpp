@@ -107,7 +107,7 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
     if (recording) {
       page.count("tandem_recording_dropped_ticks_total", "Ticks that the recording of the session lost",
                  {{"session", name}}, static_cast<double>(recording->dropped));
-      page.gauge("tandem_recording_failing", "1: the recording loses ticks now", {{"session", name}},
+      page.gauge("tandem_recording_failing", "1: the recording drops ticks now", {{"session", name}},
                  recording->trouble.empty() ? 0 : 1);
     }
     page.gauge("tandem_session_broken", "1: an invariant that the session's law promises was broken",

@@ -147,11 +147,11 @@ void LiveRecording::report() {
   if (trouble != trouble_) {
     if (trouble.empty()) {
       std::string text =
-          format("the recording goes on; it lost %llu ticks so far", static_cast<unsigned long long>(lost()));
+          format("the recording goes on; it dropped %llu ticks so far", static_cast<unsigned long long>(lost()));
       if (files_->lost_inputs() > 0) text += ", and inputs: it cannot be replayed bit for bit from there on";
       say(false, "recording_goes_on", std::move(text));
     } else {
-      say(true, "recording_trouble", "the recording loses ticks, the session is not disturbed: " + trouble);
+      say(true, "recording_trouble", "the recording drops ticks, the session is not disturbed: " + trouble);
     }
     trouble_ = trouble;
   }

@@ -162,7 +162,7 @@ void RecordingFiles::update_trouble() {
 
 void RecordingFiles::note_gap() {
   writer_->add_event({last_tick_, time_ns_, "recording-gap", "",
-                      format("%llu ticks are missing: ", static_cast<unsigned long long>(gap_)) + gap_reason_});
+                      format("%llu ticks dropped: ", static_cast<unsigned long long>(gap_)) + gap_reason_});
   gap_ = 0;
 }
 

@@ -61,7 +61,7 @@ class RecordingFiles {
 
   /// `begin_close` was called, or the limit of all files is reached.
   [[nodiscard]] bool ended() const noexcept { return closing_; }
-  /// Why ticks are lost now; empty: none are.
+  /// Why ticks are dropped now; empty: none are.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
   /// Names of the files that are complete, and reasons for those that are not, since the last call.
   [[nodiscard]] std::vector<std::string> take_completed();

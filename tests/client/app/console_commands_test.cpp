@@ -293,9 +293,8 @@ TEST(ConsoleCommands, TellWhoRecordsAndWhatIsMissing) {
   now.recording->dropped = 7;
   EXPECT_EQ(status_changes_text(before, now), "") << "a counter alone is no news";
   now.recording->trouble = "the disk is full";
-  EXPECT_NE(
-      status_changes_text(before, now).find("7 ticks are missing so far; ticks are missing now: the disk is full"),
-      std::string::npos);
+  EXPECT_NE(status_changes_text(before, now).find("7 ticks dropped so far; ticks are dropped now: the disk is full"),
+            std::string::npos);
   EXPECT_NE(status_json(now).find("\"dropped_ticks\":7,\"trouble\":\"the disk is full\""), std::string::npos)
       << status_json(now);
   before = now;
