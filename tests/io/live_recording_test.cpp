@@ -12,9 +12,8 @@
 #include "common/base/rng.h"
 #include "common/io/socket_address.h"
 #include "tests/common/base/counts.h"
+#include "tests/io/live_recordings.h"
 #include "tests/io/metrics_page.h"
-#include "tests/io/programs.h"
-#include "tests/io/recording_samples.h"
 
 namespace tandem::test {
 namespace {
@@ -24,30 +23,6 @@ using namespace std::chrono_literals;
 using server::test::account_problem;
 using server::test::lesson_of;
 
-constexpr auto kLimit = 60s;  // against hanging
-
-bool comes_true(const std::function<bool()>& so) {
-  for (const auto until = std::chrono::steady_clock::now() + kLimit; std::chrono::steady_clock::now() < until;) {
-    if (so()) return true;
-    std::this_thread::sleep_for(20ms);
-  }
-  return false;
-}
-
-Process command(const std::string& program, Words words) {
-  words.insert(words.begin(), program);
-  return Process(std::move(words));
-}
-Process control(const std::string& address, Words words) {
-  words.insert(words.begin(), {"control", "--server", address});
-  return command(TANDEM_CLIENT, std::move(words));
-}
-Json status_of(const std::string& address) {
-  Process asked = control(address, {"--json", "status"});
-  EXPECT_EQ(asked.wait(), 0) << asked.err();
-  return Json::parse(asked.out(), nullptr, false);
-}
-
 /// Names of the files in a folder that end so, sorted.
 std::vector<std::string> files_of(const Folder& folder, const std::string& end) {
   std::vector<std::string> names;
@@ -56,12 +31,6 @@ std::vector<std::string> files_of(const Folder& folder, const std::string& end) 
   std::ranges::sort(names);
   return names;
 }
-Lesson read(const Folder& folder, const std::string& name) {
-  auto lesson = lesson_of(folder.read(name));
-  EXPECT_TRUE(lesson) << name << ": " << lesson.error();
-  return lesson ? std::move(*lesson) : Lesson{};
-}
-
 /// Value of a metric; -1: it is not there.
 double metric(const std::string& address, const std::string& name) {
   const std::string text = page(address);
@@ -274,7 +243,7 @@ TEST(LiveRecording, DisturbsNoSessionOnASlowOrFullDisk) {
   folder.write("disk", "slow");
   std::this_thread::sleep_for(4s);
   folder.write("disk", "full");
-  EXPECT_TRUE(host.wait_for("the recording loses ticks")) << host.err();
+  EXPECT_TRUE(host.wait_for("the recording drops ticks")) << host.err();
   EXPECT_NE(host.err().find("the disk is full"), std::string::npos) << host.err();
   EXPECT_EQ(metric(at, "tandem_recording_failing"), 1);
   std::this_thread::sleep_for(1s);
@@ -300,52 +269,6 @@ TEST(LiveRecording, DisturbsNoSessionOnASlowOrFullDisk) {
   std::printf("[  figures ] %llu ticks recorded, %llu dropped, %llu not made\n",
               static_cast<unsigned long long>(count.recorded), static_cast<unsigned long long>(count.dropped),
               static_cast<unsigned long long>(count.never_received));
-}
-
-// A trainee follows the expert's recorded hand: the same motion through a new session.
-TEST(LiveRecording, IsReplayedLiveForOtherHands) {
-  const Folder folder;
-  Process host = hosting("free_motion", {"--duration", "6", "--record", folder.file("a.mcap")});
-  Process trainer = client(address_of(host), "trainer"), trainee = client(address_of(host), "trainee");
-  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
-  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
-  EXPECT_EQ(host.wait(), 0) << host.err();
-  const Lesson lesson = read(folder, "a.mcap");
-  Process again = server({"replay-live", folder.file("a.mcap"), "--seat", "trainer", "--record", folder.file("b.mcap"),
-                          "--json", folder.file("b.json")});
-  ASSERT_TRUE(again.wait_for("Ctrl-C ends")) << again.err();
-  Process follower = client(address_of(again), "trainee", {}, "sim:hand=relaxed");
-  EXPECT_EQ(again.wait(), 0) << again.err() << again.out();
-  EXPECT_EQ(follower.wait(), 0) << follower.err();
-  const Lesson replayed = read(folder, "b.mcap");
-  ASSERT_GT(replayed.rows(), 5000u);
-  EXPECT_TRUE(folder.json("b.json")["violations"].empty()) << folder.json("b.json")["violations"];
-  std::map<std::uint32_t, std::size_t> rows;
-  for (std::size_t k = 0; k < lesson.rows(); ++k) rows[lesson.seats[0].sample_tick[k]] = k;
-  double sum = 0, far = 0;
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < replayed.rows(); ++k) {
-    const auto at = rows.find(replayed.seats[0].sample_tick[k]);
-    if (at == rows.end() || replayed.tick[k] < 2000) continue;  // until hands are engaged and have settled
-    double square = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double d = replayed.seats[0].x[k][a] - lesson.seats[0].x[at->second][a];
-      square += d * d;
-    }
-    sum += square;
-    far = std::max(far, std::sqrt(square));
-    ++n;
-  }
-  ASSERT_GT(n, 3000u);
-  std::printf("[  figures ] replayed hand beside the recorded one: RMS %.2f mm, worst %.2f mm of a circle of 50 mm\n",
-              1e3 * std::sqrt(sum / static_cast<double>(n)), 1e3 * far);
-  EXPECT_LT(std::sqrt(sum / static_cast<double>(n)), 5e-3);
-  double followed = 0;
-  for (const LessonTriple& x : replayed.seats[1].x) followed = std::max(followed, std::abs(x[0]));
-  EXPECT_GT(followed, 0.02) << "the trainee's relaxed hand is led";
-  Process wrong = server({"replay-live", folder.file("a.mcap"), "--seat", "nurse"});
-  EXPECT_EQ(wrong.wait(), 2);
-  EXPECT_NE(wrong.err().find("master seats: trainer, trainee"), std::string::npos) << wrong.err();
 }
 
 TEST(LiveRecording, RejectsTargetsThatCannotBeWritten) {

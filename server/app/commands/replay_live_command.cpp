@@ -29,9 +29,9 @@ namespace fs = std::filesystem;
 constexpr double kHandsTimeoutS = 30;  // for the recorded hands to join
 
 struct ReplayLiveArguments {
-  std::string file, listen = "127.0.0.1:0", json, record;
+  std::string file, listen = "127.0.0.1:0", json, record, wait;
   std::vector<std::string> seats;
-  bool quiet = false;
+  bool quiet = false, no_wait = false;
 };
 
 /// Folder for the motions, which only this user may read; deleted at the end.
@@ -115,10 +115,9 @@ std::expected<Lesson, std::string> read_file(const std::string& path) {
 int replay_live_command(const ReplayLiveArguments& arguments) {
   io::UsageErrors errors;
   ServerOptions plan{.command = "replay-live", .quiet = arguments.quiet, .no_restore = true};
-  plan.start_timeout_s = kHandsTimeoutS;
   SessionOptions& session = plan.sessions.emplace_back(SessionOptions{.json = arguments.json});
   const auto lesson = read_file(arguments.file);
-  auto replayed = lesson ? replayed_lesson(*lesson, arguments.seats)
+  auto replayed = lesson ? replayed_lesson(*lesson, arguments.seats, !arguments.no_wait)
                          : std::expected<ReplayedLesson, std::string>(std::unexpected(lesson.error()));
   if (!replayed) {
     errors.add(arguments.file, replayed.error());
@@ -126,7 +125,12 @@ int replay_live_command(const ReplayLiveArguments& arguments) {
     session.scene_duration = lesson->scene.duration;
     session.scene = std::move(replayed->scene);
     session.name = session.scene.name;
+    for (const ReplayedHand& hand : replayed->hands) session.replayed.push_back(hand.seat);
+    // People take their time; hands of programs do not.
+    if (replayed->awaited.empty()) plan.start_timeout_s = kHandsTimeoutS;
   }
+  if (!arguments.wait.empty())
+    plan.start_timeout_s = errors.optional_number("--start-timeout", arguments.wait, 0.1, 3e6, "s");
   const auto listen = io::parse_address(arguments.listen, 0);
   if (!listen) {
     errors.add("--listen", listen.error());
@@ -145,6 +149,7 @@ int replay_live_command(const ReplayLiveArguments& arguments) {
     return io::kExitTrouble;
   }
   plan.on_listening = [&hands](const std::string& address) { hands.join(address); };
+  plan.start_problem = [&hands] { return hands.failure(); };
   const int code = run_server(plan);
   const std::string failure = hands.failure();
   if (failure.empty()) return code;
@@ -162,14 +167,22 @@ void add_replay_live_command(const io::Command& root) {
   command.add_option("FILE", arguments.file, "a recording, NAME.mcap").value_name(" ").required();
   command
       .add_option("--seat", arguments.seats,
-                  "plays only this seat; may be repeated; default: every seat that was engaged. The other seats of the "
-                  "scene are free")
+                  "plays only this seat; may be repeated; default: every seat that was engaged. The replay begins when "
+                  "the other seats that the scene requires are taken")
       .value_name("NAME")
       .one_value();
   command
       .add_option("--listen", arguments.listen,
                   "address of this computer at which clients join; port 0 takes a free one; default 127.0.0.1:0")
       .value_name("HOST:PORT");
+  command.add_flag("--no-wait", arguments.no_wait,
+                   "with --seat: begins when the recorded hands are there; all other seats are optional");
+  command
+      .add_option(
+          "--start-timeout", arguments.wait,
+          "gives up after this many seconds [s] if required seats are missing; default: no limit while it waits "
+          "for other clients, else 30")
+      .value_name("S");
   command.add_option("--json", arguments.json, "writes the report of the new session").value_name("FILE|-");
   command.add_option("--record", arguments.record, "records the new session").value_name("FILE.mcap|DIR");
   command.add_flag("--quiet", arguments.quiet, "no status and no summary");
@@ -184,7 +197,8 @@ void add_replay_live_command(const io::Command& root) {
       "Exit: as `run`; 1 also if a recorded hand could not join.\n\n"
       "Examples\n"
       "  tandem-server replay-live lesson.mcap --seat trainer --listen 127.0.0.1:7000\n"
-      "  tandem-client join --server 127.0.0.1:7000 --seat trainee");
+      "  tandem-client join --server 127.0.0.1:7000 --seat trainee --device sim:keyboard\n"
+      "  tandem-server replay-live lesson.mcap --seat trainer --no-wait");
 }
 
 }  // namespace tandem::server

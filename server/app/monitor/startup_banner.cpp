@@ -1,5 +1,6 @@
 #include "server/app/monitor/startup_banner.h"
 
+#include <algorithm>
 #include <cerrno>
 
 #include "common/auth/io/state_directory.h"
@@ -28,19 +29,27 @@ std::string startup_banner(const SessionInstance& run, const io::SocketAddress& 
   const std::string which = by_code   ? " --session " + (read_code.empty() ? code_text(run.code()) : "CODE")
                             : several ? " --session " + name
                                       : "";
-  std::string text = several ? "session " + name + ": " : "", optional;
+  std::string text = several ? "session " + name + ": " : "", required, optional, replayed;
   text += "scene " + scene.name + (scene.endless() ? ", no end; " : format(", %g s; ", scene.duration));
   if (by_code)
     text += read_code.empty() ? "session code " + code_text(run.code()) + "; "
                               : "`" + read_code + "` shows the session's CODE; ";
-  text += ephemeral_keys ? "in other terminals type\n" : "on enrolled workstations type\n";
   for (const SeatSpec& seat : scene.seats) {
+    if (std::ranges::find(run.options().replayed, seat.name) != run.options().replayed.end()) {
+      replayed += (replayed.empty() ? "" : ", ") + seat.name;
+      continue;
+    }
     const bool ticket = !ephemeral_keys && (!by_code || seat.role == Role::kInstructor);
-    (seat.required ? text : optional) +=
+    (seat.required ? required : optional) +=
         format("  %s join --server %s --seat %s --device sim%s\n", client_command().c_str(), dialled.c_str(),
                seat.name.c_str(), ticket ? " --ticket-file FILE" : which.c_str());
   }
-  if (!optional.empty()) text += "and for optional seats\n" + optional;
+  if (!replayed.empty()) text += "recorded hands play " + replayed + (required.empty() && optional.empty() ? "" : "; ");
+  if (required.empty() && optional.empty()) return text + "\n";
+  text += (ephemeral_keys ? "in other terminals type" : "on enrolled workstations type");
+  text += required.empty() ? ", for optional seats\n" : "\n" + required;
+  if (!required.empty() && !optional.empty()) text += "and for optional seats\n";
+  text += optional;
   return ephemeral_keys ? text
                         : text + "a ticket FILE is written by\n  tandem-server ticket --session " + name +
                               " --seat SEAT --workstation NAME" + auth::server_state_option(folder) + " > FILE\n";

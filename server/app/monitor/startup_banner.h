@@ -7,7 +7,8 @@
 
 namespace tandem::server {
 
-/// Text that describes a new session: its scene, and for each seat the command to join it.
+/// Text that describes a new session: its scene, the seats that recorded hands play, and the command to join each
+/// other seat.
 /// @param at           address for clients
 /// @param ephemeral_keys  the keys are ephemeral: no tickets
 /// @param several      several sessions are served

@@ -143,12 +143,19 @@ class ServerProcess {
     feed_watchdog();
     report_machine();
     while (auto order = control_->orders().take()) sessions_->execute(std::move(*order));
+    check_start();
     sessions_->service(now);
     sessions_->service_recordings();
     if (!output_.due(now) || drain_began_) return;
     output_.show(now, sessions_->screen_entries(),
                  due ? format("DRAINING, %.0f s left", std::max(0.0, std::ceil(seconds(*due - now)))) : "",
                  sessions_->hints().list_command());
+  }
+
+  void check_start() {
+    if (!options_.start_problem || drain_began_ || sessions_->all().empty()) return;
+    if (sessions_->all().front()->live_session().status().state != wire::SessionState::kWaiting) return;
+    if (const std::string why = options_.start_problem(); !why.empty()) drain(why);
   }
 
   /// Reports changes of the load, and once whether the ticks have real-time priority.

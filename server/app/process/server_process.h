@@ -25,6 +25,9 @@ struct ServerOptions {
   RecordingOptions record{};  ///< of created sessions
   /// Called once clients can join, with HOST:PORT; empty: nothing is to be done then.
   std::function<void(const std::string& address)> on_listening{};
+  /// Called a few times per second while the first session waits for its required seats. Returns why it waits in vain:
+  /// the server then ends. Empty: no such check.
+  std::function<std::string()> start_problem{};
   bool quiet = false;
   bool no_restore = false;       ///< ignores all checkpoints
   bool sessions_resume = false;  ///< a signal ends the server but keeps its sessions: the next start restores them

@@ -27,7 +27,8 @@ struct SessionOptions {
   std::uint64_t seed = 1;       ///< for the report only: a live session draws nothing from it
   RecordingOptions record{};
   bool tickets_only = false;
-  bool restart = false;  ///< when the session is over, a new one replaces it
+  std::vector<std::string> replayed{};  ///< seats that recorded hands take, which no client can join
+  bool restart = false;                 ///< when the session is over, a new one replaces it
 };
 
 /// One run of a configured session, from its start to its report.

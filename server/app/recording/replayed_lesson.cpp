@@ -44,9 +44,9 @@ std::string names_of(const SceneSpec& scene) {
 
 }  // namespace
 
-std::expected<ReplayedLesson, std::string> replayed_lesson(const Lesson& lesson,
-                                                           const std::vector<std::string>& seats) {
-  ReplayedLesson out{.scene = lesson.scene, .hands = {}};
+std::expected<ReplayedLesson, std::string> replayed_lesson(const Lesson& lesson, const std::vector<std::string>& seats,
+                                                           bool await) {
+  ReplayedLesson out{.scene = lesson.scene, .hands = {}, .awaited = {}};
   const std::size_t masters = out.scene.masters();
   if (lesson.rows() == 0) return std::unexpected("has no tick in which the session ran");
   for (const ToolSpec& tool : out.scene.tools)
@@ -60,8 +60,12 @@ std::expected<ReplayedLesson, std::string> replayed_lesson(const Lesson& lesson,
       return std::unexpected("has no master seat \"" + name + "\"; master seats: " + names_of(out.scene));
   for (std::size_t i = 0; i < masters; ++i) {
     SeatSpec& seat = out.scene.seats[i];
-    seat.required = played(lesson, i, seats);
-    if (!seat.required) continue;
+    if (!played(lesson, i, seats)) {
+      seat.required = seat.required && await && !seats.empty();
+      if (seat.required) out.awaited.push_back(seat.name);
+      continue;
+    }
+    seat.required = true;
     std::string csv = motion_csv(lesson, i);
     if (csv.empty()) return std::unexpected("seat " + seat.name + " has no motion in this recording");
     out.hands.push_back({seat.name, std::move(csv)});

@@ -16,13 +16,18 @@ struct ReplayedHand {
 /// A recorded lesson as a live session: its scene, and the hands that play it. Couplings, authority and forces come
 /// from the session as always; the recording moves hands only.
 struct ReplayedLesson {
-  SceneSpec scene;  ///< the seats of `hands` are required, all other master seats are open; as long as the recording
+  /// As long as the recording. The seats of `hands` are required. Of the other master seats, `awaited` are required
+  /// too, and the rest is optional.
+  SceneSpec scene;
   std::vector<ReplayedHand> hands;
+  std::vector<std::string> awaited;  ///< seats that clients must take before the replay begins
 };
 
 /// @param seats  names of the seats to play; empty: all master seats that were engaged
+/// @param await  with `seats`, the other seats that the scene requires are awaited; a replay of all hands awaits none
 /// @return error: no such seat, a seat without motion, or a scene whose tool needs a SLAVE seat, which nothing plays
 [[nodiscard]] std::expected<ReplayedLesson, std::string> replayed_lesson(const Lesson& lesson,
-                                                                         const std::vector<std::string>& seats);
+                                                                         const std::vector<std::string>& seats,
+                                                                         bool await);
 
 }  // namespace tandem::server

@@ -30,7 +30,7 @@ TEST(ReplayedLesson, PlaysEngagedHandsAndFreesTheOtherSeats) {
   Lesson lesson = lesson_of("free_motion");
   lesson.seats[0].x[1] = {std::nan(""), 0, 0};
   lesson.seats[0].sample_tick[3] = 1002;  // the sample before again
-  const auto replayed = replayed_lesson(lesson, {});
+  const auto replayed = replayed_lesson(lesson, {}, true);
   ASSERT_TRUE(replayed) << replayed.error();
   ASSERT_EQ(replayed->hands.size(), 1u);
   EXPECT_EQ(replayed->hands[0].seat, "trainer");
@@ -40,26 +40,41 @@ TEST(ReplayedLesson, PlaysEngagedHandsAndFreesTheOtherSeats) {
   EXPECT_DOUBLE_EQ(replayed->scene.duration, 1.003);
 }
 
+TEST(ReplayedLesson, AwaitsTheOtherRequiredSeatsWhenSeatsAreChosen) {
+  Lesson lesson = lesson_of("lesson");
+  const std::vector<std::string> one{"instructor"};
+  for (LessonSeat& seat : lesson.seats) seat.engaged.assign(4, 1);
+  const auto replayed = replayed_lesson(lesson, one, true);
+  ASSERT_TRUE(replayed) << replayed.error();
+  EXPECT_EQ(replayed->awaited, std::vector<std::string>(1, "trainee")) << "evaluators are optional in the scene";
+  for (const SeatSpec& seat : replayed->scene.seats)
+    EXPECT_EQ(seat.required, seat.name == "instructor" || seat.name == "trainee") << seat.name;
+  const auto alone = replayed_lesson(lesson, one, false);
+  ASSERT_TRUE(alone) << alone.error();
+  EXPECT_TRUE(alone->awaited.empty());
+  EXPECT_FALSE(alone->scene.seats[1].required);
+}
+
 TEST(ReplayedLesson, DividesByTheMotionScaleOfASeat) {
   Lesson lesson = lesson_of("free_motion");
   lesson.scene.seats[0].motion_scale = 2;
-  const auto replayed = replayed_lesson(lesson, {"trainer"});
+  const auto replayed = replayed_lesson(lesson, {"trainer"}, true);
   ASSERT_TRUE(replayed) << replayed.error();
   EXPECT_NE(replayed->hands[0].csv.find("1.003000,0.0015,0.01,-0.015\n"), std::string::npos) << replayed->hands[0].csv;
 }
 
 TEST(ReplayedLesson, NamesWhatCannotBePlayed) {
   const Lesson lesson = lesson_of("free_motion");
-  EXPECT_NE(replayed_lesson(lesson, {"nurse"}).error().find("master seats: trainer, trainee"), std::string::npos);
+  EXPECT_NE(replayed_lesson(lesson, {"nurse"}, true).error().find("master seats: trainer, trainee"), std::string::npos);
   Lesson still = lesson_of("free_motion");
   for (LessonTriple& x : still.seats[1].x) x.fill(std::nan(""));
-  EXPECT_NE(replayed_lesson(still, {"trainee"}).error().find("no motion"), std::string::npos);
+  EXPECT_NE(replayed_lesson(still, {"trainee"}, true).error().find("no motion"), std::string::npos);
   still.seats[0].engaged.assign(4, 0);
-  EXPECT_NE(replayed_lesson(still, {}).error().find("--seat"), std::string::npos);
+  EXPECT_NE(replayed_lesson(still, {}, true).error().find("--seat"), std::string::npos);
   Lesson empty = lesson_of("free_motion");
   empty.tick.clear();
-  EXPECT_FALSE(replayed_lesson(empty, {}));
-  EXPECT_NE(replayed_lesson(lesson_of("contact_remote"), {}).error().find("SLAVE seat"), std::string::npos);
+  EXPECT_FALSE(replayed_lesson(empty, {}, true));
+  EXPECT_NE(replayed_lesson(lesson_of("contact_remote"), {}, true).error().find("SLAVE seat"), std::string::npos);
 }
 
 }  // namespace
