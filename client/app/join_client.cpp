@@ -125,7 +125,7 @@ std::expected<Console, JoinError> join_console(const JoinOptions& options) {
   ServerConnection server{options};
   auto accepted = request_join(server);
   if (!accepted) return std::unexpected(accepted.error());
-  return Console{accepted->welcome, server.release()};
+  return Console{accepted->welcome, server.release(), server.workstation()};
 }
 
 std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options) {
@@ -138,7 +138,8 @@ std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options)
                         (scene.error().empty() ? std::string() : scene.error().front().message));
   const auto link = channel_params(server, accepted->welcome, accepted->hello, scene->tick_hz);
   if (!link) return std::unexpected(link.error());
-  return JoinedWatcher{std::move(*scene), *link, options.server, {accepted->welcome, server.release()}};
+  return JoinedWatcher{
+      std::move(*scene), *link, options.server, {accepted->welcome, server.release(), server.workstation()}};
 }
 
 std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, const ResumeState& own,

@@ -55,6 +55,7 @@ struct JoinedSeat {
 struct Console {
   rpc::Welcome welcome;
   std::shared_ptr<auth::ControlClient> connection;
+  auth::KeyFingerprint workstation{};  ///< key of this workstation
 };
 
 /// A console that watches the session.

@@ -51,6 +51,8 @@ class ServerConnection {
   [[nodiscard]] const JoinOptions& options() const noexcept { return options_; }
   /// Keys of the server from this user's runtime directory; null: the server is known by enrolment.
   [[nodiscard]] const auth::LocalKeys* local() const noexcept { return keys_->local(); }
+  /// Key of this workstation that the server knows. @pre connected
+  [[nodiscard]] const auth::KeyFingerprint& workstation() const noexcept { return keys_->selected(); }
   /// Returns the instruction that starts a server at the address of the options.
   [[nodiscard]] std::string start_command() const;
 

@@ -143,6 +143,11 @@ std::optional<Id16> claimed_session(std::span<const std::byte> bytes) {
   return content ? std::optional{content->session_id} : std::nullopt;
 }
 
+std::optional<KeyFingerprint> claimed_workstation(std::span<const std::byte> bytes) {
+  const auto content = claimed_content(bytes);
+  return content ? std::optional{KeyFingerprint{content->workstation}} : std::nullopt;
+}
+
 std::optional<AccessRole> claimed_role(std::span<const std::byte> bytes) {
   const auto content = claimed_content(bytes);
   return content && content->role < kAccessRoles ? std::optional{static_cast<AccessRole>(content->role)} : std::nullopt;

@@ -54,6 +54,9 @@ using TicketBytes = std::vector<std::byte>;
 /// Returns the session named in a ticket; not authenticated. nullopt: no ticket.
 [[nodiscard]] std::optional<Id16> claimed_session(std::span<const std::byte> bytes);
 
+/// Returns the key of the workstation named in a ticket; not authenticated. nullopt: no ticket.
+[[nodiscard]] std::optional<KeyFingerprint> claimed_workstation(std::span<const std::byte> bytes);
+
 /// Returns the role named in a ticket; not authenticated. nullopt: no ticket, or an unknown role.
 [[nodiscard]] std::optional<AccessRole> claimed_role(std::span<const std::byte> bytes);
 

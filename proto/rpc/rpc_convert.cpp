@@ -282,6 +282,8 @@ bool read(const wire_pb::Status& in, Status& out) {
     if (n.number() == 0 || !is_text(n.text())) return false;
     out.events.push_back({n.number(), n.text()});
   }
+  if (!is_text(in.no_recording())) return false;
+  out.no_recording = in.no_recording();
   if (in.has_recording() && !read(in.recording(), out.recording.emplace())) return false;
   return !in.has_stop() || read(in.stop(), out.stop.emplace());
 }
@@ -295,6 +297,7 @@ void write(const Status& in, wire_pb::Status& out) {
   out.set_draining(in.draining);
   out.set_shed(in.shed);
   out.set_notes(in.notes);
+  out.set_no_recording(in.no_recording);
   for (const StatusSeat& s : in.seats) {
     auto& seat = *out.add_seat();
     seat.set_name(s.name);

@@ -120,11 +120,25 @@ void write(const SceneListRequest&, pb::rpc::SceneListRequest&) {}
 bool read(const pb::rpc::SceneList& in, SceneList& out) {
   out.more = in.more();
   out.scenes.assign(in.scene().begin(), in.scene().end());
+  if (in.seat_size() > static_cast<int>(kSceneSeatsMax)) return false;
+  for (const pb::rpc::SceneSeat& s : in.seat()) {
+    SceneSeat& seat = out.seats.emplace_back();
+    seat.scene = s.scene();
+    if (seat.scene >= out.scenes.size() || !take_name(s.name(), seat.name) || !take_role(s.role(), seat.role))
+      return false;
+  }
+  if (!std::ranges::is_sorted(out.seats, {}, &SceneSeat::scene)) return false;
   return out.scenes.size() <= kScenesMax && std::ranges::all_of(out.scenes, [](const auto& s) { return is_name(s); }) &&
          std::ranges::adjacent_find(out.scenes, std::greater_equal{}) == out.scenes.end();
 }
 void write(const SceneList& in, pb::rpc::SceneList& out) {
   for (const std::string& scene : in.scenes) out.add_scene(scene);
+  for (const SceneSeat& s : in.seats) {
+    auto& seat = *out.add_seat();
+    seat.set_scene(s.scene);
+    seat.set_name(s.name);
+    seat.set_role(static_cast<std::uint32_t>(s.role));
+  }
   out.set_more(in.more);
 }
 

@@ -24,6 +24,7 @@ inline constexpr std::uint32_t kLifeMaxS = 86400;          ///< of a created ses
 inline constexpr std::size_t kNoteMax = 8192;              ///< JSON of a Note [bytes]
 inline constexpr std::size_t kHoldersMax = 2 * kSeatsMax;  ///< persons with a ticket in a CreateSession
 inline constexpr std::size_t kScenesMax = 256;             ///< names in a SceneList
+inline constexpr std::size_t kSceneSeatsMax = 512;         ///< seats in a SceneList
 inline constexpr std::size_t kNotesMax = 64;               ///< notes in a NoteList
 inline constexpr std::size_t kNotesBytesMax = 49152;       ///< JSON of all notes in a NoteList [bytes]
 

@@ -253,8 +253,8 @@ struct StatusRecording {
   bool by_server = false;          ///< the server writes a recording
   std::uint32_t by_recorders = 0;  ///< number of connected recorders, at most kRecordersMax
   bool pseudonyms = false;         ///< the server's recording has no names of participants
-  std::uint64_t dropped = 0;       ///< ticks that the server's recording lost so far
-  std::string trouble{};           ///< why it loses ticks now, at most kTextMax; empty: it loses none
+  std::uint64_t dropped = 0;       ///< ticks that the server's recording dropped so far
+  std::string trouble{};           ///< why it drops ticks now, at most kTextMax; empty: it drops none
   friend bool operator==(const StatusRecording&, const StatusRecording&) = default;
 };
 /// Status of a session for clients of its control connection.
@@ -276,6 +276,8 @@ struct Status {
   std::vector<StatusEvent> events{};           ///< at most kStatusEventsMax, newest last
   std::uint32_t notes = 0;                     ///< number of the newest note; 0: none, or the client may not read notes
   std::optional<StatusRecording> recording{};  ///< while the session is recorded
+  /// Why the server cannot record the session, and the remedy, at most kTextMax. Empty: it can, or does.
+  std::string no_recording{};
   friend bool operator==(const Status&, const Status&) = default;
 };
 
@@ -316,9 +318,18 @@ struct EndSession {
 struct SceneListRequest {
   friend bool operator==(const SceneListRequest&, const SceneListRequest&) = default;
 };
+/// A seat of a scene in a SceneList.
+struct SceneSeat {
+  std::uint32_t scene = 0;  ///< place of its scene in the list
+  std::string name;         ///< a name
+  AccessRole role = AccessRole::kObserver;
+  friend bool operator==(const SceneSeat&, const SceneSeat&) = default;
+};
 struct SceneList {
   std::vector<std::string> scenes;  ///< names, at most kScenesMax, ascending
   bool more = false;
+  /// Seats of the scenes in their order, at most kSceneSeatsMax. A scene without any is not known to the sender.
+  std::vector<SceneSeat> seats{};
   friend bool operator==(const SceneList&, const SceneList&) = default;
 };
 

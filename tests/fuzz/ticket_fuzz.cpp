@@ -18,6 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto ticket = rpc::decode_signed_ticket(in)) FUZZ_EXPECT(std::ranges::equal(rpc::encode(*ticket), in));
   if (const auto content = rpc::decode_ticket_content(in)) FUZZ_EXPECT(std::ranges::equal(rpc::encode(*content), in));
   static_cast<void>(auth::claimed_role(in));
+  static_cast<void>(auth::claimed_workstation(in));
   const auto text = fuzz::text(data, size);
   if (const auto ticket = auth::ticket_from_text(text)) {
     const auto back = auth::ticket_from_text(auth::ticket_text(*ticket));

@@ -5,6 +5,12 @@
 namespace tandem::auth {
 
 std::expected<const Identity*, std::string> IdentitySelector::operator()(const KeyFingerprint& server) {
+  auto found = find(server);
+  if (found) selected_ = (*found)->fingerprint();
+  return found;
+}
+
+std::expected<const Identity*, std::string> IdentitySelector::find(const KeyFingerprint& server) {
   std::vector<ServerRow> known;
   if (own_) {
     auto rows = own_->servers();
@@ -38,7 +44,7 @@ std::expected<RuntimeDirectory, std::string> publish_local_keys(ServerKeystore& 
   const auto serial = random_bytes<std::array<std::byte, 16>>();
   LocalKeys keys{Identity::make("tandem workstation, local", serial, now), server.ticket_key()};
   if (std::string problem =
-          server.registry().enroll_without_code({"local", keys.workstation.fingerprint().sha256, now});
+          server.registry().enroll_without_code({kLocalWorkstation, keys.workstation.fingerprint().sha256, now});
       !problem.empty())
     return std::unexpected(std::move(problem));
   return RuntimeDirectory::publish(runtime, server.identity().fingerprint(), keys);

@@ -22,18 +22,26 @@ class IdentitySelector {
       : address_(std::move(address)), own_(std::move(own)), runtime_(std::move(runtime)) {}
 
   [[nodiscard]] std::expected<const Identity*, std::string> operator()(const KeyFingerprint& server);
+  /// Returns the key that was selected. @pre the selector was called and returned an identity
+  [[nodiscard]] const KeyFingerprint& selected() const noexcept { return selected_; }
   /// Returns the published keys if they were selected, so that the client signs its own tickets; else null.
   [[nodiscard]] const LocalKeys* local() const noexcept { return local_ ? &*local_ : nullptr; }
 
  private:
+  [[nodiscard]] std::expected<const Identity*, std::string> find(const KeyFingerprint& server);
+
   std::string address_;
   std::optional<ClientKeystore> own_;
   std::string runtime_;
   std::optional<LocalKeys> local_;
+  KeyFingerprint selected_;
 };
 
-/// The server's side on loopback: creates a workstation `local`, enrols it, and publishes its keys in `runtime` until
-/// the result is destroyed.
+/// Workstation that stands for all clients of the same user, at a server with ephemeral keys.
+inline constexpr const char* kLocalWorkstation = "local";
+
+/// The server's side on loopback: creates the workstation kLocalWorkstation, enrols it, and publishes its keys in
+/// `runtime` until the result is destroyed.
 [[nodiscard]] std::expected<RuntimeDirectory, std::string> publish_local_keys(ServerKeystore& server,
                                                                               const std::string& runtime,
                                                                               std::int64_t now);

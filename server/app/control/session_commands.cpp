@@ -185,6 +185,7 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
     status.tools.push_back(
         {scene.tools[j].name, {outcome.alpha[j].begin(), outcome.alpha[j].begin() + outcome.masters}});
   status.recording = recording_of(entry);
+  if (!status.recording || !status.recording->by_server) status.no_recording = entry.registration.no_recording;
   if (outcome.state == wire::SessionState::kHeld)
     status.held = truncate_utf8(held_reason_text(entry.session().status(), scene), rpc::kTextMax);
   if (status.stop)

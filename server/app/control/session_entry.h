@@ -37,6 +37,7 @@ struct SessionRegistration {
   std::function<void(std::vector<std::string>)> on_persons{};
   std::vector<AuthoredNote> notes{};           ///< marks and sheets of an earlier run of the server, oldest first
   std::shared_ptr<RecordingDesk> recording{};  ///< tells of the recording and takes notes for it; null: none
+  std::string no_recording{};                  ///< why the server cannot record it, and the remedy; empty: it can
 };
 
 /// A registered session, and what the control plane alone knows about its clients.

@@ -18,6 +18,14 @@ void SessionTable::start_recording(SessionInstance& session) {
          {"recording_failed", "", "the session is NOT RECORDED: " + problem, true});
 }
 
+std::string SessionTable::no_recording(const SessionInstance& session) const {
+  if (!session.options().record.target.empty()) return {};
+  return std::string("this server has no place for recordings; ") +
+         (options_.command == std::string("serve")
+              ? "write a key `record` in its configuration and restart it"
+              : "a server that is started by `tandem-server run SCENE --record FOLDER` has one");
+}
+
 rpc::Body SessionTable::record_session(const rpc::RecordSession& wanted) {
   const auto found =
       std::ranges::find_if(sessions_, [&](const auto& session) { return session->id() == wanted.session_id; });
@@ -30,11 +38,8 @@ rpc::Body SessionTable::record_session(const rpc::RecordSession& wanted) {
     session.end_recording();
     return rpc::Ok{};
   }
-  if (session.options().record.target.empty())
-    return ErrorReply{ErrorCode::kNotAllowed,
-                      std::string("this server has no place for recordings; restart it with ") +
-                          (options_.command == std::string("serve") ? "a key `record`" : "--record"),
-                      0};
+  if (std::string why = no_recording(session); !why.empty())
+    return ErrorReply{ErrorCode::kNotAllowed, std::move(why), 0};
   if (const std::string problem = session.start_recording(); !problem.empty())
     return ErrorReply{ErrorCode::kInternal, "no recording was started: " + problem, 0};
   report_recordings(session);

@@ -35,6 +35,17 @@ std::expected<SceneSpec, InputErrors> named_scene(const std::string& name, const
   return std::unexpected(InputErrors{{name, 0, 0, "", "", "is no scene of this server; " + suggest(name, names)}});
 }
 
+/// Adds the seats of the scenes, as long as those of a whole scene fit. A scene with mistakes has none.
+void list_seats(const std::string& folder, rpc::SceneList& list) {
+  for (std::size_t i = 0; i < list.scenes.size(); ++i) {
+    const auto scene = named_scene(list.scenes[i], folder);
+    if (!scene) continue;
+    if (list.seats.size() + scene->seats.size() > rpc::kSceneSeatsMax) return;
+    for (const SeatSpec& seat : scene->seats)
+      list.seats.push_back({static_cast<std::uint32_t>(i), seat.name, access_role(seat.role)});
+  }
+}
+
 }  // namespace
 
 std::string reply_text(const InputErrors& errors) {
@@ -100,6 +111,7 @@ rpc::SceneList list_scenes(const std::string& scenes) {
     }
     list.scenes.push_back(name);
   }
+  list_seats(scenes, list);
   return list;
 }
 

@@ -21,7 +21,8 @@ inline constexpr std::size_t kCreatedSessionsDefault = 16;
                                                                                      const std::string& scenes);
 
 /// Names of the scenes from which an operator may create sessions: the shipped ones, and the files NAME.textproto of a
-/// folder, of which at most 4096 entries are read. A folder that cannot be read has none.
+/// folder, of which at most 4096 entries are read. A folder that cannot be read has none. With the names come the seats
+/// of the scenes, as many as a reply has place for.
 /// @param scenes  folder of further scenes; empty: shipped scenes only
 [[nodiscard]] rpc::SceneList list_scenes(const std::string& scenes);
 

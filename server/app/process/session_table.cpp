@@ -107,6 +107,7 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
                            {},
                            session.snapshot() != nullptr ? session.resume_until() : Time{}};
   made.recording = session.recording_desk();
+  made.no_recording = no_recording(session);
   if (checkpoints_ != nullptr && !session.created()) {
     made.on_removed = [store = checkpoints_, name = session.options().name](const auto& keys) {
       store->set_removed(name, keys);

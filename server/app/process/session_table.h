@@ -56,6 +56,8 @@ class SessionTable {
     SessionOrder order;
   };
   [[nodiscard]] rpc::Body create_session(const rpc::CreateSession& wanted);
+  /// Why the server cannot record a session, and the remedy; empty: it can.
+  [[nodiscard]] std::string no_recording(const SessionInstance& session) const;
   [[nodiscard]] rpc::Body record_session(const rpc::RecordSession& wanted);
   /// Starts the recording that the options of a new session want.
   void start_recording(SessionInstance& session);

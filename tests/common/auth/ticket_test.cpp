@@ -229,6 +229,11 @@ TEST(Ticket, RejectsEveryFlippedBit) {
   }
 }
 
+TEST(Ticket, ClaimsTheKeyOfItsWorkstation) {
+  EXPECT_EQ(claimed_workstation(signed_sample(test::ticket_key())), sample_ticket().workstation);
+  EXPECT_EQ(claimed_workstation({}), std::nullopt);
+}
+
 TEST(Ticket, RejectsAnEditedRoleByItsSignature) {
   const auto key = test::ticket_key();
   const auto edited = test::with_role(signed_sample(key), AccessRole::kInstructor);

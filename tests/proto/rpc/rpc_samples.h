@@ -158,6 +158,7 @@ inline Status status(RandomStream& r) {
     m.events.push_back({static_cast<std::uint32_t>(1 + r.below(1000)), "RESUMED by trainer"});
   if (r.below(2) == 0)
     m.recording = {true, static_cast<std::uint32_t>(r.below(9)), r.below(2) == 0, r.below(1U << 30U), text(r)};
+  if (r.below(2) == 0) m.no_recording = text(r);
   return m;
 }
 
@@ -311,6 +312,8 @@ inline Frame frame(RandomStream& r, Kind kind) {
       auto& m = f.body.emplace<SceneList>();
       m.more = r.below(2) == 0;
       for (std::uint64_t k = r.below(50), i = 0; i < k; ++i) m.scenes.push_back("s" + std::to_string(100 + i));
+      for (std::uint32_t i = 0; i < m.scenes.size(); ++i)
+        for (std::uint64_t k = r.below(4); k > 0; --k) m.seats.push_back({i, name(r), role(r)});
       break;
     }
     case Kind::kNotesRequest: {

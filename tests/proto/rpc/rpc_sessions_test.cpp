@@ -75,7 +75,20 @@ TEST(SessionMessages, ListScenesInOrderOnce) {
   for (const std::vector<std::string>& bad :
        {std::vector<std::string>{"b", "a"}, {"a", "a"}, {""}, {"../a"}, {std::string(kNameMax + 1, 'x')}})
     EXPECT_FALSE(encodes(SceneList{.scenes = bad}));
-  list.scenes.clear();
+  list.seats = {{0, "trainer", AccessRole::kInstructor}, {1, "trainer", AccessRole::kInstructor}};
+  EXPECT_TRUE(encodes(list));
+  for (const SceneSeat& bad :
+       {SceneSeat{2, "x", AccessRole::kTrainee}, SceneSeat{0, "x", AccessRole::kTrainee},
+        SceneSeat{1, "", AccessRole::kTrainee}, SceneSeat{1, "x", static_cast<AccessRole>(kAccessRoles)}}) {
+    SceneList wrong = list;
+    wrong.seats.push_back(bad);
+    EXPECT_FALSE(encodes(wrong)) << bad.scene << " " << bad.name;
+  }
+  list.seats.assign(kSceneSeatsMax, {1, std::string(kNameMax, 'x'), AccessRole::kTrainee});
+  EXPECT_TRUE(encodes(list));
+  list.seats.push_back(list.seats.front());
+  EXPECT_FALSE(encodes(list));
+  list = {};
   for (std::size_t i = 0; i < kScenesMax; ++i) list.scenes.push_back("s" + std::to_string(1000 + i));
   EXPECT_TRUE(encodes(list));
   list.scenes.emplace_back("t");

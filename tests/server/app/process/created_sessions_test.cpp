@@ -1,5 +1,10 @@
 // Sessions that an operator creates and ends at run time, with their shards and a control server but without clients.
+#include <filesystem>
+#include <fstream>
+
 #include "common/io/exit_code.h"
+#include "proto/text/scenes_embedded.h"
+#include "server/app/process/session_creation.h"
 #include "tests/server/app/process/table_rig.h"
 
 namespace tandem::server {
@@ -38,6 +43,25 @@ TEST(CreatedSessions, AreServedAndListed) {
   ASSERT_EQ(list.sessions.size(), 2U);
   EXPECT_EQ(list.sessions[1].id, created->session.id);
   EXPECT_NE(list.sessions[1].id, list.sessions[0].id);
+}
+
+TEST(SceneList, HasTheSeatsOfWholeScenesAsLongAsTheyFit) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "scene-list";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder / (name + ".textproto")) << text;
+  };
+  write("A-broken", "version: 1 seat {");
+  const std::string_view eight = find_shipped_scene("eight_seats")->text;
+  for (int i = 10; i < 80; ++i) write("B" + std::to_string(i), std::string(eight));
+  const rpc::SceneList list = list_scenes(folder.string());
+  ASSERT_EQ(list.scenes.front(), "A-broken");
+  ASSERT_EQ(list.seats.size(), rpc::kSceneSeatsMax) << "64 scenes of eight seats";
+  EXPECT_EQ(list.seats.front().scene, 1U) << "a file with mistakes has no seats";
+  EXPECT_EQ(list.seats.front().role, AccessRole::kTrainee);
+  EXPECT_EQ(list.seats.back().scene, 64U);
+  EXPECT_EQ(list.scenes.size(), 71U + shipped_scenes().size());
+  std::filesystem::remove_all(folder);
 }
 
 TEST(CreatedSessions, AreRejectedWithWords) {
