@@ -38,6 +38,15 @@ json may_of(AccessRole role, const PageOffers& offers) {
   return may;
 }
 
+/// Seats by the name of their scene.
+json seats_of(const rpc::SceneList* list) {
+  json seats = json::object();
+  if (list == nullptr) return seats;
+  for (const rpc::SceneSeat& seat : list->seats)
+    seats[list->scenes.at(seat.scene)].push_back({{"name", seat.name}, {"role", upper(to_text(seat.role))}});
+  return seats;
+}
+
 }  // namespace
 
 std::string session_hex(const rpc::Id& session) { return to_hex(session); }
@@ -69,7 +78,9 @@ std::string hello_json(std::string_view person, AccessRole role, std::string_vie
                     {"release", release},
                     {"person", person},
                     {"proved", offers.proved},
-                    {"scenes", offers.scenes},
+                    {"scenes", offers.scenes != nullptr ? json(offers.scenes->scenes) : json::array()},
+                    {"scene_seats", seats_of(offers.scenes)},
+                    {"workstation", offers.workstation.empty() ? json() : json(offers.workstation)},
                     {"role", upper(to_text(role))},
                     {"may", may_of(role, offers)},
                     {"play", offers.play.empty() ? json() : json(offers.play)},
@@ -88,18 +99,20 @@ std::string reply_json(std::optional<std::uint64_t> id, bool ok, std::string_vie
   return json_text({{"type", "reply"}, {"id", id ? json(*id) : json()}, {"ok", ok}, {"text", text}});
 }
 
-std::string tickets_json(const rpc::SessionCreated& created) {
+std::string tickets_json(const rpc::SessionCreated& created, std::string_view server, const auth::KeyFingerprint& own) {
   json rows = json::array();
   for (const rpc::SeatTicket& ticket : created.tickets) {
     rows.push_back({{"person", ticket.person.empty() ? ticket.workstation : ticket.person},
                     {"workstation", ticket.workstation},
                     {"role", upper(to_text(ticket.role))},
                     {"seat", ticket.seat},
+                    {"here", auth::claimed_workstation(ticket.ticket) == own},
                     {"ticket", auth::ticket_text(ticket.ticket)}});
   }
   return json_text({{"type", "tickets"},
                     {"session", session_hex(created.session.id)},
                     {"name", created.session.name},
+                    {"server", server},
                     {"tickets", std::move(rows)}});
 }
 

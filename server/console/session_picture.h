@@ -35,9 +35,9 @@ struct LivePicture {
   std::shared_ptr<const SceneSpec> scene;   ///< null: not known
   std::shared_ptr<const LiveValues> live;   ///< null: no datagrams arrive
   std::shared_ptr<const std::vector<rpc::ListedSession>> sessions;  ///< of the server; null: not known
-  std::shared_ptr<const std::vector<std::string>> scenes;  ///< for new sessions; null: not known, or not allowed
-  std::shared_ptr<const EvaluationNotes> notes;            ///< that this connection may read; null: none known
-  std::string person;                                      ///< name in the ticket of the connection; empty: not named
+  std::shared_ptr<const rpc::SceneList> scenes;  ///< for new sessions; null: not known, or not allowed
+  std::shared_ptr<const EvaluationNotes> notes;  ///< that this connection may read; null: none known
+  std::string person;                            ///< name in the ticket of the connection; empty: not named
 };
 
 }  // namespace tandem::console

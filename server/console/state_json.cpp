@@ -241,6 +241,7 @@ std::string scene_json(const LivePicture& picture) {
 std::string state_members(const LivePicture& picture) {
   json state{{"held", picture.status.held},
              {"recording", recording_of(picture.status.recording)},
+             {"no_recording", picture.status.no_recording},
              {"seats", json::array()},
              {"tools", json::array()}};
   if (picture.live && picture.scene) {

@@ -136,6 +136,7 @@ TEST(GatewayNotes, SurviveTheGatewayWithTheirVisibility) {
 
 TEST(LessonDesk, OffersScenesAndGivesTicketsToPersonsWithoutASeat) {
   const Lesson lesson;
+  const std::string other = lesson.enrolled("desk-2");
   lesson.folder.write("mine.textproto", "version: 1\n");
   const WebGateway gateway = lesson.gateway();
   WebPage desk = Lesson::page(gateway, lesson.ticket_for({"--role", "operator", "--person", "otto"}));
@@ -143,6 +144,12 @@ TEST(LessonDesk, OffersScenesAndGivesTicketsToPersonsWithoutASeat) {
   ASSERT_FALSE(hello.is_null());
   for (const char* scene : {"contact", "free_motion", "mine"})
     EXPECT_NE(std::ranges::find(hello["scenes"], scene), hello["scenes"].end()) << hello["scenes"];
+  EXPECT_EQ(hello["scene_seats"]["free_motion"],
+            Json({{{"name", "trainer"}, {"role", "INSTRUCTOR"}}, {{"name", "trainee"}, {"role", "TRAINEE"}}}));
+  EXPECT_FALSE(hello["scene_seats"].contains("mine")) << "a file that is no scene has no seats";
+  EXPECT_TRUE(hello["workstation"].is_null()) << "only the server knows the name";
+  EXPECT_EQ(desk.next("state")["no_recording"],
+            "this server has no place for recordings; write a key `record` in its configuration and restart it");
   WebPage ann = Lesson::page(gateway, lesson.ticket_for({"--role", "instructor"}));
   EXPECT_EQ(ann.next("hello")["scenes"], Json::array()) << "for those who may create sessions";
   const auto create = [&desk](const Json& people) {
@@ -160,17 +167,21 @@ TEST(LessonDesk, OffersScenesAndGivesTicketsToPersonsWithoutASeat) {
   EXPECT_EQ(create({{{"name", "ted"}, {"workstation", "desk"}, {"role", "TRAINEE"}, {"seat", "trainee"}},
                     {{"name", "eva"}, {"workstation", "desk"}, {"role", "EVALUATOR"}, {"seat", ""}},
                     {{"name", "oda"}, {"workstation", "desk"}, {"role", "OBSERVER"}, {"seat", ""}},
-                    {{"name", "rob"}, {"workstation", "desk"}, {"role", "RECORDER"}, {"seat", ""}}})["ok"],
+                    {{"name", "rob"}, {"workstation", "desk"}, {"role", "RECORDER"}, {"seat", ""}},
+                    {{"name", "zoe"}, {"workstation", "desk-2"}, {"role", "OBSERVER"}, {"seat", ""}}})["ok"],
             true);
   const Json made = desk.next("tickets");
-  ASSERT_EQ(made["tickets"].size(), 4U) << made;
+  ASSERT_EQ(made["tickets"].size(), 5U) << made;
+  EXPECT_EQ(made["tickets"][4]["here"], false) << "no browser at this gateway can use a ticket for desk-2";
   const std::string expected[][2] = {
       {"ted", "TRAINEE"}, {"eva", "EVALUATOR"}, {"oda", "OBSERVER"}, {"rob", "RECORDER"}};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(made["tickets"][i]["person"], expected[i][0]);
     EXPECT_EQ(made["tickets"][i]["role"], expected[i][1]);
     EXPECT_EQ(made["tickets"][i]["workstation"], "desk");
+    EXPECT_EQ(made["tickets"][i]["here"], true) << "the gateway has the key of desk";
   }
+  EXPECT_EQ(made["server"], lesson.address);
   for (const std::size_t i : {1U, 2U}) {
     WebPage page = Lesson::page(gateway, made["tickets"][i]["ticket"]);
     const Json joined = page.next("hello");

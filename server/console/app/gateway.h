@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/auth/io/identity_selector.h"
 #include "common/auth/limiter.h"
 #include "server/console/app/browser_seats.h"
 #include "server/console/app/mailbox.h"
@@ -52,6 +53,8 @@ class Gateway {
   [[nodiscard]] BrowserSessions<Person>& browsers() noexcept { return browsers_; }
   [[nodiscard]] BrowserSeats& seats() noexcept { return seats_; }
   [[nodiscard]] const std::string& play() const noexcept { return options_.play; }
+  /// Name of the gateway's workstation at its server; empty: only the server knows it.
+  [[nodiscard]] std::string workstation() const { return options_.local ? auth::kLocalWorkstation : ""; }
 
   /// Redeems the token of the printed URL. @return secret of a new cookie; empty: refused
   [[nodiscard]] std::string redeem(std::string_view token, Time now);

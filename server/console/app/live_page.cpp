@@ -72,11 +72,12 @@ void LivePage::greet() {
   role_ = own->role;
   greeted_ = true;
   scenes_ = own->scenes;
-  PageOffers offers{.seats = gateway_.seats().allowed(),
-                    .invite = person_->house,
-                    .play = gateway_.play(),
-                    .proved = person_->proved};
-  if (scenes_) offers.scenes = *scenes_;
+  const PageOffers offers{.seats = gateway_.seats().allowed(),
+                          .invite = person_->house,
+                          .play = gateway_.play(),
+                          .proved = person_->proved,
+                          .scenes = scenes_.get(),
+                          .workstation = gateway_.workstation()};
   send(hello_json(person_->name, role_, gateway_.release(), listed_, offers));
 }
 

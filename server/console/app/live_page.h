@@ -72,8 +72,8 @@ class LivePage : public std::enable_shared_from_this<LivePage> {
   std::string scene_;                       ///< last message scene
   std::uint64_t shown_ = 0;                 ///< number of the last picture of `view_`
   std::uint32_t event_ = 0;
-  std::shared_ptr<const EvaluationNotes> notes_;            ///< of the last message notes
-  std::shared_ptr<const std::vector<std::string>> scenes_;  ///< as in the last hello
+  std::shared_ptr<const EvaluationNotes> notes_;  ///< of the last message notes
+  std::shared_ptr<const rpc::SceneList> scenes_;  ///< as in the last hello
   unsigned frames_ = 0;
   AccessRole role_ = AccessRole::kObserver;
   std::string warning_;

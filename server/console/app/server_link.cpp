@@ -217,7 +217,7 @@ void ServerLink::ask_scenes() {
   if (!answer) return lose(answer.error().text);
   scenes_stale_ = false;  // after a refusal, the next period asks again
   if (auto* list = std::get_if<rpc::SceneList>(&*answer)) {
-    auto scenes = std::make_shared<const std::vector<std::string>>(std::move(list->scenes));
+    auto scenes = std::make_shared<const rpc::SceneList>(std::move(*list));
     update([&](LivePicture& picture) { picture.scenes = std::move(scenes); });
   }
 }
@@ -265,7 +265,9 @@ void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
   if (const auto* authority = std::get_if<rpc::AuthorityReply>(&*answer); authority != nullptr && !authority->applied)
     return reply(false, "another change of authority came first; check it, then repeat the order", "");
   const auto* const created = std::get_if<rpc::SessionCreated>(&*answer);
-  reply(true, "", created != nullptr ? tickets_json(*created) : std::string{});
+  reply(true, "",
+        created != nullptr ? tickets_json(*created, io::to_text(options_.join.server), console_.workstation)
+                           : std::string{});
   scenes_stale_ = scenes_stale_ || created != nullptr;
   poke();
 }

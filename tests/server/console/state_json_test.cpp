@@ -226,9 +226,16 @@ TEST(LiveJson, HelloHasTheRightsOfTheRole) {
   EXPECT_EQ(hello["person"], "ann");
   EXPECT_EQ(hello["proved"], false);
   EXPECT_EQ(hello["scenes"], json::array());
-  const std::vector<std::string> scenes{"contact", "lesson"};
-  const json desk =
-      json::parse(hello_json("ann", AccessRole::kOperator, "1", listed, {.proved = true, .scenes = scenes}));
+  EXPECT_EQ(hello["scene_seats"], json::object());
+  EXPECT_TRUE(hello["workstation"].is_null());
+  const rpc::SceneList scenes{.scenes = {"contact", "lesson"},
+                              .seats = {{0, "trainer", AccessRole::kInstructor}, {0, "trainee", AccessRole::kTrainee}}};
+  const json desk = json::parse(hello_json("ann", AccessRole::kOperator, "1", listed,
+                                           {.proved = true, .scenes = &scenes, .workstation = "local"}));
+  EXPECT_EQ(
+      desk["scene_seats"],
+      json({{"contact", {{{"name", "trainer"}, {"role", "INSTRUCTOR"}}, {{"name", "trainee"}, {"role", "TRAINEE"}}}}}));
+  EXPECT_EQ(desk["workstation"], "local");
   EXPECT_EQ(desk["proved"], true);
   EXPECT_EQ(desk["scenes"], json({"contact", "lesson"}));
   for (const AccessRole watcher : {AccessRole::kTrainee, AccessRole::kObserver, AccessRole::kRecorder})
@@ -248,7 +255,10 @@ TEST(LiveJson, TicketsNamePersonWorkstationRoleAndSeat) {
                                     .code = "",
                                     .tickets = {{"trainee", "desk-1", {std::byte{1}}, "ted", AccessRole::kTrainee},
                                                 {"", "desk-2", {std::byte{2}}, "", AccessRole::kEvaluator}}};
-  const json tickets = json::parse(tickets_json(created))["tickets"];
+  const json message = json::parse(tickets_json(created, "127.0.0.1:7000", {}));
+  EXPECT_EQ(message["server"], "127.0.0.1:7000");
+  const json& tickets = message["tickets"];
+  EXPECT_EQ(tickets[0]["here"], false) << "no ticket of this gateway's workstation";
   ASSERT_EQ(tickets.size(), 2U);
   EXPECT_EQ(tickets[0]["person"], "ted");
   EXPECT_EQ(tickets[0]["workstation"], "desk-1");
@@ -264,6 +274,9 @@ TEST(StateJson, ShowsTheRecordingOfTheSession) {
     return nlohmann::json::parse("{" + state_members(p) + "}", nullptr, false);
   };
   EXPECT_TRUE(state_of(out)["recording"].is_null());
+  EXPECT_EQ(state_of(out)["no_recording"], "");
+  out.status.no_recording = "restart it with --record";
+  EXPECT_EQ(state_of(out)["no_recording"], "restart it with --record");
   out.status.recording =
       rpc::StatusRecording{.by_server = true, .by_recorders = 1, .dropped = 4, .trouble = "\xff full"};
   const auto recording = state_of(out)["recording"];

@@ -25,14 +25,19 @@ export interface Alarm {
   seat: string;
   /** Session time of the begin [s]; null if no state was known. */
   t: number | null;
-  /** Session time of the end [s]; null while the cause lasts. */
+  /** Whether the cause is over. */
+  over: boolean;
+  /** Session time at which the cause was last there [s]; null while it lasts, or if no state tells the time. */
   until: number | null;
   detail: string;
 }
 
 export const kAlarmsKept = 200;
-/** A cause that was absent for this long ends its alarm, so that a flickering value gives one line [s]. */
-export const kAlarmHold = 1;
+/**
+ * A cause that was absent for this long ends its alarm, so that a flickering value gives one line [ms]. It is time of the
+ * page: the clock of a stopped session stands still.
+ */
+export const kAlarmHold = 1000;
 
 interface Cause {
   kind: AlarmKind;
@@ -41,10 +46,12 @@ interface Cause {
   detail: string;
 }
 
-/** Alarms with begin and end. Bounded: the oldest ones leave first. */
+/** Alarms of one session, with begin and end. Bounded: the oldest ones leave first. */
 export class AlarmLog {
-  private readonly alarms: Alarm[] = [];
-  private readonly active = new Map<string, { alarm: Alarm; seen: number }>();
+  private alarms: Alarm[] = [];
+  private readonly active = new Map<string, { alarm: Alarm; seen: number | null; seen_ms: number }>();
+  /** A loss of the connection that is over; the next state tells the time. */
+  private reconnected: Alarm | null = null;
   private readonly counts = new Map<string, number>();
   private next = 1;
 
@@ -57,41 +64,62 @@ export class AlarmLog {
     return [...this.active.values()].map((entry) => entry.alarm);
   }
 
-  /** Call for each state, in order. */
-  update(state: State, scene: Scene | null): void {
-    const causes = this.causes(state, scene);
-    for (const cause of causes) this.see(cause, state.t);
-    for (const [key, entry] of this.active) {
-      if (entry.alarm.kind === 'connection') continue;
-      // Session time runs backwards when another run of the session begins.
-      if (state.t - entry.seen > kAlarmHold || state.t < entry.seen) this.end(key, state.t);
+  /** Forgets the alarms of another session: its clock and its seats are others. */
+  beginSession(): void {
+    this.alarms = this.alarms.filter(({ kind }) => kind === 'connection');
+    for (const [key, { alarm }] of this.active) if (alarm.kind !== 'connection') this.active.delete(key);
+    this.counts.clear();
+  }
+
+  /**
+   * Call for each state, in order.
+   * @param now_ms time of the page, monotonic [ms]
+   */
+  update(state: State, scene: Scene | null, now_ms: number): void {
+    if (this.reconnected) {
+      const { t } = this.reconnected;
+      this.reconnected.until = t === null || state.t >= t ? state.t : null;
+      this.reconnected = null;
     }
+    const causes = this.causes(state, scene);
+    // Session time runs backwards when another run of the session begins: that run has causes of its own.
+    for (const [key, { alarm, seen }] of this.active)
+      if (alarm.kind !== 'connection' && seen !== null && state.t < seen) this.end(key);
+    for (const cause of causes) this.see(cause, state.t, now_ms);
+    for (const [key, { alarm, seen_ms }] of this.active)
+      if (alarm.kind !== 'connection' && now_ms - seen_ms > kAlarmHold) this.end(key);
   }
 
   connection(lost: boolean, t: number | null, detail: string): void {
     const key = 'connection:';
-    if (lost) this.see({ kind: 'connection', level: 'alarm', seat: '', detail }, t);
-    else if (this.active.has(key)) this.end(key, t);
-  }
-
-  private end(key: string, t: number | null): void {
+    if (lost) return this.see({ kind: 'connection', level: 'alarm', seat: '', detail }, t, 0);
     const entry = this.active.get(key);
     if (!entry) return;
-    entry.alarm.until = t ?? entry.alarm.t ?? 0;
+    this.active.delete(key);
+    entry.alarm.over = true;
+    this.reconnected = entry.alarm;
+  }
+
+  private end(key: string): void {
+    const entry = this.active.get(key);
+    if (!entry) return;
+    entry.alarm.over = true;
+    entry.alarm.until = entry.seen;
     this.active.delete(key);
   }
 
-  private see(cause: Cause, t: number | null): void {
+  private see(cause: Cause, t: number | null, now_ms: number): void {
     const key = `${cause.kind}:${cause.seat}`;
     const known = this.active.get(key);
     if (known) {
       known.seen = t ?? known.seen;
+      known.seen_ms = now_ms;
       known.alarm.detail = cause.detail || known.alarm.detail;
       return;
     }
-    const alarm: Alarm = { number: this.next++, ...cause, t, until: null };
+    const alarm: Alarm = { number: this.next++, ...cause, t, over: false, until: null };
     this.alarms.push(alarm);
-    this.active.set(key, { alarm, seen: t ?? 0 });
+    this.active.set(key, { alarm, seen: t, seen_ms: now_ms });
     if (this.alarms.length > kAlarmsKept) this.alarms.shift();
   }
 
@@ -105,7 +133,7 @@ export class AlarmLog {
       add(
         fault ? 'fault' : 'stopped',
         fault || state.stop.kind === 'STOP' ? 'alarm' : 'warning',
-        state.stop.by,
+        state.stop.person === null ? state.stop.by : `${state.stop.person} (${state.stop.by})`,
         state.stop.why,
       );
     }

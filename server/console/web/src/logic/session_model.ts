@@ -68,7 +68,7 @@ export class SessionModel {
       case 'state':
         this.states.push(message, now_ms);
         this.acknowledgements.received(message.n, message.dropped);
-        this.alarms.update(message, this.scene);
+        this.alarms.update(message, this.scene, now_ms);
         this.history.update(message, this.scene);
         break;
       case 'event':
@@ -111,6 +111,7 @@ export class SessionModel {
   private beginSession(): void {
     this.states.clear();
     this.history.clear();
+    this.alarms.beginSession();
     this.events.clear();
     this.notes = null;
     this.ownSeat = null;

@@ -38,8 +38,18 @@ export interface Hello {
   sessions: readonly SessionName[];
   /** Names of scenes from which this person may create a session; empty if the gateway does not say. */
   scenes: readonly string[];
+  /** Seats of those scenes that the server could read, by the name of the scene. */
+  sceneSeats: ReadonlyMap<string, readonly SeatOffer[]>;
+  /** Name of the gateway's workstation; null: only the server knows it. */
+  workstation: string | null;
   /** Seat that the page takes at once; null: none. */
   play: string | null;
+}
+
+/** A seat of a scene from which a session may be created. */
+export interface SeatOffer {
+  name: string;
+  role: string;
 }
 
 export interface SceneSeat {
@@ -145,6 +155,8 @@ export interface State {
   shed: number;
   held: string;
   recording: Recording | null;
+  /** Why the server cannot record the session, and the remedy; empty: it can. */
+  noRecording: string;
   seats: readonly SeatState[];
   tools: readonly ToolState[];
 }
@@ -212,6 +224,8 @@ export interface Ticket {
   workstation: string;
   role: string;
   seat: string;
+  /** Whether the ticket is for the gateway's workstation, so that a browser can use it. */
+  here: boolean;
   ticket: string;
 }
 
@@ -219,6 +233,8 @@ export interface Tickets {
   type: 'tickets';
   session: string;
   name: string;
+  /** Address of the server, as the gateway reaches it. */
+  server: string;
   tickets: readonly Ticket[];
 }
 

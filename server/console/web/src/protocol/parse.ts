@@ -7,6 +7,7 @@ import {
   type Recording,
   type SceneSeat,
   type SceneTool,
+  type SeatOffer,
   type SeatState,
   type SheetName,
   type State,
@@ -176,6 +177,7 @@ function state(from: Json): State | null {
     shed: count(from.shed),
     held: text(from.held),
     recording: recording(from.recording),
+    noRecording: text(from.no_recording),
     seats: list(from.seats, kSeatsMax).map(seatState),
     tools: list(from.tools, kToolsMax).map(toolState),
   };
@@ -188,6 +190,19 @@ function scores(value: unknown): Record<string, number> {
     if (score !== null) found[text(key)] = score;
   }
   return found;
+}
+
+function sceneSeats(value: unknown): Map<string, SeatOffer[]> {
+  return new Map(
+    Object.entries(object(value))
+      .slice(0, kListMax)
+      .map(([scene, seats]) => [
+        text(scene),
+        list(seats, kSeatsMax)
+          .map(object)
+          .map((seat) => ({ name: text(seat.name), role: text(seat.role) })),
+      ]),
+  );
 }
 
 const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
@@ -203,6 +218,8 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
       .map(object)
       .map((session) => ({ id: text(session.id), name: text(session.name), state: text(session.state) })),
     scenes: texts(from.scenes),
+    sceneSeats: sceneSeats(from.scene_seats),
+    workstation: textOrNull(from.workstation),
     play: textOrNull(from.play),
   }),
   scene: (from) => ({
@@ -265,6 +282,7 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
     type: 'tickets',
     session: text(from.session),
     name: text(from.name),
+    server: text(from.server),
     tickets: list(from.tickets, kSeatsMax * 2)
       .map(object)
       .map((ticket) => ({
@@ -272,6 +290,7 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
         workstation: text(ticket.workstation),
         role: text(ticket.role),
         seat: text(ticket.seat),
+        here: ticket.here === true,
         ticket: text(ticket.ticket),
       })),
   }),

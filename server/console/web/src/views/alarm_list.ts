@@ -11,6 +11,11 @@ export function alarmText(alarm: Alarm): string {
   return t(`alarm.${alarm.kind}`, { seat: alarm.seat || '–', detail: alarm.detail }).trim();
 }
 
+function endText({ over, until }: Alarm): string {
+  if (!over) return t('alarms.lasting');
+  return until === null ? t('alarms.over') : t('alarms.until', { t: clock(until) });
+}
+
 function row(className: string, time: string, text: string, until: string): HTMLLIElement {
   return el('li', { class: className }, el('time', {}, time), el('span', {}, text), el('small', {}, until));
 }
@@ -37,18 +42,13 @@ export class AlarmList implements View {
     const { model } = this.page;
     const alarms = model.alarms.list().slice(0, kRowsShown);
     const events = model.events.toArray().slice(-kRowsShown).reverse();
-    const key = JSON.stringify([alarms.map((a) => [a.number, a.until, a.detail]), events.map((e) => e.number)]);
+    const key = JSON.stringify([alarms.map((a) => [a.number, a.over, a.until, a.detail]), events.map((e) => e.number)]);
     if (key === this.rendered) return;
     this.rendered = key;
     this.alarms.replaceChildren(
       ...(alarms.length > 0
         ? alarms.map((alarm) =>
-            row(
-              `${alarm.level}${alarm.until === null ? ' lasting' : ''}`,
-              clock(alarm.t),
-              alarmText(alarm),
-              alarm.until === null ? t('alarms.lasting') : t('alarms.until', { t: clock(alarm.until) }),
-            ),
+            row(`${alarm.level}${alarm.over ? '' : ' lasting'}`, clock(alarm.t), alarmText(alarm), endText(alarm)),
           )
         : [el('li', { class: 'empty' }, t('alarms.none'))]),
     );

@@ -11,7 +11,7 @@ import {
 } from '../logic/authority';
 import { kUnknown, percent } from '../logic/format';
 import type { Scene, SceneSeat } from '../protocol/messages';
-import { t } from '../strings/strings';
+import { t, word } from '../strings/strings';
 import { button, el, fillSelect, labelled, panel, select, setDisabled, setText } from './dom';
 import { swatch } from './live_view';
 
@@ -37,6 +37,7 @@ export class AuthorityPanel implements View {
   private readonly give: HTMLButtonElement;
   private readonly transfer = el('p', { class: 'transfer', role: 'status' });
   private readonly draftNote = el('p', { class: 'note' });
+  private readonly denied = el('p', { class: 'note', role: 'status' });
   private sliders: Row[] = [];
   private masters: SceneSeat[] = [];
   private known: Scene | null = null;
@@ -50,6 +51,7 @@ export class AuthorityPanel implements View {
     this.node = panel(
       t('authority.title'),
       'authority-panel',
+      this.denied,
       this.toolField,
       this.rows,
       el('div', { class: 'row' }, this.apply, this.reset, this.draftNote),
@@ -96,6 +98,11 @@ export class AuthorityPanel implements View {
     setDisabled(this.give, !may || this.masters.length < 2);
     setDisabled(this.to, !may);
     setDisabled(this.share, !may);
+    this.denied.hidden = !model.hello || model.granted('authority');
+    setText(
+      this.denied,
+      this.denied.hidden ? '' : t('authority.denied', { role: word('role', model.hello?.role ?? '') }),
+    );
     this.toolField.hidden = this.tools.options.length < 2;
     for (const preset of this.presets.children) setDisabled(preset as HTMLButtonElement, !may);
     const transfer = tool?.transfer ?? null;

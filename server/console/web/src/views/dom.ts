@@ -96,7 +96,7 @@ export function panel(title: string, className: string, ...children: Child[]): H
 }
 
 /** Shows a dialog with a form. Resolves with the value of the field, or null when it was cancelled. */
-export function ask(
+export async function ask(
   title: string,
   explain: string,
   field: HTMLInputElement,
@@ -104,6 +104,21 @@ export function ask(
   go: string,
   cancel: string,
 ): Promise<string | null> {
+  return (await dialogOf(title, explain, labelled(fieldLabel, field), go, cancel)) ? field.value : null;
+}
+
+/** Shows a dialog that asks for a confirmation; the keyboard begins at the button that cancels. */
+export function confirmOrder(title: string, explain: string, go: string, cancel: string): Promise<boolean> {
+  return dialogOf(title, explain, null, go, cancel);
+}
+
+function dialogOf(
+  title: string,
+  explain: string,
+  content: HTMLElement | null,
+  go: string,
+  cancel: string,
+): Promise<boolean> {
   return new Promise((resolve) => {
     const confirm = el('button', { type: 'submit', value: 'go', class: 'danger' }, go);
     const heading = el('h2', { id: 'dialog-title' }, title);
@@ -113,7 +128,7 @@ export function ask(
         'aria-labelledby': heading.id,
         onclose: () => {
           dialog.remove();
-          resolve(dialog.returnValue === 'go' ? field.value : null);
+          resolve(dialog.returnValue === 'go');
         },
       },
       el(
@@ -121,12 +136,12 @@ export function ask(
         { method: 'dialog' },
         heading,
         explain ? el('p', {}, explain) : null,
-        labelled(fieldLabel, field),
+        content,
         el(
           'div',
           { class: 'row' },
           confirm,
-          el('button', { type: 'submit', value: 'cancel', formnovalidate: true }, cancel),
+          el('button', { type: 'submit', value: 'cancel', formnovalidate: true, autofocus: content === null }, cancel),
         ),
       ),
     );

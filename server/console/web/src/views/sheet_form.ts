@@ -2,7 +2,7 @@ import type { Page, View } from '../app/page';
 import { mastersOf, traineeIndices } from '../logic/authority';
 import { formOf, kForms, othersSheets, ownSheet, totalOf, validScores } from '../logic/sheets';
 import type { Notes, Scene, SheetName } from '../protocol/messages';
-import { t, type StringKey } from '../strings/strings';
+import { t, word, type StringKey } from '../strings/strings';
 import { button, el, fillSelect, labelled, panel, select, setDisabled, setText } from './dom';
 
 const itemText = (id: string): string => t(`item.${id}` as StringKey);
@@ -75,7 +75,12 @@ export class SheetForm implements View {
     setDisabled(this.save, !may);
     setDisabled(this.close, !may || (form.name !== 'CHECKLIST' && missing > 0));
     for (const input of this.items.querySelectorAll('input')) setDisabled(input, !may);
-    setText(this.note, this.closed ? t('sheet.closed') : missing > 0 ? t('sheet.closed_as_draft') : '');
+    const denied =
+      model.hello && !model.granted('score') ? t('score.denied', { role: word('role', model.hello.role) }) : '';
+    setText(
+      this.note,
+      denied !== '' ? denied : this.closed ? t('sheet.closed') : missing > 0 ? t('sheet.closed_as_draft') : '',
+    );
   }
 
   private key(): string {
@@ -141,7 +146,23 @@ export class SheetForm implements View {
       buttons.push(el('label', { class: 'point' }, input, el('span', {}, String(points))));
     }
     const legend = itemText(id) + (optional ? ` (${t('sheet.optional')})` : '');
-    return el('fieldset', { class: 'item' }, el('legend', {}, legend), el('div', { class: 'points' }, ...buttons));
+    // A digit chooses points here; elsewhere it chooses a view.
+    const onDigit = (event: Event): void => {
+      const { key, ctrlKey, altKey, metaKey } = event as KeyboardEvent;
+      const input = document.getElementById(`item-${this.name}-${id}-${key}`);
+      if (ctrlKey || altKey || metaKey || !(input instanceof HTMLInputElement) || input.disabled) return;
+      event.preventDefault();
+      event.stopPropagation();
+      input.focus();
+      input.checked = true;
+      this.set(id, Number(key));
+    };
+    return el(
+      'fieldset',
+      { class: 'item', onkeydown: onDigit },
+      el('legend', {}, legend),
+      el('div', { class: 'points' }, ...buttons),
+    );
   }
 
   private tick(id: string): HTMLElement {

@@ -8,7 +8,7 @@ import { swatch } from './live_view';
 function stateWords(seat: SeatState | undefined): string {
   if (!seat || seat.taken === null) return kUnknown;
   if (!seat.taken) return t('who.free');
-  if (seat.heard === false) return t('who.lost');
+  if (seat.heard === false) return t('who.silent');
   return seat.engaged === null ? kUnknown : t(seat.engaged ? 'who.engaged' : 'who.released');
 }
 

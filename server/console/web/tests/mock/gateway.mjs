@@ -30,6 +30,11 @@ const kMay = {
   OBSERVER: [],
   OPERATOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'drain', 'create', 'record', 'seat', 'score'],
 };
+const offer = (name, role) => ({ name, role });
+const kSceneSeats = {
+  contact: [offer('trainer', 'INSTRUCTOR'), offer('trainee', 'TRAINEE')],
+  evaluation: [1, 2, 3].map((n) => offer(`trainee${n}`, 'TRAINEE')),
+};
 const kRight = {
   stop: 'stop',
   pause: 'pause',
@@ -58,6 +63,8 @@ class PageSocket {
       may: this.may,
       sessions: [{ id: kSession, name: 'contact', state: gateway.session.phase }],
       scenes: ['contact', 'two_by_two', 'evaluation'],
+      scene_seats: this.may.includes('create') ? kSceneSeats : {},
+      workstation: gateway.workstation,
     });
     this.send(gateway.session.scene());
     this.send(gateway.session.notes(person));
@@ -112,6 +119,7 @@ export class MockGateway {
     this.may = options.may ?? kMay;
     this.role = options.role ?? 'INSTRUCTOR';
     this.person = options.person ?? 'ina';
+    this.workstation = options.workstation ?? null;
     this.tickets = new Map(
       Object.entries(options.tickets ?? { 'ticket-eva': ['eva', 'EVALUATOR'], 'ticket-ted': ['ted', 'TRAINEE'] }),
     );
@@ -234,9 +242,11 @@ export class MockGateway {
         const ticket = randomBytes(16).toString('hex');
         this.tickets.set(ticket, [person.name, person.role]);
         const { name, role, seat, workstation = name } = person;
-        return { person: name, workstation, role, seat, ticket };
+        // The mock gateway has the workstation of its option, else that of the role's consoles: "page".
+        return { person: name, workstation, role, seat, here: workstation === (this.workstation ?? 'page'), ticket };
       });
-      return page.send({ type: 'tickets', session: kSession, name: frame.name, tickets });
+      const server = '127.0.0.1:7000';
+      return page.send({ type: 'tickets', session: kSession, name: frame.name, server, tickets });
     }
     if (frame.order === 'end') return page.reply(frame.id, '');
     return page.reply(frame.id, this.session.order(frame, page.person, page.role));

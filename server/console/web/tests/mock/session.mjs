@@ -23,6 +23,7 @@ export class MockSession {
     this.sheets = [];
     this.orders = [];
     this.recording = null;
+    this.noRecording = '';
     this.shed = 0;
     this.evaluators = evaluators;
     this.seats = Array.from({ length: seats }, (_, i) => ({
@@ -162,6 +163,7 @@ export class MockSession {
       shed: this.shed,
       held: '',
       recording: this.recording,
+      no_recording: this.recording === null ? this.noRecording : '',
       seats: this.seats.map((seat, i) => ({
         taken: seat.taken,
         heard: seat.heard,

@@ -79,6 +79,6 @@ test('the real gateway: stopped, the page says that its picture is old; continue
     const end = performance.now() + 1500;
     while (performance.now() < end);
   });
-  await expect(page.locator('.delay')).toHaveAttribute('title', /States not sent: [1-9]\d/);
+  await expect(page.locator('.delay')).toHaveAttribute('title', /States dropped: [1-9]\d/);
   await expect(page.locator('.delay')).toHaveText(/Delay/);
 });

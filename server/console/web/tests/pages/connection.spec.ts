@@ -90,7 +90,7 @@ test('a page that stands still gets no queue of old states', async ({ start, ope
   await expect.poll(() => socket?.dropped).toBeGreaterThan(40);
   expect((socket?.n ?? 0) - (socket?.acknowledged ?? 0)).toBeLessThanOrEqual(3);
   await expect(page.locator('.delay')).toHaveText(/Delay/);
-  await expect(page.locator('.delay')).toHaveAttribute('title', /States not sent: [1-9]/);
+  await expect(page.locator('.delay')).toHaveAttribute('title', /States dropped: [1-9]/);
 });
 
 test('the page connects again after the gateway was killed, with its view and its rights', async ({ open }) => {

@@ -19,6 +19,10 @@ test('two browsers share a tool, and one stops it', async ({ browser, run }) => 
   await expect(phaseOf(first)).toHaveAttribute('data-phase', 'RUNNING');
   console.log(`from the URL to a seat in a running session: ${Date.now() - began} ms (asked: <= 5000)`);
 
+  // The server of a trial has no place for recordings, which the page says before the click.
+  await expect(first.getByRole('button', { name: 'Record', exact: true })).toHaveAccessibleDescription(
+    'this server has no place for recordings; a server that is started by `tandem-server run SCENE --record FOLDER` has one',
+  );
   await first.locator('details.settings summary').click();
   await first.getByRole('button', { name: 'Invite another browser' }).click();
   const invitation = first.locator('.settings-box input[readonly]');

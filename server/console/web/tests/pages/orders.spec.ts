@@ -167,8 +167,56 @@ test('a recording starts and ends by the button; all see a red dot with words', 
   await expect(page.locator('.recording')).toHaveText('Recorded by the server');
   await expect(page.locator('.recording-dot')).toBeVisible();
   gateway.session.recording = { by_server: true, by_recorders: 0, pseudonyms: false, dropped: 12, trouble: '' };
-  await expect(page.locator('.recording')).toHaveText('Recorded by the server. Ticks missing so far: 12');
+  await expect(page.locator('.recording')).toHaveText('Recorded by the server. Ticks dropped so far: 12');
   await page.getByRole('button', { name: 'End recording' }).click();
+  const dialog = page.getByRole('dialog', { name: 'End recording' });
+  await expect(dialog.getByRole('button', { name: 'Cancel' })).toBeFocused();
+  await page.keyboard.press('Enter');
+  await expect(dialog).toHaveCount(0);
+  await page.getByRole('button', { name: 'End recording' }).click();
+  await page.keyboard.press('Escape');
+  expect(gateway.session.orders.at(-1)).toMatchObject({ order: 'record', on: true });
+  await page.getByRole('button', { name: 'End recording' }).click();
+  await dialog.getByRole('button', { name: 'End recording' }).click();
   await expect(page.locator('.recording')).toBeHidden();
   expect(gateway.session.orders.at(-1)).toMatchObject({ order: 'record', on: false });
+});
+
+test('a server without a place for recordings: the button says why, and orders nothing', async ({ start, open }) => {
+  const gateway = await start();
+  gateway.session.noRecording = 'this server has no place for recordings; restart it with --record';
+  const page = await open(gateway);
+  const record = page.getByRole('button', { name: 'Record', exact: true });
+  await expect(record).toHaveAttribute('aria-disabled', 'true');
+  await expect(record).toHaveAccessibleDescription(/restart it with --record/);
+  await record.focus();
+  await page.keyboard.press('Enter');
+  await expect(page.locator('.messages')).toContainText('this server has no place for recordings');
+  expect(gateway.session.orders).toEqual([]);
+});
+
+test('another session is watched: alarms of the one before are gone', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  gateway.session.t = 40;
+  gateway.session.order({ order: 'stop', why: 'tissue torn' }, 'ina', 'INSTRUCTOR');
+  await expect(page.locator('.alarms-panel')).toContainText('Session stopped by ina. tissue torn');
+  await expect(page.locator('.alarms-panel')).toContainText('lasting');
+  // A session that has not begun: its clock shows 0:00.0.
+  const { session } = gateway;
+  const scene = session.scene.bind(session);
+  session.scene = () => ({ ...scene(), session: 'f'.repeat(32), name: 'other' });
+  session.step = () => undefined;
+  Object.assign(session, { t: 0, stop: null });
+  for (const socket of gateway.pages) socket.send(session.scene());
+  await expect(page.locator('.time').first()).toHaveText('0:00.0');
+  await expect(page.locator('.alarms-panel')).toContainText('No alarm so far.');
+  // The same session begins again while a stop lasts: the alarm ends at a time of its own run.
+  Object.assign(session, { t: 30 });
+  session.order({ order: 'stop', why: 'again' }, 'ina', 'INSTRUCTOR');
+  await expect(page.locator('.alarms-panel')).toContainText('lasting');
+  Object.assign(session, { t: 0, stop: null });
+  await expect(page.locator('.alarms-panel')).toContainText('until 0:30.0');
+  await expect(page.locator('.alarms-panel')).not.toContainText('until 0:00.0');
 });

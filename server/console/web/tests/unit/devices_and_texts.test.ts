@@ -1,7 +1,18 @@
 import { describe, expect, it } from 'vitest';
 
 import { clock, fixed, kUnknown, percent } from '../../src/logic/format';
-import { isName, lessonMistakes, stepsOf, ticketLink, ticketOfHash, type LessonMistake } from '../../src/logic/lesson';
+import {
+  isForBrowser,
+  isName,
+  lessonMistakes,
+  proposeSeats,
+  serverAddress,
+  stepsOf,
+  ticketLink,
+  ticketOfHash,
+  type LessonMistake,
+  type Step,
+} from '../../src/logic/lesson';
 import { kKeyStep, kReach, kStickSpeed, PointerDevice } from '../../src/logic/pointer_device';
 import { spread } from '../../src/picture/label';
 import { en } from '../../src/strings/en';
@@ -91,16 +102,62 @@ describe('lesson', () => {
     expect(lesson('desk-1')).toEqual([]);
     expect(lesson('desk 1')).toEqual([{ field: 'workstation', index: 0 }]);
   });
-  it('has three steps for each ticket, by seat and role', () => {
-    const steps = (role: string, seat: string): readonly string[] =>
-      stepsOf({ person: 'a', workstation: 'w', role, seat, ticket: 't' });
-    expect(steps('TRAINEE', 'trainee')).toEqual(['desk.step1', 'desk.step2', 'desk.step3']);
-    for (const role of ['TRAINEE', 'OBSERVER', 'RECORDER']) expect(steps(role, '')[2]).toBe('desk.watch3');
-    for (const role of ['INSTRUCTOR', 'EVALUATOR']) expect(steps(role, '')[2]).toBe('desk.control3');
-    expect(steps('EVALUATOR', '')).toHaveLength(3);
+  it('has three steps for each ticket, by seat, role and workstation', () => {
+    const ticket = { person: 'ann', workstation: 'w', role: '', seat: '', here: false, ticket: 'ticket:1' };
+    const steps = (role: string, seat: string, here = false): readonly Step[] =>
+      stepsOf({ ...ticket, role, seat, here }, 'lab:7000');
+    for (const here of [false, true])
+      expect(steps('TRAINEE', 'trainee', here)).toEqual([
+        { key: 'desk.device', command: 'tandem-client doctor' },
+        { key: 'desk.save', command: "(umask 077; echo 'ticket:1' > ann.ticket)" },
+        {
+          key: 'desk.join',
+          command: 'tandem-client join --server lab:7000 --ticket-file ann.ticket --seat trainee --device sim',
+        },
+      ]);
+    for (const role of ['TRAINEE', 'OBSERVER', 'RECORDER'])
+      expect(steps(role, '')[2]?.command).toBe('tandem-client watch --server lab:7000 --ticket-file ann.ticket');
+    for (const role of ['INSTRUCTOR', 'EVALUATOR'])
+      expect(steps(role, '')[2]?.command).toBe('tandem-client control --server lab:7000 --ticket-file ann.ticket');
+    expect(steps('EVALUATOR', '', true).map(({ key }) => key)).toEqual(['desk.open', 'desk.sign_in', 'desk.look']);
+    // A browser takes no seat with a ticket, and cannot use tickets of other workstations.
+    expect(isForBrowser({ ...ticket, here: true })).toBe(true);
+    expect(isForBrowser({ ...ticket, here: true, seat: 'trainee' })).toBe(false);
+    expect(isForBrowser(ticket)).toBe(false);
+  });
+  it('names the server as other computers reach it', () => {
+    expect(serverAddress('127.0.0.1:7000', 'lab-server')).toBe('lab-server:7000');
+    expect(serverAddress('[::1]:7000', 'lab-server')).toBe('lab-server:7000');
+    expect(serverAddress('127.0.0.1:7000', '127.0.0.1')).toBe('127.0.0.1:7000');
+    expect(serverAddress('10.0.0.7:7000', 'page-host')).toBe('10.0.0.7:7000');
+    expect(serverAddress('', 'page-host')).toBe('');
+  });
+  it('proposes the first free seat of the scene, of the wished role', () => {
+    const seats = [
+      { name: 'trainer', role: 'INSTRUCTOR' },
+      { name: 'trainee1', role: 'TRAINEE' },
+      { name: 'trainee2', role: 'TRAINEE' },
+    ];
+    const none = { role: null, seat: null };
+    expect(proposeSeats(seats, [none, none])).toEqual([
+      { seat: 'trainer', role: 'INSTRUCTOR' },
+      { seat: 'trainee1', role: 'TRAINEE' },
+    ]);
+    expect(proposeSeats(seats, [none, none, none, none])[3]).toEqual({ seat: '', role: 'EVALUATOR' });
+    expect(proposeSeats(seats, [{ role: 'TRAINEE', seat: null }, none])).toEqual([
+      { seat: 'trainee1', role: 'TRAINEE' },
+      { seat: 'trainer', role: 'INSTRUCTOR' },
+    ]);
+    // A chosen seat is free for no other row, and the scene gives its role.
+    expect(proposeSeats(seats, [none, { role: null, seat: 'trainer' }])).toEqual([
+      { seat: 'trainee1', role: 'TRAINEE' },
+      { seat: 'trainer', role: 'INSTRUCTOR' },
+    ]);
+    expect(proposeSeats(seats, [{ role: 'OBSERVER', seat: null }])).toEqual([{ seat: '', role: 'OBSERVER' }]);
+    expect(proposeSeats([], [none])).toEqual([{ seat: '', role: 'EVALUATOR' }]);
   });
   it('keeps the ticket behind # of its link', () => {
-    const ticket = { person: 'a&b', workstation: 'w', role: '', seat: '', ticket: 'x+/=' };
+    const ticket = { person: 'a&b', workstation: 'w', role: '', seat: '', here: true, ticket: 'x+/=' };
     const link = ticketLink('http://127.0.0.1:1', ticket);
     const url = new URL(link);
     expect(url.search).toBe('');

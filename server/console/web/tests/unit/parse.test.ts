@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { kSeatsMax, type State } from '../../src/protocol/messages';
+import { kSeatsMax, type Hello, type State, type Tickets } from '../../src/protocol/messages';
 import { kFrameMax, parseMessage } from '../../src/protocol/parse';
 import { MockSession } from '../mock/session.mjs';
 
@@ -87,5 +87,23 @@ describe('parseMessage', () => {
     expect(scene).toMatchObject({
       tools: [{ walls: [{ axis: 0, at_m: 0.01, from_below: false, stiffness_n_m: null }] }],
     });
+  });
+
+  it('reads the seats of scenes, and which tickets a browser can use', () => {
+    const hello = parseMessage(
+      '{"type":"hello","scene_seats":{"contact":[{"name":"trainer","role":"INSTRUCTOR"},7],"bad":3,"__proto__":[{"name":"x"}]},"workstation":"local"}',
+    ) as Hello;
+    expect(hello.sceneSeats.get('contact')).toEqual([
+      { name: 'trainer', role: 'INSTRUCTOR' },
+      { name: '', role: '' },
+    ]);
+    expect(hello.sceneSeats.get('bad')).toEqual([]);
+    expect(hello.workstation).toBe('local');
+    expect((parseMessage('{"type":"hello"}') as Hello).sceneSeats.size).toBe(0);
+    const tickets = parseMessage(
+      '{"type":"tickets","server":"lab:7000","tickets":[{"here":true},{"here":"yes"}]}',
+    ) as Tickets;
+    expect(tickets.server).toBe('lab:7000');
+    expect(tickets.tickets.map(({ here }) => here)).toEqual([true, false]);
   });
 });

@@ -17,6 +17,8 @@ const hello: Hello = {
   may: ['stop'],
   sessions: [],
   scenes: [],
+  sceneSeats: new Map(),
+  workstation: null,
   play: null,
 };
 

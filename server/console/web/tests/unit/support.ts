@@ -38,6 +38,7 @@ export function makeState(changes: Partial<State> = {}): State {
     shed: 0,
     held: '',
     recording: null,
+    noRecording: '',
     seats: [makeSeat(), makeSeat({ person: 'ws-2' })],
     tools: [
       {
