@@ -274,15 +274,18 @@ export const en = {
   'desk.sign_in': 'Press Join. The ticket is filled in already.',
   'desk.look': 'Choose a view: the page shows what the role {role} may do.',
   'desk.device':
-    'At workstation {workstation}, connect the device and look for it. Without the command, install the package tandem-client first.',
-  'desk.installed':
-    'At workstation {workstation}, check that the client is there. Without it, install the package tandem-client.',
+    'At {workstation}: connect the device and look for it. Without the command, install the package tandem-client first.',
+  'desk.installed': 'At {workstation}: check that the client is there. Without it, install the package tandem-client.',
   'desk.save': 'Save the ticket in a file that only you can read.',
   'desk.join': 'Join. “sim” is a simulated device; write instead what step 1 prints for yours.',
   'desk.watch': 'Watch the session.',
   'desk.control': 'Operate the session: type help for the commands.',
   'desk.workstation': 'Workstation of person {n} (empty: of that name)',
-  'desk.at': 'Valid at workstation {workstation} only. The commands are typed in a terminal there.',
+  'desk.proposed':
+    'Each person gets the first free seat of the scene, which decides about the role. Further persons have a console.',
+  'desk.workstation_named': 'workstation {name}',
+  'desk.server_computer': 'the server’s computer, as the user who started the server',
+  'desk.at': 'Valid at {workstation}, and nowhere else. The commands are typed in a terminal there.',
   'desk.for_browser': 'For any browser that reaches this page.',
   'desk.here_only':
     'This link works on this computer only. For other computers, start tandem-console with --listen, --certificate and --key.',

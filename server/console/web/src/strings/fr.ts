@@ -278,15 +278,18 @@ export const fr: Readonly<Record<StringKey, string>> = {
   'desk.sign_in': 'Appuyer sur Rejoindre. Le billet est déjà rempli.',
   'desk.look': 'Choisir une vue : la page montre ce que le rôle {role} permet.',
   'desk.device':
-    'À l’ordinateur {workstation}, brancher l’appareil et le chercher. Si la commande manque, installer d’abord le paquet tandem-client.',
-  'desk.installed':
-    'À l’ordinateur {workstation}, vérifier que le client est là. S’il manque, installer le paquet tandem-client.',
+    'À {workstation} : brancher l’appareil et le chercher. Si la commande manque, installer d’abord le paquet tandem-client.',
+  'desk.installed': 'À {workstation} : vérifier que le client est là. S’il manque, installer le paquet tandem-client.',
   'desk.save': 'Garder le billet dans un fichier que vous seul pouvez lire.',
   'desk.join': 'Rejoindre. « sim » est un appareil simulé ; écrire à sa place ce que l’étape 1 affiche pour le vôtre.',
   'desk.watch': 'Regarder la session.',
   'desk.control': 'Diriger la session : taper help pour les commandes.',
   'desk.workstation': 'Ordinateur de la personne {n} (vide : celui de ce nom)',
-  'desk.at': 'Valable à l’ordinateur {workstation} seulement. Les commandes se tapent là, dans un terminal.',
+  'desk.proposed':
+    'Chaque personne reçoit le premier poste libre de la scène, qui fixe le rôle. Les autres personnes ont une console.',
+  'desk.workstation_named': 'l’ordinateur {name}',
+  'desk.server_computer': 'l’ordinateur du serveur, comme l’utilisateur qui a démarré le serveur',
+  'desk.at': 'Valable à {workstation}, et nulle part ailleurs. Les commandes se tapent là, dans un terminal.',
   'desk.for_browser': 'Pour tout navigateur qui atteint cette page.',
   'desk.here_only':
     'Ce lien marche sur cet ordinateur seulement. Pour d’autres, démarrer tandem-console avec --listen, --certificate et --key.',

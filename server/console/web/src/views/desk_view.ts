@@ -41,6 +41,7 @@ export class DeskView implements View {
         labelled(t('desk.name'), this.name),
       ),
       el('h3', {}, t('desk.people')),
+      el('p', { class: 'note' }, t('desk.proposed')),
       this.people.node,
       el(
         'div',

@@ -4,6 +4,17 @@ import { t, word } from '../strings/strings';
 import { button, el, panel } from './dom';
 import { qrCode } from './qr_code';
 
+/** Workstation that a server with ephemeral keys has for all clients of its user. */
+const kLocal = 'local';
+
+/** A command whose options stay in one line each; copied, it is one line. */
+function commandBox(command: string): HTMLElement {
+  const words = command
+    .split(' ')
+    .map((word, i) => el('span', { class: word.length < 24 ? 'word' : undefined }, i ? ' ' : '', word));
+  return el('pre', {}, el('code', {}, ...words));
+}
+
 function title(ticket: Ticket): string {
   return t(isForBrowser(ticket) ? 'desk.steps_browser' : ticket.seat === '' ? 'desk.steps_console' : 'desk.steps');
 }
@@ -21,7 +32,10 @@ function browserPart(ticket: Ticket): HTMLElement[] {
 
 function card(ticket: Ticket, server: string): HTMLElement {
   const words = {
-    workstation: ticket.workstation || ticket.person,
+    workstation:
+      ticket.workstation === kLocal
+        ? t('desk.server_computer')
+        : t('desk.workstation_named', { name: ticket.workstation || ticket.person }),
     role: word('role', ticket.role),
     person: ticket.person,
   };
@@ -44,7 +58,7 @@ function card(ticket: Ticket, server: string): HTMLElement {
       'ol',
       {},
       ...stepsOf(ticket, server).map(({ key, command }) =>
-        el('li', {}, t(key, words), command === null ? null : el('pre', {}, el('code', {}, command))),
+        el('li', {}, t(key, words), command === null ? null : commandBox(command)),
       ),
     ),
     browser || !isLoopback(host) ? null : el('p', { class: 'note' }, t('desk.server_here_only', { server })),

@@ -21,6 +21,26 @@ for (const scheme of ['light', 'dark'] as const) {
     gateway.session.marks.push({ t: 1, text: 'mark', person: 'eva' });
     gateway.session.seats[0]!.heard = false;
     await page.evaluate(kAxe);
+    const violations = (): Promise<unknown> =>
+      page.evaluate(async () => {
+        const { axe } = window as unknown as { axe: { run: () => Promise<{ violations: Violation[] }> } };
+        return (await axe.run()).violations.map((v) => [v.id, v.nodes.map((n) => `${n.html} ${n.failureSummary}`)]);
+      });
+    // The desk with tickets of all kinds, and a dialog that asks for a confirmation.
+    await view(page, 'desk');
+    await page.getByLabel('Scene').fill('contact');
+    await page.getByLabel('Name of the session').fill('monday');
+    for (const n of [1, 2, 3]) {
+      if (n === 3) await page.getByRole('button', { name: 'Add person' }).click();
+      await page.getByLabel(`Name of person ${n}`).fill(`p${n}`);
+    }
+    await page.getByLabel('Workstation of person 3').fill('page');
+    await page.getByRole('button', { name: 'Create session' }).click();
+    await expect(page.locator('.ticket')).toHaveCount(3);
+    await page.getByRole('button', { name: 'End session' }).click();
+    await expect(page.getByRole('dialog')).toBeVisible();
+    expect(['dialog', await violations()]).toEqual(['dialog', []]);
+    await page.keyboard.press('Escape');
     for (const [width, language] of [
       [1280, 'en'],
       [390, 'en'],
@@ -34,10 +54,7 @@ for (const scheme of ['light', 'dark'] as const) {
       for (const name of kNames) {
         await view(page, name);
         await page.waitForTimeout(250);
-        const found = await page.evaluate(async () => {
-          const { axe } = window as unknown as { axe: { run: () => Promise<{ violations: Violation[] }> } };
-          return (await axe.run()).violations.map((v) => [v.id, v.nodes.map((n) => `${n.html} ${n.failureSummary}`)]);
-        });
+        const found = await violations();
         expect([scheme, width, language, name, found]).toEqual([scheme, width, language, name, []]);
       }
     }

@@ -41,7 +41,7 @@ test('the lesson desk creates a session and shows a page with ticket, QR code an
     await expect(tickets.nth(n).getByRole('link')).toHaveCount(0);
     await expect(tickets.nth(n).getByRole('img')).toHaveCount(0);
   }
-  await expect(tickets.nth(3)).toContainText('workstation desk-4 only');
+  await expect(tickets.nth(3)).toContainText('Valid at workstation desk-4');
   await expect(tickets.nth(2).locator('li')).toHaveCount(3);
   await expect(tickets.nth(2).getByRole('img', { name: 'QR code of the link for eva' })).toBeVisible();
   const link = await tickets.nth(2).getByRole('link').getAttribute('href');
