@@ -1,10 +1,13 @@
 // Recorded lessons that are played again live: the recorded hands, the seats that wait for clients, what the server
 // prints.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <map>
+#include <string>
 #include <thread>
 
 #include "tests/io/live_recordings.h"
@@ -13,6 +16,14 @@ namespace tandem::test {
 namespace {
 
 using namespace std::chrono_literals;
+
+/// The only child process of a program.
+pid_t child_of(pid_t parent) {
+  const std::string id = std::to_string(parent);
+  pid_t child = -1;
+  EXPECT_TRUE(std::ifstream("/proc/" + id + "/task/" + id + "/children") >> child) << "it has no child";
+  return child;
+}
 
 // A trainee follows the expert's recorded hand: the same motion through a new session.
 TEST(LiveRecording, IsReplayedLiveForOtherHands) {
@@ -86,6 +97,12 @@ TEST(LiveRecording, IsReplayedWithoutOtherHandsIfAsked) {
   Process patient = server({"replay-live", folder.file("a.mcap"), "--seat", "trainer", "--start-timeout", "1"});
   EXPECT_EQ(patient.wait(), 1);
   EXPECT_NE(patient.err().find("required seats not ready: trainee"), std::string::npos) << patient.err();
+  // Without its recorded hand the server would wait for ever.
+  Process handless = server({"replay-live", folder.file("a.mcap"), "--seat", "trainer"});
+  ASSERT_TRUE(handless.wait_for("trainer joined")) << handless.err();
+  ::kill(child_of(handless.id()), SIGKILL);
+  EXPECT_EQ(handless.wait(), 1);
+  EXPECT_NE(handless.err().find("the recorded hand of trainer ended by itself"), std::string::npos) << handless.err();
   Process all = server({"replay-live", folder.file("a.mcap")});
   EXPECT_EQ(all.wait(), 0) << all.err();
   EXPECT_NE(all.out().find("recorded hands play trainer, trainee\n"), std::string::npos) << all.out();

@@ -91,7 +91,10 @@ class ReplayedHands {
   /// Why a hand did not play; empty: all did.
   [[nodiscard]] std::string failure() {
     for (io::ChildProgram& child : children_)
-      if (child.failed()) failure_ = child.name() + " ended by itself: " + child.last_output();
+      if (child.failed()) {
+        const std::string said = child.last_output();
+        failure_ = child.name() + " ended by itself" + (said.empty() ? "" : ": " + said);
+      }
     return failure_;
   }
 
