@@ -9,8 +9,8 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "common/io/whole_file.h"
 #include "netsim/app/netsim_commands.h"
-#include "netsim/profiles/app/network_options.h"
 #include "netsim/replay/lesson_diff.h"
 #include "proto/recording/lesson_reader.h"
 
@@ -25,7 +25,7 @@ struct DiffArguments {
 };
 
 std::expected<Lesson, std::string> lesson_of(const std::string& file) {
-  const auto bytes = read_whole_file(file, kComparedMax);
+  const auto bytes = io::read_whole_file(file, kComparedMax);
   if (!bytes) return std::unexpected(bytes.error());
   auto lesson = read_lesson(bytes_of(*bytes));
   if (!lesson) return std::unexpected(file + ": " + lesson.error());

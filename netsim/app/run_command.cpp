@@ -4,7 +4,6 @@
 #include <ctime>
 
 #include "common/base/format.h"
-#include "common/base/raw_bytes.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
 #include "common/io/output_file.h"
@@ -12,7 +11,7 @@
 #include "common/io/usage_errors.h"
 #include "common/setup/device_stiffness.h"
 #include "hal/io/motion_file.h"
-#include "hal/sim/hand.h"
+#include "hal/io/recording_motion.h"
 #include "netsim/app/law_options.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/run_json.h"
@@ -20,19 +19,15 @@
 #include "netsim/app/run_recording.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/profiles/app/network_options.h"
-#include "netsim/replay/lesson_hands.h"
 #include "netsim/system/run_simulation.h"
 #include "netsim/system/session_notes.h"
 #include "netsim/system/simulation.h"
 #include "proto/io/scene_file.h"
-#include "proto/recording/lesson_reader.h"
 #include "proto/text/scene_text.h"
 #include "server/report/report_summary.h"
 
 namespace tandem::netsim {
 namespace {
-
-constexpr std::uintmax_t kRecordingMax = std::uintmax_t{1} << 32;  // [bytes]
 
 struct RunArguments {
   std::string scene, channel, coupling, mfs, json, trace, record, log, replay;
@@ -107,21 +102,13 @@ void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
 /// Reads the motion of a hand from a recording.
 /// @param text  `FILE.mcap[,seat=NAME]`  @param seat  whose motion it is without that option
 std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> recorded_hand(const std::string& text,
-                                                                                          const std::string& seat,
-                                                                                          const Point& center) {
+                                                                                          const SeatSpec& seat) {
   const std::size_t cut = text.find(',');
   const std::string file = text.substr(0, cut), option = cut == std::string::npos ? "" : text.substr(cut + 1);
   constexpr std::string_view kSeat = "seat=";
   if (!option.empty() && !option.starts_with(kSeat))
     return std::unexpected(option + ": a recording takes seat=NAME only");
-  const auto bytes = read_whole_file(file, kRecordingMax);
-  if (!bytes) return std::unexpected(bytes.error());
-  const auto lesson = read_lesson(bytes_of(*bytes));
-  if (!lesson) return std::unexpected(file + ": " + lesson.error());
-  auto motion = motion_of_seat(*lesson, option.empty() ? seat : option.substr(kSeat.size()), center,
-                               hal::sim::impedance_of(HandModel::kRecorded).k);
-  if (!motion) return std::unexpected(file + ": " + motion.error());
-  return motion;
+  return hal::load_recording_motion(file, option.empty() ? seat.name : option.substr(kSeat.size()), seat.hand);
 }
 
 /// Makes the configuration from the arguments; collects all errors.
@@ -154,7 +141,7 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
       continue;
     }
     if (const std::string file = text.substr(cut + 1, text.find(',', cut) - cut - 1); file.ends_with(".mcap")) {
-      auto motion = recorded_hand(text.substr(cut + 1), seat, known->hand.trajectory.center);
+      auto motion = recorded_hand(text.substr(cut + 1), *known);
       if (motion)
         setup.motions[seat] = std::move(*motion);
       else
