@@ -107,8 +107,8 @@ int diff_command(const DiffArguments& arguments) {
 void add_diff_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
       "diff", "Says whether two recordings differ beyond given limits, for golden lessons in CI.", diff_command);
-  command.add_option("a", arguments.a, "a recording (MCAP)").value_name("A.mcap").required();
-  command.add_option("b", arguments.b, "another one with the same seats and tools").value_name("B.mcap").required();
+  command.add_option("A.mcap", arguments.a, "a recording").value_name(" ").required();
+  command.add_option("B.mcap", arguments.b, "another one with the same seats and tools").value_name(" ").required();
   command
       .add_option("--limit", arguments.limits,
                   "largest allowed difference on a channel, in its unit (m, m/s, N, rad, J): /tool/measured_cp=0.0005; "

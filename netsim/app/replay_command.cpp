@@ -142,8 +142,8 @@ void add_replay_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
       "replay", "Feeds the inputs of a recording into the server's core again: the outputs must be equal, bit for bit.",
       replay_command);
-  command.add_option("recording", arguments.recording, "a recording (MCAP) with inputs, of run --record or of a server")
-      .value_name("FILE.mcap")
+  command.add_option("FILE.mcap", arguments.recording, "a recording with inputs, of run --record or of a server")
+      .value_name(" ")
       .required();
   command.add_option("--json", arguments.json, "writes the result; `-`: to standard output").value_name("FILE|-");
   command.add_option("--what-if", arguments.what_if, what_if_help()).value_name("KEY=VALUE,...");

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 
 #include "common/base/format.h"
 #include "common/io/command_line.h"
@@ -94,6 +95,8 @@ void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
   }
   if (arguments.record.empty()) return;
   mistakes.add("--record", io::OutputFile::problem(arguments.record));
+  if (std::error_code error; std::filesystem::is_regular_file(arguments.record, error))
+    mistakes.add("--record " + arguments.record + ": exists already; choose another name");
   if (arguments.record == "-") mistakes.add("--record: standard output is for --json; name a file");
   for (const std::string& other : {arguments.json, arguments.trace, arguments.log, arguments.replay})
     if (arguments.record == other) mistakes.add("--record: is the same file as another result or input");

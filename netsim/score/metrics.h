@@ -107,6 +107,12 @@ struct MetricRow {
   std::string_view definition;  ///< one sentence
 };
 
+/// Returns whether the metric judges a person. Facts about the link and the passivity of the channel do not, nor do
+/// metrics without a better side: they get no thresholds of experts and no learning curve.
+[[nodiscard]] constexpr bool judges_person(const MetricRow& row) noexcept {
+  return row.better != Better::kNeither && row.group != MetricGroup::kLink && row.group != MetricGroup::kPassivity;
+}
+
 /// All metrics, in the order of Metric.
 [[nodiscard]] const std::array<MetricRow, kMetricCount>& metric_rows() noexcept;
 [[nodiscard]] const MetricRow& row_of(Metric metric) noexcept;

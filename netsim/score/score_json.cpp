@@ -49,7 +49,7 @@ Json seat_json(const SeatScore& seat) {
   return {{"seat", seat.name},
           {"person", seat.person},
           {"role", to_text(access_role(seat.role))},
-          {"tool", seat.tool},
+          {"tool", seat.tool.empty() ? Json(nullptr) : Json(seat.tool)},
           {"parts", std::move(parts)}};
 }
 

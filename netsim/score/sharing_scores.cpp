@@ -199,6 +199,8 @@ void score_link(const PartInput& in, MetricValues& values) {
   double up = 0, ups = 0, down = 0, downs = 0, gate = 0, late = 0;
   double gap_up = kUnknown, gap_down = kUnknown, age = kUnknown;
   bool any = false;
+  // Counters of a recording that begins in the midst of its session have counted before.
+  const bool from_begin = in.grid.tick(0) < in.lesson.scene.tick_hz;
   const LessonLink* before = nullptr;
   std::size_t at = 0;
   for (const LessonLink& link : in.lesson.links) {
@@ -212,10 +214,13 @@ void score_link(const PartInput& in, MetricValues& values) {
       gap_up = std::fmax(gap_up, link.gap_up_ms / 1e3);
       gap_down = std::fmax(gap_down, link.gap_down_ms / 1e3);
       age = std::fmax(age, link.age_p99_ms / 1e3);
-      const std::uint32_t trips_before = before == nullptr ? 0 : before->gate_trips;
-      const std::uint32_t late_before = before == nullptr ? 0 : before->late_ticks;
-      gate += link.gate_trips > trips_before ? link.gate_trips - trips_before : 0;
-      late += link.late_ticks > late_before ? link.late_ticks - late_before : 0;
+      const auto since = [&](std::uint32_t LessonLink::* counter) {
+        const std::uint32_t earlier = before != nullptr ? before->*counter : from_begin ? 0 : link.*counter;
+        return link.*counter >= earlier ? link.*counter - earlier
+                                        : link.*counter;  // a new program of the seat counts from 0
+      };
+      gate += since(&LessonLink::gate_trips);
+      late += since(&LessonLink::late_ticks);
     }
     before = &link;
   }

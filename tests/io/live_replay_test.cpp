@@ -152,6 +152,62 @@ TEST(LiveReplay, PlaysAWhatIfWithASeatThatWasNeverTaken) {
       << none.err;
 }
 
+// An order begins the recording in the midst of its session, and a recorder outside of the server has values only.
+TEST(LiveReplay, SaysWhyARecordingHasNoInputs) {
+  const Folder folder, films;
+  Process host = hosting("one_axis", {"--duration", "5", "--record", films.file(""), "--record-on-order"});
+  const std::string address = address_of(host);
+  Process recorder({TANDEM_CLIENT, "record", "--server", address, "--out", folder.file("out.mcap"), "--quiet"});
+  Process trainer = client(address, "trainer");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  std::this_thread::sleep_for(1500ms);
+  EXPECT_EQ(control(address, {"record", "start"}).code, 0);
+  EXPECT_TRUE(host.wait()) << host.err();
+  EXPECT_TRUE(trainer.wait()) << trainer.err();
+  EXPECT_TRUE(recorder.wait()) << recorder.err();
+  const Ended list = ended(TANDEM_SERVER, {"recordings", "list", "--dir", films.file(""), "--json"});
+  ASSERT_EQ(list.code, 0) << list.err;
+  const Json rows = Json::parse(list.out);
+  ASSERT_EQ(rows.size(), 1u) << rows;
+  const std::string name = rows[0]["file"];
+  const Lesson lesson = lesson_in(films, name);
+  ASSERT_GT(lesson.tick.front(), 1000u);
+  EXPECT_EQ(rows[0]["start_unix_ns"], lesson.start_unix_ns + lesson.time_ns.front())
+      << "begin of the recording, not of its session";
+  Ended replay = netsim({"replay", films.file(name)});
+  EXPECT_EQ(replay.code, 2);
+  const std::string reason =
+      "The recording was begun by an order at tick " + std::to_string(lesson.tick.front()) + " of its session";
+  EXPECT_NE(replay.err.find(reason), std::string::npos) << replay.err;
+  EXPECT_EQ(netsim({"score", films.file(name)}).code, 0);
+  EXPECT_EQ(netsim({"replay", films.file(name), "--what-if", "delay=10"}).code, 0);
+  replay = netsim({"replay", folder.file("out.mcap")});
+  EXPECT_EQ(replay.code, 2);
+  EXPECT_NE(replay.err.find("`tandem-client record` receives values"), std::string::npos) << replay.err;
+}
+
+// A leave at the end is no fault: no score is flagged for it.
+TEST(LiveReplay, ScoresALeaveWithoutAFlag) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "5", "--record", folder.file("a.mcap")});
+  const std::string address = address_of(host);
+  Process trainer = client(address, "trainer"), trainee = client(address, "trainee");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  std::this_thread::sleep_for(3s);
+  trainee.signal(SIGINT);
+  EXPECT_TRUE(trainee.wait()) << trainee.err();
+  EXPECT_TRUE(host.wait()) << host.err();
+  EXPECT_TRUE(trainer.wait()) << trainer.err();
+  const Lesson lesson = lesson_in(folder, "a.mcap");
+  std::uint32_t losses = 0;
+  for (const LessonLink& link : lesson.links) losses = std::max(losses, link.gate_trips);
+  EXPECT_GT(std::ranges::count(lesson.seats[1].gate, std::uint8_t{4}), 0) << "the gate released the hand";
+  const Ended scored = netsim({"score", folder.file("a.mcap"), "--json", "-", "--quiet"});
+  ASSERT_EQ(scored.code, 0) << scored.err;
+  for (const Json& seat : Json::parse(scored.out)["lessons"][0]["seats"])
+    EXPECT_LE(seat["parts"][0]["quality"]["gate_trips"], losses) << seat["seat"];
+}
+
 // The hand's intention is the recorded tip, and the hand has a mass and a spring of 1000 N/m: it follows within 2 mm.
 TEST(LiveReplay, ARecordedHandFollowsItsPathInANewLiveSession) {
   const Folder folder;

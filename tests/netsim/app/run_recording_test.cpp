@@ -55,6 +55,7 @@ TEST_F(RunRecording, GivesTheTraceOfTheSameRun) {
     std::vector<std::string> arguments{"run",      scene,          "--duration", "3",          "--quiet",
                                        "--record", path("a.mcap"), "--trace",    path("a.csv")};
     arguments.insert(arguments.end(), options.begin(), options.end());
+    std::filesystem::remove(path("a.mcap"));
     ASSERT_LE(netsim(arguments), 1) << err_;
     ASSERT_EQ(netsim({"trace", path("a.mcap"), "--output", path("b.csv")}), 0) << err_;
     EXPECT_EQ(err_, "");
@@ -91,6 +92,26 @@ TEST_F(RunRecording, NamesFilesThatCannotBe) {
   EXPECT_EQ(netsim({"trace", path("text.mcap"), "--output", path("b.csv")}), 2);
   EXPECT_NE(err_.find("text.mcap"), std::string::npos) << err_;
   EXPECT_EQ(netsim({"trace", path("missing.mcap"), "--output", path("b.csv")}), 2);
+}
+
+TEST_F(RunRecording, ReplacesNoRecording) {
+  std::ofstream(path("a.mcap")) << "kept";
+  EXPECT_EQ(netsim({"run", "contact", "--duration", "1", "--record", path("a.mcap")}), 2);
+  EXPECT_NE(err_.find("--record " + path("a.mcap") + ": exists already; choose another name"), std::string::npos)
+      << err_;
+  EXPECT_EQ(content("a.mcap"), "kept");
+}
+
+// A file system that takes no byte: the limit of the size of files is 0.
+TEST_F(RunRecording, LeavesNoEmptyFileOnAFullDisk) {
+  Process run({"/bin/sh", "-c",
+               "ulimit -f 0; trap '' XFSZ; exec " TANDEM_NETSIM_PROGRAM " run one_axis --duration 1 --quiet --record " +
+                   path("a.mcap")});
+  EXPECT_EQ(run.wait(), 1) << run.err();
+  EXPECT_NE(run.err().find("a.mcap could not be written to the end: the file would be larger than allowed here"),
+            std::string::npos)
+      << run.err();
+  EXPECT_FALSE(std::filesystem::exists(path("a.mcap")));
 }
 
 TEST_F(RunRecording, ReportsAFullDisk) {
