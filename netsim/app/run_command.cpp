@@ -14,12 +14,14 @@
 #include "hal/io/motion_file.h"
 #include "hal/io/recording_motion.h"
 #include "netsim/app/law_options.h"
+#include "netsim/app/lesson_loader.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/run_json.h"
 #include "netsim/app/run_log.h"
 #include "netsim/app/run_recording.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/profiles/app/network_options.h"
+#include "netsim/score/score_output.h"
 #include "netsim/system/run_simulation.h"
 #include "netsim/system/session_notes.h"
 #include "netsim/system/simulation.h"
@@ -34,7 +36,7 @@ struct RunArguments {
   std::string scene, channel, coupling, mfs, json, trace, record, log, replay;
   std::vector<std::string> hands;
   double duration_s = 0;
-  bool check = false, quiet = false, verbose = false, no_quality = false;
+  bool check = false, quiet = false, verbose = false, no_quality = false, scores = false;
   NetworkOptions network;
 };
 
@@ -93,6 +95,8 @@ void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
       mistakes.add("--log: is the same file as another result");
     if (arguments.log == arguments.replay) mistakes.add("--log: would overwrite what --replay reads");
   }
+  if (arguments.scores && arguments.record.empty())
+    mistakes.add("--scores: needs --record FILE.mcap, from which they are computed");
   if (arguments.record.empty()) return;
   mistakes.add("--record", io::OutputFile::problem(arguments.record));
   if (std::error_code error; std::filesystem::is_regular_file(arguments.record, error))
@@ -190,6 +194,15 @@ int check(const RunArguments& arguments, const SimulationConfig& setup, const Ne
   return 0;
 }
 
+/// Scores of the recorded session, computed from the file as `tandem-netsim score` does. @return or why there are none
+std::expected<score::LessonScores, std::string> scores_of(const std::string& recording) {
+  const auto lesson = load_lesson(recording, "");
+  if (!lesson) return std::unexpected("--scores: " + lesson.error());
+  auto scores = score::score_lesson(*lesson);
+  if (!scores) return std::unexpected("--scores: " + recording + ": " + scores.error());
+  return scores;
+}
+
 int run_command(const RunArguments& arguments) {
   io::UsageErrors mistakes;
   auto network = arguments.network.resolve();
@@ -248,7 +261,16 @@ int run_command(const RunArguments& arguments) {
   std::vector<std::string> notes;
   if (!setup.replay) notes = network->notes;
   for (std::string& note : session_notes(setup, session_span(simulation))) notes.push_back(std::move(note));
-  std::string words;
+  std::vector<std::string> problems{trace_file.close(), log.close(), recording.close()};
+  std::string words, scores_json;
+  if (arguments.scores && problems.back().empty()) {
+    if (const auto scores = scores_of(arguments.record)) {
+      words = score::main_scores_text(*scores);
+      scores_json = score::main_scores_json(*scores);
+    } else {
+      problems.push_back(scores.error());
+    }
+  }
   for (const std::string& note : notes) words += "note: " + note + "\n";
   if (!arguments.quiet || !json_on_stdout)
     io::print_formatted(
@@ -260,8 +282,9 @@ int run_command(const RunArguments& arguments) {
         setup.replay ? replay_summary(simulation).c_str() : "", words.c_str());
   if (interrupted)
     SignalWatcher::report("run", format("%.3f of %g s of the session", report.duration_s, setup.scene.duration));
-  if (json_file.is_open()) json_file.write(run_json(report, links, notes, interrupted));
-  for (const auto& problem : {trace_file.close(), log.close(), recording.close(), json_file.close()})
+  if (json_file.is_open()) json_file.write(run_json(report, links, notes, interrupted, scores_json));
+  problems.push_back(json_file.close());
+  for (const std::string& problem : problems)
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim run: %s\n", problem.c_str());
       return io::kExitTrouble;
@@ -305,6 +328,8 @@ void add_run_command(const io::Command& root) {
       .add_option("--record", arguments.record,
                   "writes the recording of the session (MCAP); the same seed and build give the same bytes")
       .value_name("FILE.mcap");
+  command.add_flag("--scores", arguments.scores,
+                   "the report has the main scores of the recording (--record), with flags, as tandem-netsim score");
   command
       .add_option(
           "--log", arguments.log,

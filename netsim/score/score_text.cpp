@@ -64,6 +64,14 @@ std::string seat_table(const SeatScore& seat) {
   return out;
 }
 
+/// Parts of the main scores: the whole lesson, and the time in which the seat holds the tool.
+std::vector<const PartScore*> main_parts(const SeatScore& seat) {
+  std::vector<const PartScore*> parts;
+  for (const PartScore& part : seat.parts)
+    if (part.kind == Part::Kind::kWhole || part.key == "held:" + seat.name) parts.push_back(&part);
+  return parts;
+}
+
 std::string lesson_text(const LessonScores& lesson, const std::string& only) {
   std::string out = format("%s: session %s, %.1f to %.1f s at %g Hz\n", lesson.file.c_str(), lesson.session.c_str(),
                            lesson.begin_s, lesson.end_s, lesson.rate_hz);
@@ -125,6 +133,34 @@ std::string curves_text(const ScoreResult& result) {
 }
 
 }  // namespace
+
+std::string main_scores_text(const LessonScores& lesson) {
+  struct Column {
+    std::string head;
+    const PartScore* part;
+  };
+  std::vector<Column> columns;
+  for (const SeatScore& seat : lesson.seats)
+    for (const PartScore* part : main_parts(seat))
+      columns.push_back({part->kind == Part::Kind::kWhole ? seat.name : part->key, part});
+  std::string out = padded("  scores", kTitleWidth, false);
+  for (const Column& column : columns) out += padded(column.head, width_of(column.head), true);
+  out += "\n";
+  for (const Metric metric : main_metrics()) {
+    const MetricRow& row = row_of(metric);
+    if (std::ranges::none_of(columns, [&](const Column& c) { return std::isfinite(of(c.part->values, metric)); }))
+      continue;
+    out += padded("  " + std::string(row.title) + (row.unit.empty() ? "" : " [" + std::string(row.unit) + "]"),
+                  kTitleWidth, false);
+    for (const Column& column : columns) out += padded(cell_text(*column.part, row), width_of(column.head), true);
+    out += "\n";
+  }
+  for (const Column& column : columns)
+    for (const Doubt& doubt : column.part->quality.doubts)
+      out += "  " + std::string(doubt.trust == Trust::kWithheld ? "withheld" : "!") + " " + column.head + ": " +
+             doubt.reason + "\n";
+  return out;
+}
 
 std::string_view to_text(Cusum::Verdict verdict) noexcept {
   constexpr std::string_view kNames[] = {"undecided", "competent", "deficient"};

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
@@ -112,6 +113,32 @@ TEST_F(RunRecording, LeavesNoEmptyFileOnAFullDisk) {
             std::string::npos)
       << run.err();
   EXPECT_FALSE(std::filesystem::exists(path("a.mcap")));
+}
+
+// The report has the values and the trust that `score` computes from the same file.
+TEST_F(RunRecording, PutsMainScoresIntoTheReport) {
+  EXPECT_EQ(netsim({"run", "contact", "--scores"}), 2);
+  EXPECT_NE(err_.find("--scores: needs --record"), std::string::npos) << err_;
+  Process run({TANDEM_NETSIM_PROGRAM, "run", "contact", "--duration", "4", "--delay", "20", "--record", path("a.mcap"),
+               "--scores", "--json", path("a.json")});
+  ASSERT_LE(run.wait(), 1) << run.err();
+  EXPECT_NE(run.out().find("  scores"), std::string::npos) << run.out();
+  EXPECT_NE(run.out().find("Path length [mm]"), std::string::npos) << run.out();
+  ASSERT_EQ(netsim({"score", path("a.mcap"), "--json", path("s.json"), "--quiet"}), 0) << err_;
+  const auto report = nlohmann::json::parse(content("a.json"))["scores"];
+  const auto scored = nlohmann::json::parse(content("s.json"))["lessons"][0];
+  ASSERT_EQ(report["seats"].size(), 2u);
+  EXPECT_FALSE(report["conditions"].empty());
+  std::size_t compared = 0;
+  for (std::size_t s = 0; s < 2; ++s)
+    for (const auto& part : report["seats"][s]["parts"])
+      for (const auto& other : scored["seats"][s]["parts"])
+        for (const auto& [key, metric] : part["metrics"].items())
+          if (part["part"] == other["part"]) {
+            EXPECT_EQ(metric, other["metrics"][key]) << key;
+            ++compared;
+          }
+  EXPECT_GT(compared, 30u);
 }
 
 TEST_F(RunRecording, ReportsAFullDisk) {
