@@ -10,7 +10,7 @@ namespace tandem::netsim::score {
 namespace {
 
 PartScore score_part(const PartInput& in) {
-  PartScore out{in.part.kind, in.part.key, in.part.title, {}, quality_of(in)};
+  PartScore out{in.part.kind, in.part.key, in.part.title, {}, {}};
   out.values.fill(kUnknown);
   score_motion(in, out.values);
   score_force(in, out.values);
@@ -19,6 +19,7 @@ PartScore score_part(const PartInput& in) {
   score_sharing(in, out.values);
   score_passivity(in, out.values);
   score_link(in, out.values);
+  out.quality = quality_of(in, of(out.values, Metric::kGateTrips));
   return out;
 }
 

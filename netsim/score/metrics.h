@@ -22,6 +22,8 @@ enum class Metric : std::uint8_t {
   kSpeedPeak,
   kSpeedPeaks,
   kWorkspace,
+  kHullVolume,
+  kAngularPath,
   kSquaredJerk,
   kNormalisedJerk,
   kDimensionlessJerk,
@@ -56,6 +58,7 @@ enum class Metric : std::uint8_t {
   kReflectionError,
   kReflectionErrorShare,
   kRenderedStiffness,
+  kTransparency,
   kDrift,
   // Sharing
   kAuthorityShare,
@@ -83,7 +86,7 @@ enum class Metric : std::uint8_t {
   kGateTrips,
   kLateTicks
 };
-inline constexpr std::size_t kMetricCount = 62;
+inline constexpr std::size_t kMetricCount = 65;
 
 /// Values by Metric, SI; NaN: the lesson has no such value.
 using MetricValues = std::array<double, kMetricCount>;

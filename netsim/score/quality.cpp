@@ -115,14 +115,11 @@ double force_limit_of(const SceneSpec& scene, std::size_t seat) noexcept {
   return share_of_force(spec.role) * std::min(scene.gate.force_max, spec.device.force_peak);
 }
 
-Quality quality_of(const PartInput& in) {
+Quality quality_of(const PartInput& in, double losses) {
   Quality quality;
   count_gaps(in, quality);
   look_at_gate(in, quality);
-  MetricValues link;
-  link.fill(kUnknown);
-  score_link(in, link);
-  if (const double losses = of(link, Metric::kGateTrips); std::isfinite(losses)) {
+  if (std::isfinite(losses)) {
     quality.gate_known = true;
     quality.gate_trips += static_cast<std::uint32_t>(losses);
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "netsim/score/part_scores.h"
+#include "netsim/score/transparency.h"
 
 /// Metrics of tracking, sharing, passivity and link.
 namespace tandem::netsim::score {
@@ -115,6 +116,7 @@ void score_tracking(const PartInput& in, MetricValues& values) {
   of(values, Metric::kReflectionError) = std::sqrt(sum / count);
   of(values, Metric::kReflectionErrorShare) = std::sqrt(sum / count) / peak;
   if (in.tool.has_surface) of(values, Metric::kRenderedStiffness) = stiffness(in);
+  of(values, Metric::kTransparency) = impedance_ratio(in);
 }
 
 void score_sharing(const PartInput& in, MetricValues& values) {

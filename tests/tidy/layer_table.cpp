@@ -225,7 +225,7 @@ const std::array<Layer, 53> kLayers{{
     {"netsim/score",
      {"common/base", "netsim/demo/captioned_figure.h", "netsim/demo/report_style.h", "netsim/plot", "netsim/score",
       "proto/spec", "server/console/evaluation_sheets.h"},
-     {"Eigen", "boost", "json"},
+     {"Eigen", "boost", "json", "qhull"},
      "scores are computed from recorded lessons by pure functions: no session, files or clocks; those belong to "
      "netsim/app"},
     {"netsim/testing",
