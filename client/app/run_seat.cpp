@@ -22,6 +22,7 @@
 #include "common/io/terminal.h"
 #include "common/setup/device_stiffness.h"
 #include "hal/io/open_sim_device.h"
+#include "hal/io/recording_motion.h"
 
 namespace tandem::client {
 namespace {
@@ -105,7 +106,7 @@ int run_seat(const SeatOptions& plan) {
   hal::LiveSim live;
   if (!held) {
     auto opened = hal::open_sim_device(plan.device, setup.seat.device, setup.seat.hand, setup.seat.environment,
-                                       io::monotonic_now());
+                                       io::monotonic_now(), hal::recording_motion_reader(setup.seat.name));
     if (!opened) return refuse("--device: " + opened.error().message, io::kExitUsage);
     live = hal::make_live(std::move(*opened), from_seconds(1.0 / setup.tick_hz));
   }

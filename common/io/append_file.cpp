@@ -54,6 +54,8 @@ AppendFile::~AppendFile() {
     wake_.notify_all();
   }
   if (thread_.joinable()) thread_.join();
+  // Nothing can be kept of a file without a byte; its name would only look like a recording.
+  if (!state_.closed && state_.written == 0) ::unlink(part().c_str());
 }
 
 void AppendFile::append(std::string bytes) {
@@ -84,9 +86,9 @@ std::string AppendFile::close(std::chrono::milliseconds limit) {
   begin_close();
   std::unique_lock lock(lock_);
   if (done_.wait_for(lock, limit, [this] { return state_.closed; })) return state_.close_error;
-  return part() + " is not complete: " +
-         (state_.error != 0 ? write_error_text(state_.error) : std::string("the disk is too slow")) +
-         "; `tandem-server repair " + part() + "` closes it";
+  const std::string why = state_.error != 0 ? write_error_text(state_.error) : std::string("the disk is too slow");
+  if (state_.written == 0) return path_ + " was not written, not even in part: " + why;
+  return part() + " is not complete: " + why + "; `tandem-server repair " + part() + "` closes it";
 }
 
 std::string AppendFile::name_file(std::uint64_t size) const {

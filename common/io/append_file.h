@@ -33,7 +33,8 @@ class AppendFile {
   /// system's reason
   [[nodiscard]] static std::expected<std::unique_ptr<AppendFile>, std::string> create(
       const std::string& path, const AppendFileOptions& options = {});
-  /// Ends the thread; bytes that the disk did not accept yet are lost. PATH.part stays if `close` did not succeed.
+  /// Ends the thread; bytes that the disk did not accept yet are lost. PATH.part stays if `close` did not succeed,
+  /// unless it has no byte.
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
@@ -58,7 +59,7 @@ class AppendFile {
   /// Lets the thread finish the file: all bytes on the disk, then its name. `state` says when. No `append` follows.
   void begin_close();
   /// As `begin_close`, and waits for it, at most `limit`.
-  /// @return the error: PATH.part has what was written; empty: the file is complete
+  /// @return the error: PATH.part has what was written, and is removed if that is nothing; empty: the file is complete
   [[nodiscard]] std::string close(std::chrono::milliseconds limit);
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// Name while the file grows.

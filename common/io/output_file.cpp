@@ -67,6 +67,10 @@ std::string OutputFile::close() {
   errno = 0;
   const bool flushed = file == stdout ? std::fflush(file) == 0 : std::fclose(file) == 0;
   if (!flushed && failed_ == 0) failed_ = errno != 0 ? errno : EIO;
+  std::error_code error;
+  if (failed_ != 0 && file != stdout && std::filesystem::is_regular_file(name_, error) &&
+      std::filesystem::file_size(name_, error) == 0)
+    std::filesystem::remove(name_, error);
   if (failed_ == EPIPE && file == stdout) return {};  // the reader closed its end and needs no more
   return failed_ == 0 ? std::string{}
                       : (file == stdout ? "standard output" : name_) +

@@ -24,6 +24,7 @@ class OutputFile {
   /// @return the error, empty if none
   [[nodiscard]] std::string open(const std::string& name, bool dash_is_stdout);
   void write(std::string_view text) noexcept;
+  /// A file of which the disk took no byte is removed.
   /// @return the error; empty if every byte was written, or if the reader of standard output has closed it
   [[nodiscard]] std::string close();
 

@@ -21,8 +21,9 @@ constexpr std::array<std::pair<Text, HandModel>, 7> kHands{{{"none", HandModel::
                                                             {"letting_go", HandModel::kLettingGo},
                                                             {"tremor", HandModel::kTremor},
                                                             {"keyboard", HandModel::kKeyboard}}};
-constexpr std::array<Text, 10> kOptions{"hand", "keyboard", "motion", "model", "columns",
-                                        "rec",  "scale",    "axes",   "end",   "middle"};
+constexpr std::array<Text, 11> kOptions{"hand",  "keyboard", "motion", "model",  "columns", "rec",
+                                        "scale", "axes",     "end",    "middle", "seat"};
+constexpr Text kRecordingEnding = ".mcap";
 
 /// Returns the error `WHAT 'word' is unknown; ...` with the nearest word and all valid ones.
 template <class Words>
@@ -38,6 +39,9 @@ struct Choice {
   std::optional<HandModel> hand;
   std::optional<DeviceModel> model;
   std::optional<sim::MotionOptions> motion;
+  std::string recorded_seat;  ///< of a recording; empty: the caller's own
+
+  [[nodiscard]] bool plays_recording() const { return motion && motion->file.ends_with(kRecordingEnding); }
 };
 
 Result<> select_device(Choice& choice, Text name, std::optional<Text> value) {
@@ -77,7 +81,17 @@ Result<> select_device(Choice& choice, Text name, std::optional<Text> value) {
     return {};
   }
   if (!choice.motion)
-    return std::unexpected(bad(std::string(name) + " belongs to a recording: motion=FILE.csv must come before it"));
+    return std::unexpected(bad(std::string(name) + " belongs to a recorded motion: motion=FILE.csv or " +
+                               "motion=FILE.mcap must come before it"));
+  if (choice.plays_recording() != (name == "seat"))
+    return std::unexpected(bad(std::string(name) + "=" + std::string(value->substr(0, 60)) + ": " +
+                               (name == "seat" ? "belongs to a recording (motion=FILE.mcap); " + choice.motion->file +
+                                                     " is read as a table of motion"
+                                               : "a recording (" + choice.motion->file + ") takes seat=NAME only")));
+  if (name == "seat") {
+    choice.recorded_seat = *value;
+    return {};
+  }
   if (auto ok = sim::set_motion_option(*choice.motion, name, *value); !ok) return std::unexpected(bad(ok.error()));
   return {};
 }
@@ -131,7 +145,8 @@ Text name_of(HandModel model) {
 }  // namespace
 
 Result<OpenedSim> open_sim_device(Text spec, const SimDeviceSpec& base, const HandSpec& hand,
-                                  const EnvironmentSpec& environment, Time start) {
+                                  const EnvironmentSpec& environment, Time start,
+                                  const RecordingMotionReader& recordings) {
   auto choice = parse(spec);
   if (!choice) return std::unexpected(std::move(choice.error()));
   sim::SimSetup setup{base, hand, environment, nullptr, start};
@@ -147,7 +162,11 @@ Result<OpenedSim> open_sim_device(Text spec, const SimDeviceSpec& base, const Ha
   opened.note = "simulated " + std::string(setup.device.model == DeviceModel::kTouch ? "Touch" : "one-axis device") +
                 ", hand " + std::string(name_of(setup.hand.model));
   if (choice->motion) {
-    auto motion = load_motion(*choice->motion);
+    if (choice->plays_recording() && !recordings)
+      return std::unexpected(bad("motion=" + choice->motion->file + ": this program reads no recordings; " +
+                                 "tandem-server recordings export makes a table (CSV) of one"));
+    auto motion = choice->plays_recording() ? recordings(choice->motion->file, choice->recorded_seat, setup.hand)
+                                            : load_motion(*choice->motion);
     if (!motion) return std::unexpected(DeviceError{Errc::kNotFound, std::move(motion.error())});
     setup.motion = std::move(*motion);
     opened.note += " from " + choice->motion->file + ": " + setup.motion->describe();

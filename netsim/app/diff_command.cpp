@@ -9,8 +9,8 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "common/io/whole_file.h"
 #include "netsim/app/netsim_commands.h"
-#include "netsim/profiles/app/network_options.h"
 #include "netsim/replay/lesson_diff.h"
 #include "proto/recording/lesson_reader.h"
 
@@ -25,7 +25,7 @@ struct DiffArguments {
 };
 
 std::expected<Lesson, std::string> lesson_of(const std::string& file) {
-  const auto bytes = read_whole_file(file, kComparedMax);
+  const auto bytes = io::read_whole_file(file, kComparedMax);
   if (!bytes) return std::unexpected(bytes.error());
   auto lesson = read_lesson(bytes_of(*bytes));
   if (!lesson) return std::unexpected(file + ": " + lesson.error());
@@ -107,8 +107,8 @@ int diff_command(const DiffArguments& arguments) {
 void add_diff_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
       "diff", "Says whether two recordings differ beyond given limits, for golden lessons in CI.", diff_command);
-  command.add_option("a", arguments.a, "a recording (MCAP)").value_name("A.mcap").required();
-  command.add_option("b", arguments.b, "another one with the same seats and tools").value_name("B.mcap").required();
+  command.add_option("A.mcap", arguments.a, "a recording").value_name(" ").required();
+  command.add_option("B.mcap", arguments.b, "another one with the same seats and tools").value_name(" ").required();
   command
       .add_option("--limit", arguments.limits,
                   "largest allowed difference on a channel, in its unit (m, m/s, N, rad, J): /tool/measured_cp=0.0005; "

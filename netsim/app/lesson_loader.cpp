@@ -65,6 +65,19 @@ std::expected<Lesson, std::string> read_trace(Pieces& pieces, std::string_view p
   return reader.finish();
 }
 
+/// Returns why a file is none of those that scores are computed from; empty: it may be a table.
+std::string foreign_problem(std::string_view begin) {
+  constexpr std::string_view kKinds =
+      "; scores are computed from a recording (MCAP), its export (HDF5), rows of --trace, or a table of recorded "
+      "motion (CSV, whose first line begins with t_s[s])";
+  const std::string_view line = begin.substr(0, begin.find_first_of("\r\n"));
+  const char* const why = begin.empty()                                ? "is empty"
+                          : begin.find('\0') != std::string_view::npos ? "is a binary file of another kind"
+                          : line.find('[') == std::string_view::npos   ? "is no table: its first line has no name[unit]"
+                                                                       : "";
+  return *why == '\0' ? std::string() : why + std::string(kKinds);
+}
+
 }  // namespace
 
 std::expected<Lesson, std::string> load_lesson(const std::string& file, const std::string& scene) {
@@ -74,6 +87,8 @@ std::expected<Lesson, std::string> load_lesson(const std::string& file, const st
   if (score::TraceReader::is_trace(piece)) return read_trace(pieces, piece, file, scene);
   if (piece.starts_with(kHdf5)) return server::import_hdf5(file);
   const bool recording = piece.starts_with(kMcap);
+  if (const std::string problem = recording ? "" : foreign_problem(piece); !problem.empty())
+    return std::unexpected(file + ": " + problem);
   const std::size_t most = recording ? kRecordingMax : CsvTable::kBytesMax;
   std::string bytes;
   for (; !piece.empty(); piece = pieces.next(file)) {

@@ -7,10 +7,10 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "common/io/whole_file.h"
 #include "netsim/app/exit_status.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/what_if.h"
-#include "netsim/profiles/app/network_options.h"
 #include "netsim/replay/recording_replay.h"
 #include "proto/recording/lesson_reader.h"
 #include "server/session/build_text.h"
@@ -113,7 +113,7 @@ int replay_command(const ReplayArguments& arguments) {
       !arguments.json.empty() && !problem.empty())
     return replay_usage_error("--json: " + problem);
   if (arguments.json == arguments.recording) return replay_usage_error("--json: is the recording itself");
-  const auto bytes = read_whole_file(arguments.recording, kReplayedMax);
+  const auto bytes = io::read_whole_file(arguments.recording, kReplayedMax);
   if (!bytes) return replay_usage_error(bytes.error());
   if (!arguments.what_if.empty()) return what_if(arguments, *bytes);
   const auto replay = replay_recording(bytes_of(*bytes));
@@ -142,8 +142,8 @@ void add_replay_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
       "replay", "Feeds the inputs of a recording into the server's core again: the outputs must be equal, bit for bit.",
       replay_command);
-  command.add_option("recording", arguments.recording, "a recording (MCAP) with inputs, of run --record or of a server")
-      .value_name("FILE.mcap")
+  command.add_option("FILE.mcap", arguments.recording, "a recording with inputs, of run --record or of a server")
+      .value_name(" ")
       .required();
   command.add_option("--json", arguments.json, "writes the result; `-`: to standard output").value_name("FILE|-");
   command.add_option("--what-if", arguments.what_if, what_if_help()).value_name("KEY=VALUE,...");

@@ -2,9 +2,9 @@
 
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 
 #include "common/base/format.h"
-#include "common/base/raw_bytes.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
 #include "common/io/output_file.h"
@@ -12,33 +12,31 @@
 #include "common/io/usage_errors.h"
 #include "common/setup/device_stiffness.h"
 #include "hal/io/motion_file.h"
-#include "hal/sim/hand.h"
+#include "hal/io/recording_motion.h"
 #include "netsim/app/law_options.h"
+#include "netsim/app/lesson_loader.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/run_json.h"
 #include "netsim/app/run_log.h"
 #include "netsim/app/run_recording.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/profiles/app/network_options.h"
-#include "netsim/replay/lesson_hands.h"
+#include "netsim/score/score_output.h"
 #include "netsim/system/run_simulation.h"
 #include "netsim/system/session_notes.h"
 #include "netsim/system/simulation.h"
 #include "proto/io/scene_file.h"
-#include "proto/recording/lesson_reader.h"
 #include "proto/text/scene_text.h"
 #include "server/report/report_summary.h"
 
 namespace tandem::netsim {
 namespace {
 
-constexpr std::uintmax_t kRecordingMax = std::uintmax_t{1} << 32;  // [bytes]
-
 struct RunArguments {
   std::string scene, channel, coupling, mfs, json, trace, record, log, replay;
   std::vector<std::string> hands;
   double duration_s = 0;
-  bool check = false, quiet = false, verbose = false, no_quality = false;
+  bool check = false, quiet = false, verbose = false, no_quality = false, scores = false;
   NetworkOptions network;
 };
 
@@ -97,8 +95,12 @@ void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
       mistakes.add("--log: is the same file as another result");
     if (arguments.log == arguments.replay) mistakes.add("--log: would overwrite what --replay reads");
   }
+  if (arguments.scores && arguments.record.empty())
+    mistakes.add("--scores: needs --record FILE.mcap, from which they are computed");
   if (arguments.record.empty()) return;
   mistakes.add("--record", io::OutputFile::problem(arguments.record));
+  if (std::error_code error; std::filesystem::is_regular_file(arguments.record, error))
+    mistakes.add("--record " + arguments.record + ": exists already; choose another name");
   if (arguments.record == "-") mistakes.add("--record: standard output is for --json; name a file");
   for (const std::string& other : {arguments.json, arguments.trace, arguments.log, arguments.replay})
     if (arguments.record == other) mistakes.add("--record: is the same file as another result or input");
@@ -107,21 +109,13 @@ void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
 /// Reads the motion of a hand from a recording.
 /// @param text  `FILE.mcap[,seat=NAME]`  @param seat  whose motion it is without that option
 std::expected<std::shared_ptr<const hal::sim::RecordedMotion>, std::string> recorded_hand(const std::string& text,
-                                                                                          const std::string& seat,
-                                                                                          const Point& center) {
+                                                                                          const SeatSpec& seat) {
   const std::size_t cut = text.find(',');
   const std::string file = text.substr(0, cut), option = cut == std::string::npos ? "" : text.substr(cut + 1);
   constexpr std::string_view kSeat = "seat=";
   if (!option.empty() && !option.starts_with(kSeat))
     return std::unexpected(option + ": a recording takes seat=NAME only");
-  const auto bytes = read_whole_file(file, kRecordingMax);
-  if (!bytes) return std::unexpected(bytes.error());
-  const auto lesson = read_lesson(bytes_of(*bytes));
-  if (!lesson) return std::unexpected(file + ": " + lesson.error());
-  auto motion = motion_of_seat(*lesson, option.empty() ? seat : option.substr(kSeat.size()), center,
-                               hal::sim::impedance_of(HandModel::kRecorded).k);
-  if (!motion) return std::unexpected(file + ": " + motion.error());
-  return motion;
+  return hal::load_recording_motion(file, option.empty() ? seat.name : option.substr(kSeat.size()), seat.hand);
 }
 
 /// Makes the configuration from the arguments; collects all errors.
@@ -154,7 +148,7 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
       continue;
     }
     if (const std::string file = text.substr(cut + 1, text.find(',', cut) - cut - 1); file.ends_with(".mcap")) {
-      auto motion = recorded_hand(text.substr(cut + 1), seat, known->hand.trajectory.center);
+      auto motion = recorded_hand(text.substr(cut + 1), *known);
       if (motion)
         setup.motions[seat] = std::move(*motion);
       else
@@ -198,6 +192,15 @@ int check(const RunArguments& arguments, const SimulationConfig& setup, const Ne
   }
   std::printf("%s# OK: %s has no mistake; nothing was started\n", text.c_str(), arguments.scene.c_str());
   return 0;
+}
+
+/// Scores of the recorded session, computed from the file as `tandem-netsim score` does. @return or why there are none
+std::expected<score::LessonScores, std::string> scores_of(const std::string& recording) {
+  const auto lesson = load_lesson(recording, "");
+  if (!lesson) return std::unexpected("--scores: " + lesson.error());
+  auto scores = score::score_lesson(*lesson);
+  if (!scores) return std::unexpected("--scores: " + recording + ": " + scores.error());
+  return scores;
 }
 
 int run_command(const RunArguments& arguments) {
@@ -258,7 +261,16 @@ int run_command(const RunArguments& arguments) {
   std::vector<std::string> notes;
   if (!setup.replay) notes = network->notes;
   for (std::string& note : session_notes(setup, session_span(simulation))) notes.push_back(std::move(note));
-  std::string words;
+  std::vector<std::string> problems{trace_file.close(), log.close(), recording.close()};
+  std::string words, scores_json;
+  if (arguments.scores && problems.back().empty()) {
+    if (const auto scores = scores_of(arguments.record)) {
+      words = score::main_scores_text(*scores);
+      scores_json = score::main_scores_json(*scores);
+    } else {
+      problems.push_back(scores.error());
+    }
+  }
   for (const std::string& note : notes) words += "note: " + note + "\n";
   if (!arguments.quiet || !json_on_stdout)
     io::print_formatted(
@@ -270,8 +282,9 @@ int run_command(const RunArguments& arguments) {
         setup.replay ? replay_summary(simulation).c_str() : "", words.c_str());
   if (interrupted)
     SignalWatcher::report("run", format("%.3f of %g s of the session", report.duration_s, setup.scene.duration));
-  if (json_file.is_open()) json_file.write(run_json(report, links, notes, interrupted));
-  for (const auto& problem : {trace_file.close(), log.close(), recording.close(), json_file.close()})
+  if (json_file.is_open()) json_file.write(run_json(report, links, notes, interrupted, scores_json));
+  problems.push_back(json_file.close());
+  for (const std::string& problem : problems)
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim run: %s\n", problem.c_str());
       return io::kExitTrouble;
@@ -315,6 +328,8 @@ void add_run_command(const io::Command& root) {
       .add_option("--record", arguments.record,
                   "writes the recording of the session (MCAP); the same seed and build give the same bytes")
       .value_name("FILE.mcap");
+  command.add_flag("--scores", arguments.scores,
+                   "the report has the main scores of the recording (--record), with flags, as tandem-netsim score");
   command
       .add_option(
           "--log", arguments.log,

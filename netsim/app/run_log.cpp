@@ -1,6 +1,6 @@
 #include "netsim/app/run_log.h"
 
-#include "netsim/profiles/app/network_options.h"
+#include "common/io/whole_file.h"
 #include "netsim/profiles/decision_csv.h"
 
 namespace tandem::netsim {
@@ -51,7 +51,7 @@ std::string RunLog::close() {
 }
 
 std::expected<std::shared_ptr<const Replay>, std::string> load_replay(const std::string& file) {
-  const auto text = read_whole_file(file, kFileMax);
+  const auto text = io::read_whole_file(file, kFileMax);
   if (!text) return std::unexpected(text.error());
   const auto rows = parse_decision_csv(*text, file);
   if (!rows) return std::unexpected(lines_of(rows.error()));

@@ -4,8 +4,8 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
+#include "common/io/whole_file.h"
 #include "netsim/app/netsim_commands.h"
-#include "netsim/profiles/app/network_options.h"
 #include "proto/recording/lesson_reader.h"
 #include "server/recording/lesson_record.h"
 #include "server/report/trace_csv.h"
@@ -25,7 +25,7 @@ int trace_command(const TraceArguments& arguments) {
   if (arguments.output != "-") mistakes.add("--output", io::OutputFile::problem(arguments.output));
   if (arguments.output == arguments.recording) mistakes.add("--output: is the recording itself");
   if (!mistakes.empty()) return mistakes.report_each("tandem-netsim trace");
-  const auto bytes = read_whole_file(arguments.recording, kRecordingMax);
+  const auto bytes = io::read_whole_file(arguments.recording, kRecordingMax);
   if (!bytes) return io::report_usage_error("tandem-netsim trace", bytes.error());
   const auto lesson = read_lesson(bytes_of(*bytes));
   if (!lesson) return io::report_usage_error("tandem-netsim trace", arguments.recording + ": " + lesson.error());

@@ -111,13 +111,14 @@ Json point_json(const Sweep& sweep, const SweepPoint& p, const ScenarioResult& r
 }  // namespace
 
 std::string run_json(const server::RunReport& report, const std::vector<NamedLink>& links,
-                     const std::vector<std::string>& notes, bool interrupted) {
+                     const std::vector<std::string>& notes, bool interrupted, const std::string& scores) {
   Json json = Json::parse(server::to_json(report));
   for (Json& seat : json["seats"])
     for (const NamedLink& one : links)
       if (seat["name"] == one.name) seat["quality"] = quality_json(one.link);
   json["interrupted"] = interrupted;
   json["notes"] = notes;
+  if (!scores.empty()) json["scores"] = Json::parse(scores);
   return json.dump(2) + "\n";
 }
 

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "hal/sim/hand.h"
+#include "hal/sim/lesson_motion.h"
 #include "netsim/app/law_options.h"
 #include "netsim/feel/observed_feel.h"
-#include "netsim/replay/lesson_hands.h"
 #include "netsim/system/run_simulation.h"
 #include "netsim/system/simulation.h"
 #include "server/recording/lesson_record.h"
@@ -121,8 +121,12 @@ std::expected<WhatIfResult, std::string> play_what_if(const Lesson& lesson, cons
   other.network.apply(setup.network);
   for (const SeatSpec& seat : setup.scene.seats) {
     if (seat.kind != SeatKind::kMaster) continue;
-    auto motion =
-        motion_of_seat(lesson, seat.name, seat.hand.trajectory.center, hal::sim::impedance_of(HandModel::kRecorded).k);
+    if (!seat.required && hal::sim::seat_was_free(lesson, seat.name)) {
+      setup.free_seats.insert(seat.name);
+      continue;
+    }
+    auto motion = hal::sim::motion_of_seat(lesson, seat.name, seat.hand.trajectory.center,
+                                           hal::sim::impedance_of(HandModel::kRecorded).k);
     if (!motion) return std::unexpected(motion.error());
     setup.motions[seat.name] = std::move(*motion);
   }

@@ -83,6 +83,20 @@ bool feed(const mcap::Reader& reader, SessionReplay& replay, JournalReader& jour
   return any;
 }
 
+/// Returns why a recording without inputs has none, and what can be replayed instead.
+std::string missing_inputs_text(const Lesson& lesson) {
+  const std::string text = "cannot be replayed: it has no inputs (channel " + std::string(rec::kInputsTopic) + "). ";
+  const auto program = lesson.metadata.find("program");
+  if (program != lesson.metadata.end() && program->second.starts_with("tandem-client record"))
+    return text + "`tandem-client record` receives values, not what entered the session: let the server record " +
+           "(--record of tandem-server run, key record of serve)";
+  if (lesson.rows() > 0 && lesson.tick.front() > 1)
+    return text + "The recording was begun by an order at tick " + std::to_string(lesson.tick.front()) +
+           " of its session, and a replay needs all inputs since the first one: record the session from its begin " +
+           "(--record without --record-on-order). Scores, diff, trace, exports, --what-if and hands of it work";
+  return text + "It was made without them";
+}
+
 }  // namespace
 
 std::expected<RecordingReplay, std::string> replay_recording(std::span<const std::byte> file) {
@@ -101,9 +115,7 @@ std::expected<RecordingReplay, std::string> replay_recording(std::span<const std
   RowComparison rows{*lesson, out.seats_compared};
   replay.compare = [&](const server::Session& session) { return rows(session); };
   JournalReader journal;
-  if (!feed(*reader, replay, journal))
-    return std::unexpected("has no inputs (channel " + std::string(rec::kInputsTopic) +
-                           "): the recording began after its session, or was made without them");
+  if (!feed(*reader, replay, journal)) return std::unexpected(missing_inputs_text(*lesson));
   out.difference = replay.difference();
   out.error = replay.error().empty() ? journal.error() : replay.error();
   out.other_builds = replay.other_builds();

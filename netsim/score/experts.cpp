@@ -15,15 +15,15 @@ double usable_value(const PartScore& part, Metric metric) {
   return trust_in(part.quality, metric, value).trust == Trust::kWithheld ? kUnknown : value;
 }
 
-Threshold threshold_from(std::vector<double> values, Better better) {
+Threshold threshold_from(std::vector<double> values, const MetricRow& row) {
   Threshold out;
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   out.experts = values.size();
-  if (values.size() < kExpertsMin || better == Better::kNeither) return out;
+  if (values.size() < kExpertsMin || !judges_person(row)) return out;
   out.median = median_of(values);
   for (double& v : values) v = std::abs(v - out.median);
   out.deviation = std::max(median_of(values), kDeviationMin * std::abs(out.median));
-  out.pass_mark = out.median + (better == Better::kLow ? 1 : -1) * kNormal * out.deviation;
+  out.pass_mark = out.median + (row.better == Better::kLow ? 1 : -1) * kNormal * out.deviation;
   return out;
 }
 
@@ -57,7 +57,7 @@ std::vector<PartThresholds> thresholds_of(std::span<const LessonScores> experts,
       for (const LessonScores& lesson : experts)
         if (const SeatScore* score = lesson.seat(seat))
           if (const PartScore* part = score->part(thresholds.key)) values.push_back(usable_value(*part, row.metric));
-      thresholds.metrics[static_cast<std::size_t>(row.metric)] = threshold_from(std::move(values), row.better);
+      thresholds.metrics[static_cast<std::size_t>(row.metric)] = threshold_from(std::move(values), row);
     }
   return out;
 }

@@ -44,8 +44,8 @@ std::string lesson_problem(const Lesson& lesson) {
   const auto check = [&](const auto&... columns) { ((fits = fits && (columns.empty() || columns.size() == n)), ...); };
   check(lesson.time_ns, lesson.running, lesson.stopped_ticks, lesson.dropped_ticks);
   for (const LessonSeat& s : lesson.seats)
-    check(s.fresh, s.sample_tick, s.q, s.x, s.v, s.f, s.f_cmd, s.alpha, s.engaged, s.gate, s.leader, s.ghost, s.e_in,
-          s.e_out, s.dissipated_j, s.refused_j, s.margin_min_j, s.delivered_j);
+    check(s.fresh, s.sample_tick, s.q, s.x, s.v, s.orientation, s.f, s.f_cmd, s.alpha, s.engaged, s.gate, s.leader,
+          s.ghost, s.e_in, s.e_out, s.dissipated_j, s.refused_j, s.margin_min_j, s.delivered_j);
   for (const LessonTool& t : lesson.tools)
     check(t.q, t.x, t.x_tool, t.f_cmd, t.f_env, t.penetration, t.held, t.alpha, t.mfs_j, t.e_p_j, t.e_p_axis_j,
           t.sample_tick);

@@ -10,7 +10,7 @@ namespace tandem::netsim::score {
 namespace {
 
 PartScore score_part(const PartInput& in) {
-  PartScore out{in.part.kind, in.part.key, in.part.title, {}, quality_of(in)};
+  PartScore out{in.part.kind, in.part.key, in.part.title, {}, {}};
   out.values.fill(kUnknown);
   score_motion(in, out.values);
   score_force(in, out.values);
@@ -19,6 +19,7 @@ PartScore score_part(const PartInput& in) {
   score_sharing(in, out.values);
   score_passivity(in, out.values);
   score_link(in, out.values);
+  out.quality = quality_of(in, of(out.values, Metric::kGateTrips));
   return out;
 }
 
@@ -103,8 +104,13 @@ std::expected<LessonScores, std::string> score_lesson(
       continue;
     }
     const ToolData& tool = tools.at(track.tool);
-    SeatScore seat{
-        track.seat, spec.name, lesson.seats[track.seat].person, spec.role, lesson.scene.tools[track.tool].name, {}};
+    const bool has_tool = !lesson.tools[track.tool].x.empty() || !lesson.tools[track.tool].x_tool.empty();
+    SeatScore seat{track.seat,
+                   spec.name,
+                   lesson.seats[track.seat].person,
+                   spec.role,
+                   has_tool ? lesson.scene.tools[track.tool].name : std::string(),
+                   {}};
     for (const Part& part : tool.parts)
       seat.parts.push_back(score_part({lesson, grid, track, tool.track, part, options, tool.interventions}));
     out.seats.push_back(std::move(seat));
@@ -125,9 +131,11 @@ std::expected<LessonScores, std::string> score_lesson(
 
 std::vector<std::string> conditions_of(const ScoreOptions& o) {
   return {
-      format("Positions: low-pass at %g Hz, forces at %g Hz (Butterworth of order 4, without phase); tracking, force "
-             "reflection and jumps: as recorded.",
-             o.position_cutoff_hz, o.force_cutoff_hz),
+      format(
+          "Positions and forces: low-pass of effective order 4 without phase (Butterworth of order 2, run forward and "
+          "backward), cut-off (-3 dB after both runs) %g Hz for positions and %g Hz for forces. Tracking, force "
+          "reflection and jumps: as recorded.",
+          o.position_cutoff_hz, o.force_cutoff_hz),
       format(
           "Velocity: central difference of the filtered position. Jerk: third central difference. Spectra: averaged to "
           "at most %g Hz. Smoothness: mean of the pieces of at least %g s, weighted with their duration.",

@@ -22,6 +22,8 @@ enum class Metric : std::uint8_t {
   kSpeedPeak,
   kSpeedPeaks,
   kWorkspace,
+  kHullVolume,
+  kAngularPath,
   kSquaredJerk,
   kNormalisedJerk,
   kDimensionlessJerk,
@@ -56,6 +58,7 @@ enum class Metric : std::uint8_t {
   kReflectionError,
   kReflectionErrorShare,
   kRenderedStiffness,
+  kTransparency,
   kDrift,
   // Sharing
   kAuthorityShare,
@@ -83,7 +86,7 @@ enum class Metric : std::uint8_t {
   kGateTrips,
   kLateTicks
 };
-inline constexpr std::size_t kMetricCount = 62;
+inline constexpr std::size_t kMetricCount = 65;
 
 /// Values by Metric, SI; NaN: the lesson has no such value.
 using MetricValues = std::array<double, kMetricCount>;
@@ -106,6 +109,12 @@ struct MetricRow {
   Better better;
   std::string_view definition;  ///< one sentence
 };
+
+/// Returns whether the metric judges a person. Facts about the link and the passivity of the channel do not, nor do
+/// metrics without a better side: they get no thresholds of experts and no learning curve.
+[[nodiscard]] constexpr bool judges_person(const MetricRow& row) noexcept {
+  return row.better != Better::kNeither && row.group != MetricGroup::kLink && row.group != MetricGroup::kPassivity;
+}
 
 /// All metrics, in the order of Metric.
 [[nodiscard]] const std::array<MetricRow, kMetricCount>& metric_rows() noexcept;

@@ -52,6 +52,24 @@ std::vector<ColumnTriple> triples(const CsvTable& table, std::string_view unit, 
   return out;
 }
 
+using QuaternionColumns = std::array<std::size_t, 4>;
+
+/// Returns the columns of a hand's orientation, `NAME_q0[1]` ... `q3`, or `qx`, `qy`, `qz`, `qw`.
+std::optional<QuaternionColumns> orientation_of(const CsvTable& table, const std::string& hand) {
+  const std::string prefix = hand.empty() ? "" : hand + "_";
+  for (const char* letters : {"0123", "xyzw"}) {
+    QuaternionColumns columns{};
+    bool all = true;
+    for (std::size_t c = 0; c < 4 && all; ++c) {
+      const auto found = table.find(prefix + "q" + letters[c]);
+      all = found && table.columns()[*found].unit == "1";
+      if (all) columns[c] = *found;
+    }
+    if (all) return columns;
+  }
+  return {};
+}
+
 std::string_view first_word(std::string_view name) { return name.substr(0, name.find('_')); }
 
 /// One row of the file.
@@ -65,6 +83,7 @@ struct Source {
   CsvTable table;
   std::vector<ColumnTriple> hands;
   std::vector<std::optional<ColumnTriple>> forces;  ///< by hand
+  std::vector<std::optional<QuaternionColumns>> orientations;
   std::vector<MotionRow> rows;
   double step_s = 0;
 };
@@ -94,7 +113,7 @@ std::expected<std::vector<MotionRow>, CsvError> rows_of(const CsvTable& table, s
 std::expected<Source, std::string> read_source(std::string_view csv, const std::string& file) {
   auto table = CsvTable::parse(csv);
   if (!table) return std::unexpected(table.error().text(file));
-  Source source{std::move(*table), {}, {}, {}, 0};
+  Source source{std::move(*table), {}, {}, {}, {}, 0};
   std::optional<std::size_t> time;
   double factor = 1;
   for (const char* name : {"t_s", "t", "time", "t_ms"})
@@ -123,6 +142,7 @@ std::expected<Source, std::string> read_source(std::string_view csv, const std::
     source.forces.push_back(own != forces.end() ? std::optional(*own)
                             : only              ? std::optional(forces.front())
                                                 : std::nullopt);
+    source.orientations.push_back(orientation_of(source.table, hand.name));
   }
   auto rows = rows_of(source.table, *time, factor);
   if (!rows) return std::unexpected(rows.error().text(file));
@@ -172,12 +192,30 @@ std::expected<LessonTriple, CsvError> cells(const CsvTable& table, std::size_t r
   return out;
 }
 
+constexpr std::array<double, 4> kUnknownOrientation{kUnknown, kUnknown, kUnknown, kUnknown};
+constexpr double kNormTolerance = 0.1;  // of a quaternion; motion capture writes zeros where it lost a body
+
+/// Reads an orientation; NaN where a cell is empty or the quaternion has no unit length.
+std::expected<std::array<double, 4>, CsvError> orientation_in(const CsvTable& table, std::size_t row,
+                                                              const QuaternionColumns& columns) {
+  std::array<double, 4> out = kUnknownOrientation;
+  double square = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto value = table.optional_number(row, columns[c]);
+    if (!value) return std::unexpected(value.error());
+    if (*value) out[c] = **value;
+    square += out[c] * out[c];
+  }
+  return std::abs(std::sqrt(square) - 1) < kNormTolerance ? out : kUnknownOrientation;
+}
+
 /// Appends rows to a lesson, tick by tick.
 class TickWriter {
  public:
   TickWriter(Lesson& lesson, const Source& source) : lesson_(lesson), source_(source) {
     positions_.resize(source.hands.size());
     forces_.resize(source.hands.size());
+    orientations_.resize(source.hands.size());
   }
 
   /// Reads all cells. Error: position of the cell.
@@ -187,6 +225,11 @@ class TickWriter {
         auto x = cells(source_.table, row.index, source_.hands[h]);
         if (!x) return std::unexpected(x.error());
         positions_[h].push_back(*x);
+        if (source_.orientations[h]) {
+          auto q = orientation_in(source_.table, row.index, *source_.orientations[h]);
+          if (!q) return std::unexpected(q.error());
+          orientations_[h].push_back(*q);
+        }
         if (!source_.forces[h]) continue;
         auto f = cells(source_.table, row.index, *source_.forces[h]);
         if (!f) return std::unexpected(f.error());
@@ -236,12 +279,24 @@ class TickWriter {
     for (std::size_t h = 0; h < positions_.size(); ++h) {
       lesson_.seats[h].x.push_back(interpolated(positions_[h][a], positions_[h][b], w));
       if (!forces_[h].empty()) lesson_.seats[h].f.push_back(interpolated(forces_[h][a], forces_[h][b], w));
+      if (!orientations_[h].empty())
+        lesson_.seats[h].orientation.push_back(between(orientations_[h][a], orientations_[h][b], w));
     }
+  }
+
+  /// Orientation at a share `w` of the way, on the shorter arc; of unit length after the filter.
+  static std::array<double, 4> between(const std::array<double, 4>& a, const std::array<double, 4>& b, double w) {
+    double cosine = 0;
+    for (std::size_t c = 0; c < 4; ++c) cosine += a[c] * b[c];
+    std::array<double, 4> out{};
+    for (std::size_t c = 0; c < 4; ++c) out[c] = interpolated(a[c], cosine < 0 ? -b[c] : b[c], w);
+    return out;
   }
 
   Lesson& lesson_;
   const Source& source_;
-  std::vector<std::vector<LessonTriple>> positions_, forces_;  ///< by hand, then by row of the file
+  std::vector<std::vector<LessonTriple>> positions_, forces_;     ///< by hand, then by row of the file
+  std::vector<std::vector<std::array<double, 4>>> orientations_;  ///< the same; empty: the hand has none
 };
 
 }  // namespace

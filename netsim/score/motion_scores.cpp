@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "netsim/score/filters.h"
+#include "netsim/score/hull_volume.h"
 #include "netsim/score/part_scores.h"
 #include "netsim/score/smoothness.h"
 
@@ -49,15 +50,23 @@ double path_of(std::span<const LessonTriple> x) {
   return sum;
 }
 
+constexpr double kHullRateMost = 50;  // [Hz]
+
 /// Sums over single samples and pairs of samples.
 struct MotionSums {
   double samples = 0, idle = 0, path = 0, straight = 0, speed = 0, peak = 0, peaks = 0, jerk = 0, jerks = 0;
+  double turned = 0, turns = 0;
+  std::vector<LessonTriple> hull;  ///< points at most at 50 Hz
   LessonTriple low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
 
   void add(const PartInput& in, const Stretch& piece) {
     const SeatTrack& seat = in.seat;
+    const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(in.grid.rate() / kHullRateMost));
+    for (std::size_t k = piece.begin; k < piece.end; k += stride) hull.push_back(seat.x[k]);
+    hull.push_back(seat.x[piece.end - 1]);
     for (std::size_t k = piece.begin; k < piece.end; ++k) {
       const double s = seat.speed[k];
+      if (k > piece.begin && !seat.turn.empty() && std::isfinite(seat.turn[k])) turned += seat.turn[k], turns += 1;
       samples += 1;
       idle += s < in.options.speed_min ? 1 : 0;
       speed += s;
@@ -114,6 +123,8 @@ void score_motion(const PartInput& in, MetricValues& values) {
   of(values, Metric::kSpeedPeaks) = sums.peaks;
   of(values, Metric::kWorkspace) =
       (sums.high[0] - sums.low[0]) * (sums.high[1] - sums.low[1]) * (sums.high[2] - sums.low[2]);
+  of(values, Metric::kHullVolume) = hull_volume(sums.hull);
+  if (sums.turns > 0) of(values, Metric::kAngularPath) = sums.turned;
   of(values, Metric::kSquaredJerk) = sums.jerks > 0 ? sums.jerk / sums.jerks : kUnknown;
   of(values, Metric::kNormalisedJerk) = normalised.value();
   of(values, Metric::kDimensionlessJerk) = dlj.value();

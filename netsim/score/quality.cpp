@@ -48,10 +48,15 @@ void count_gaps(const PartInput& in, Quality& quality) {
   quality.longest_gap_s = std::max(gap, since - 1) * grid.dt();
 }
 
+/// Looks at the gate, at the force limit and at the energy account. A gate also releases the hand where that is
+/// requested: at a leave, a stop, a pause. Its state does not say which; the client's counter of losses does, and it
+/// decides where the lesson has it.
 void look_at_gate(const PartInput& in, Quality& quality) {
   const LessonSeat& seat = in.lesson.seats[in.seat.seat];
   const double limit = force_limit_of(in.lesson.scene, in.seat.seat);
   quality.gate_known = !seat.gate.empty();
+  const bool losses_counted =
+      std::ranges::any_of(in.lesson.links, [&](const LessonLink& link) { return link.seat == in.seat.seat; });
   double rows = 0, clipped = 0;
   std::uint8_t before = 0;
   for (std::size_t k = 0; k < in.grid.size(); ++k) {
@@ -59,7 +64,9 @@ void look_at_gate(const PartInput& in, Quality& quality) {
     const std::size_t r = in.grid.row(k);
     if (quality.gate_known) {
       const std::uint8_t gate = seat.gate[r];
-      const auto tripped = [](std::uint8_t g) { return g == kReleasing || g == kLatched || g == kFault; };
+      const auto tripped = [&](std::uint8_t g) {
+        return losses_counted ? g == kFault : g == kReleasing || g == kLatched || g == kFault;
+      };
       quality.gate_trips += in.part.has(k) && tripped(gate) && !tripped(before) ? 1 : 0;
       before = gate;
     }
@@ -108,19 +115,13 @@ double force_limit_of(const SceneSpec& scene, std::size_t seat) noexcept {
   return share_of_force(spec.role) * std::min(scene.gate.force_max, spec.device.force_peak);
 }
 
-Quality quality_of(const PartInput& in) {
+Quality quality_of(const PartInput& in, double losses) {
   Quality quality;
   count_gaps(in, quality);
   look_at_gate(in, quality);
-  if (!quality.gate_known) {
-    MetricValues link;
-    link.fill(kUnknown);
-    score_link(in, link);
-    const double trips = of(link, Metric::kGateTrips);
-    if (std::isfinite(trips)) {
-      quality.gate_known = true;
-      quality.gate_trips = static_cast<std::uint32_t>(trips);
-    }
+  if (std::isfinite(losses)) {
+    quality.gate_known = true;
+    quality.gate_trips += static_cast<std::uint32_t>(losses);
   }
   add_doubts(in.options, force_limit_of(in.lesson.scene, in.seat.seat), quality);
   return quality;

@@ -33,7 +33,8 @@ struct Quality {
   std::vector<Doubt> doubts;
 };
 
-[[nodiscard]] Quality quality_of(const PartInput& in);
+/// @param losses  of the link in this part, as the client counted them (Metric::kGateTrips); NaN: unknown
+[[nodiscard]] Quality quality_of(const PartInput& in, double losses);
 
 /// Trust in one metric, and the reasons against full trust as one text.
 struct MetricTrust {

@@ -36,11 +36,15 @@ Json quality_json(const Quality& q) {
           {"doubts", doubts}};
 }
 
-Json seat_json(const SeatScore& seat) {
+/// @param main_only  the main metrics of the whole lesson and of the time in which the seat holds the tool
+Json seat_json(const SeatScore& seat, bool main_only = false) {
   Json parts = Json::array();
   for (const PartScore& part : seat.parts) {
+    if (main_only && part.kind != Part::Kind::kWhole && part.key != "held:" + seat.name) continue;
     Json metrics = Json::object();
-    for (const MetricRow& row : metric_rows()) metrics[std::string(row.key)] = metric_json(part, row);
+    for (const MetricRow& row : metric_rows())
+      if (!main_only || std::ranges::find(main_metrics(), row.metric) != main_metrics().end())
+        metrics[std::string(row.key)] = metric_json(part, row);
     parts.push_back({{"part", part.key},
                      {"title", part.title},
                      {"quality", quality_json(part.quality)},
@@ -49,7 +53,7 @@ Json seat_json(const SeatScore& seat) {
   return {{"seat", seat.name},
           {"person", seat.person},
           {"role", to_text(access_role(seat.role))},
-          {"tool", seat.tool},
+          {"tool", seat.tool.empty() ? Json(nullptr) : Json(seat.tool)},
           {"parts", std::move(parts)}};
 }
 
@@ -180,6 +184,13 @@ std::string shortest(double value) {
 }
 
 }  // namespace
+
+std::string main_scores_json(const LessonScores& lesson) {
+  Json seats = Json::array();
+  for (const SeatScore& seat : lesson.seats) seats.push_back(seat_json(seat, true));
+  const Json json{{"conditions", conditions_of(lesson.options)}, {"notes", lesson.notes}, {"seats", std::move(seats)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 std::string scores_json(const ScoreResult& result) {
   Json lessons = Json::array();

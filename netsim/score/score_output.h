@@ -31,6 +31,12 @@ struct ScoreResult {
 /// Rows `file,seat,role,part,metric,unit,value,trust,reason`; commas in texts become semicolons.
 [[nodiscard]] std::string scores_csv(const ScoreResult& result);
 
+/// The scores that a reader needs first (main_metrics), for reports: table of the whole lesson per seat, and of the
+/// time in which the seat holds the tool, with flags and their reasons.
+[[nodiscard]] std::string main_scores_text(const LessonScores& lesson);
+/// The same as one JSON object: `conditions`, `notes`, `seats` with parts as in `scores_json`.
+[[nodiscard]] std::string main_scores_json(const LessonScores& lesson);
+
 /// `undecided`, `competent` or `deficient`.
 [[nodiscard]] std::string_view to_text(Cusum::Verdict verdict) noexcept;
 /// Agreement of the evaluators in words, such as `GEARS: ICC(2,1) 0.29 (95 %: 0.02 to 0.76), ...`.

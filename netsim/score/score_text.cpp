@@ -36,9 +36,12 @@ std::string cell_text(const PartScore& part, const MetricRow& row) {
   return "–";
 }
 
+/// Width of a column with this head, two spaces included.
+int width_of(std::string_view head) { return std::max(kCellWidth, characters(head) + 2); }
+
 std::string seat_table(const SeatScore& seat) {
   std::string out = padded("", kTitleWidth, false);
-  for (const PartScore& part : seat.parts) out += padded(" " + part.key.substr(0, kCellWidth - 1), kCellWidth, true);
+  for (const PartScore& part : seat.parts) out += padded(part.key, width_of(part.key), true);
   out += "\n";
   auto group = MetricGroup::kLink;
   bool first = true;
@@ -51,7 +54,7 @@ std::string seat_table(const SeatScore& seat) {
     group = row.group;
     out += padded("  " + std::string(row.title) + (row.unit.empty() ? "" : " [" + std::string(row.unit) + "]"),
                   kTitleWidth, false);
-    for (const PartScore& part : seat.parts) out += padded(" " + cell_text(part, row), kCellWidth, true);
+    for (const PartScore& part : seat.parts) out += padded(" " + cell_text(part, row), width_of(part.key), true);
     out += "\n";
   }
   for (const PartScore& part : seat.parts)
@@ -61,13 +64,22 @@ std::string seat_table(const SeatScore& seat) {
   return out;
 }
 
+/// Parts of the main scores: the whole lesson, and the time in which the seat holds the tool.
+std::vector<const PartScore*> main_parts(const SeatScore& seat) {
+  std::vector<const PartScore*> parts;
+  for (const PartScore& part : seat.parts)
+    if (part.kind == Part::Kind::kWhole || part.key == "held:" + seat.name) parts.push_back(&part);
+  return parts;
+}
+
 std::string lesson_text(const LessonScores& lesson, const std::string& only) {
   std::string out = format("%s: session %s, %.1f to %.1f s at %g Hz\n", lesson.file.c_str(), lesson.session.c_str(),
                            lesson.begin_s, lesson.end_s, lesson.rate_hz);
   for (const SeatScore& seat : lesson.seats) {
     if (!only.empty() && seat.name != only) continue;
     out += "\n" + seat.name + (seat.person.empty() ? "" : " (" + seat.person + ")") + ", " +
-           std::string(to_text(access_role(seat.role))) + ", tool " + seat.tool + "\n" + seat_table(seat);
+           std::string(to_text(access_role(seat.role))) + (seat.tool.empty() ? ", no tool" : ", tool " + seat.tool) +
+           "\n" + seat_table(seat);
   }
   out += "\n";
   for (const NamedIntervention& i : lesson.interventions)
@@ -94,7 +106,8 @@ std::string lesson_text(const LessonScores& lesson, const std::string& only) {
 std::string curves_text(const ScoreResult& result) {
   std::string out = format("\n%s against %zu expert recordings, and over %zu session%s\n", result.seat.c_str(),
                            result.experts, result.lessons.size(), result.lessons.size() == 1 ? "" : "s");
-  out += padded("", kTitleWidth, false) + padded("part", kCellWidth + 4, true) + padded("experts", kCellWidth, true) +
+  const int part_width = width_of("held:" + result.seat);
+  out += padded("", kTitleWidth, false) + padded("part", part_width, true) + padded("experts", kCellWidth, true) +
          padded("pass mark", kCellWidth, true) + padded("last session", kCellWidth, true) + padded("passed", 9, true) +
          "  CUSUM\n";
   for (const LearningCurve& curve : result.curves) {
@@ -108,8 +121,7 @@ std::string curves_text(const ScoreResult& result) {
     const bool shown = !curve.points.empty() && curve.points.back().counts;
     out += padded("  " + std::string(row.title) + (row.unit.empty() ? "" : " [" + std::string(row.unit) + "]"),
                   kTitleWidth, false) +
-           padded(" " + curve.part.substr(0, kCellWidth + 3), kCellWidth + 4, true) +
-           padded(value_text(row, curve.threshold.median), kCellWidth, true) +
+           padded(curve.part, part_width, true) + padded(value_text(row, curve.threshold.median), kCellWidth, true) +
            padded(value_text(row, curve.threshold.pass_mark), kCellWidth, true) +
            padded(shown ? value_text(row, curve.points.back().value) : "–", kCellWidth, true) +
            padded(format("%zu of %zu", passed, counted), 9, true) + "  " +
@@ -121,6 +133,34 @@ std::string curves_text(const ScoreResult& result) {
 }
 
 }  // namespace
+
+std::string main_scores_text(const LessonScores& lesson) {
+  struct Column {
+    std::string head;
+    const PartScore* part;
+  };
+  std::vector<Column> columns;
+  for (const SeatScore& seat : lesson.seats)
+    for (const PartScore* part : main_parts(seat))
+      columns.push_back({part->kind == Part::Kind::kWhole ? seat.name : part->key, part});
+  std::string out = padded("  scores", kTitleWidth, false);
+  for (const Column& column : columns) out += padded(column.head, width_of(column.head), true);
+  out += "\n";
+  for (const Metric metric : main_metrics()) {
+    const MetricRow& row = row_of(metric);
+    if (std::ranges::none_of(columns, [&](const Column& c) { return std::isfinite(of(c.part->values, metric)); }))
+      continue;
+    out += padded("  " + std::string(row.title) + (row.unit.empty() ? "" : " [" + std::string(row.unit) + "]"),
+                  kTitleWidth, false);
+    for (const Column& column : columns) out += padded(cell_text(*column.part, row), width_of(column.head), true);
+    out += "\n";
+  }
+  for (const Column& column : columns)
+    for (const Doubt& doubt : column.part->quality.doubts)
+      out += "  " + std::string(doubt.trust == Trust::kWithheld ? "withheld" : "!") + " " + column.head + ": " +
+             doubt.reason + "\n";
+  return out;
+}
 
 std::string_view to_text(Cusum::Verdict verdict) noexcept {
   constexpr std::string_view kNames[] = {"undecided", "competent", "deficient"};

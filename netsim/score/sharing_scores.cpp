@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "netsim/score/part_scores.h"
+#include "netsim/score/transparency.h"
 
 /// Metrics of tracking, sharing, passivity and link.
 namespace tandem::netsim::score {
@@ -115,6 +116,7 @@ void score_tracking(const PartInput& in, MetricValues& values) {
   of(values, Metric::kReflectionError) = std::sqrt(sum / count);
   of(values, Metric::kReflectionErrorShare) = std::sqrt(sum / count) / peak;
   if (in.tool.has_surface) of(values, Metric::kRenderedStiffness) = stiffness(in);
+  of(values, Metric::kTransparency) = impedance_ratio(in);
 }
 
 void score_sharing(const PartInput& in, MetricValues& values) {
@@ -199,6 +201,8 @@ void score_link(const PartInput& in, MetricValues& values) {
   double up = 0, ups = 0, down = 0, downs = 0, gate = 0, late = 0;
   double gap_up = kUnknown, gap_down = kUnknown, age = kUnknown;
   bool any = false;
+  // Counters of a recording that begins in the midst of its session have counted before.
+  const bool from_begin = in.grid.tick(0) < in.lesson.scene.tick_hz;
   const LessonLink* before = nullptr;
   std::size_t at = 0;
   for (const LessonLink& link : in.lesson.links) {
@@ -212,10 +216,13 @@ void score_link(const PartInput& in, MetricValues& values) {
       gap_up = std::fmax(gap_up, link.gap_up_ms / 1e3);
       gap_down = std::fmax(gap_down, link.gap_down_ms / 1e3);
       age = std::fmax(age, link.age_p99_ms / 1e3);
-      const std::uint32_t trips_before = before == nullptr ? 0 : before->gate_trips;
-      const std::uint32_t late_before = before == nullptr ? 0 : before->late_ticks;
-      gate += link.gate_trips > trips_before ? link.gate_trips - trips_before : 0;
-      late += link.late_ticks > late_before ? link.late_ticks - late_before : 0;
+      const auto since = [&](std::uint32_t LessonLink::* counter) {
+        const std::uint32_t earlier = before != nullptr ? before->*counter : from_begin ? 0 : link.*counter;
+        return link.*counter >= earlier ? link.*counter - earlier
+                                        : link.*counter;  // a new program of the seat counts from 0
+      };
+      gate += since(&LessonLink::gate_trips);
+      late += since(&LessonLink::late_ticks);
     }
     before = &link;
   }

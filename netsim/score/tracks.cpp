@@ -46,6 +46,40 @@ std::vector<Stretch> authority_changes(const Lesson& lesson, const LessonGrid& g
   return out;
 }
 
+using Quaternion = std::array<double, 4>;
+
+/// Angles between successive orientations, which are filtered before. The chord gives small angles exactly:
+/// |a - b| = 2 sin(angle / 4) for unit quaternions of equal sign.
+std::vector<double> turns_of(std::vector<Quaternion> q, const LessonGrid& grid, double cutoff_hz) {
+  std::vector<double> turns(q.size(), kUnknown);
+  const auto is_known = [&](std::size_t k) {
+    return std::ranges::all_of(q[k], [](double c) { return std::isfinite(c); });
+  };
+  for (const Stretch& s : grid.runs(is_known)) {
+    for (std::size_t k = s.begin + 1; k < s.end; ++k) {  // q and -q are the same orientation
+      double cosine = 0;
+      for (std::size_t c = 0; c < 4; ++c) cosine += q[k][c] * q[k - 1][c];
+      if (cosine < 0)
+        for (double& c : q[k]) c = -c;
+    }
+    std::vector<double> component(s.size());
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t k = 0; k < s.size(); ++k) component[k] = q[s.begin + k][c];
+      low_pass(component, cutoff_hz, grid.rate());
+      for (std::size_t k = 0; k < s.size(); ++k) q[s.begin + k][c] = component[k];
+    }
+    for (std::size_t k = s.begin; k < s.end; ++k) {
+      double norm = 0, chord = 0;
+      for (const double c : q[k]) norm += c * c;
+      for (double& c : q[k]) c /= std::sqrt(norm);
+      if (k == s.begin) continue;
+      for (std::size_t c = 0; c < 4; ++c) chord += (q[k][c] - q[k - 1][c]) * (q[k][c] - q[k - 1][c]);
+      turns[k] = 4 * std::asin(std::min(1.0, std::sqrt(chord) / 2));
+    }
+  }
+  return turns;
+}
+
 void find_surface(const EnvironmentSpec& environment, ToolTrack& track) {
   if (environment.wall) {
     track.surface = {environment.wall->axis, environment.wall->at, environment.wall->from_below};
@@ -83,6 +117,8 @@ SeatTrack seat_track(const Lesson& lesson, const LessonGrid& grid, std::size_t s
   track.force = lengths(track.f);
   track.alpha = grid.values(recorded.alpha);
   if (!recorded.q.empty()) track.q = grid.held(recorded.q, AxisArray{});
+  if (!recorded.orientation.empty())
+    track.turn = turns_of(grid.held(recorded.orientation, Quaternion{}), grid, options.position_cutoff_hz);
   return track;
 }
 

@@ -37,6 +37,7 @@ struct SeatTrack {
   std::vector<double> force;              ///< |f|; NaN: unknown
   std::vector<double> alpha;              ///< authority over the tool; NaN: unknown
   std::vector<AxisArray> q;               ///< joints; empty: unknown
+  std::vector<double> turn;  ///< angle to the element before, from filtered orientations [rad]; empty or NaN: unknown
 };
 
 /// Returns the first tool that a seat follows; 0 if it follows none.

@@ -23,6 +23,7 @@ RandomKey key_of(const SimulatedClient::Setup& setup) noexcept {
 SimulatedClient::SimulatedClient(Setup setup)
     : link_(static_cast<std::uint32_t>(setup.seat)),
       tick_(from_seconds(1.0 / setup.scene->tick_hz)),
+      never_starts_(setup.never_starts),
       faults_(std::move(setup.faults)),
       device_(std::move(setup.device)),
       sensors_(key_of(setup).derive(2), tick_),
@@ -64,7 +65,7 @@ std::string SimulatedClient::step(Time now, server::Session* session, Network& n
 
 std::string SimulatedClient::run_program(Time now, bool awake, server::Session* session, Network& network,
                                          std::span<std::byte> buffer) {
-  if (faults_.active(Fault::Kind::kRestart, now)) {
+  if (never_starts_ || faults_.active(Fault::Kind::kRestart, now)) {
     if (program_.die()) device_->set_session_time(std::nullopt);
     while (network.poll(now, link_, Direction::kDown, buffer)) {
     }  // as if sent to a closed port

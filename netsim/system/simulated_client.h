@@ -29,6 +29,7 @@ class SimulatedClient {
     std::unique_ptr<hal::sim::SimDevice> device;
     std::vector<Fault> faults;             ///< of this seat
     std::optional<EndpointSpec> endpoint;  ///< absent: the simulation's clock, and a wake-up at every tick
+    bool never_starts = false;             ///< the program does not run, and the seat stays free
   };
   explicit SimulatedClient(Setup setup);
 
@@ -87,6 +88,7 @@ class SimulatedClient {
 
   std::uint32_t link_;  ///< its link on the network: the number of its seat
   Duration tick_;
+  bool never_starts_;
   std::optional<EndpointClock> clock_;
   std::optional<WakeUps> wake_;
   FaultSchedule faults_;

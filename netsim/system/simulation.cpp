@@ -38,6 +38,11 @@ std::string config_error(const SimulationConfig& setup) {
   };
   for (const Fault& fault : setup.faults)
     if (!fault.seat.empty() && !known(fault.seat)) return "a fault of seat " + fault.seat + ", which the scene has not";
+  for (const std::string& seat : setup.free_seats) {
+    if (!known(seat)) return "a free seat " + seat + ", which the scene has not";
+    if (std::ranges::find(setup.scene.seats, seat, &SeatSpec::name)->required)
+      return "seat " + seat + " cannot stay free: the session does not begin without it (required)";
+  }
   for (const auto& [seat, endpoint] : setup.endpoints) {
     if (!known(seat)) return "a clock of seat " + seat + ", which the scene has not";
     for (const SpecError& p : problems(endpoint)) return "seat " + seat + ": " + p.key + ": " + p.message;
@@ -111,7 +116,8 @@ std::string Simulation::add_client(std::size_t i) {
                                 .seed = setup_.seed,
                                 .device = std::move(*device),
                                 .faults = {},
-                                .endpoint = {}};
+                                .endpoint = {},
+                                .never_starts = setup_.free_seats.contains(spec.name)};
   for (const Fault& fault : setup_.faults)
     if (!of_server(fault.kind) && (fault.seat.empty() || fault.seat == spec.name)) client.faults.push_back(fault);
   if (const auto e = setup_.endpoints.find(spec.name); e != setup_.endpoints.end()) client.endpoint = e->second;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct SimulationConfig {
   LinkSpec network = {};   ///< every seat has its own link with this specification
   std::uint64_t seed = 1;  ///< seed of all random draws
   std::map<std::string, std::shared_ptr<const hal::sim::RecordedMotion>> motions = {};  ///< by seat
+  std::set<std::string> free_seats = {};  ///< optional seats whose program never starts; no participant takes them
   std::map<std::string, LinkSpec> seat_networks = {};  ///< by seat, instead of `network`
   std::vector<NetworkEvent> events = {};               ///< in network time
   std::shared_ptr<const Replay> replay = {};  ///< replaces every network and event: seat i is flow i of the recording

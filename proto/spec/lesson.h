@@ -24,6 +24,9 @@ struct LessonSeat {
   std::vector<std::uint32_t> sample_tick;  ///< session tick of the sample
   std::vector<AxisArray> q;                ///< joints of the device [rad] or [m]
   std::vector<LessonTriple> x, v;          ///< measured_cp [m], measured_cv [m/s]
+  /// Orientation of the hand as a unit quaternion, scalar first or last. Only tables of motion have it: ports of
+  /// sessions have positions.
+  std::vector<std::array<double, 4>> orientation;
   std::vector<LessonTriple> f,
       f_cmd;                  ///< measured_cf: force delivered to the hand; servo_cf: commanded before the gate [N]
   std::vector<double> alpha;  ///< authority over the first tool that the seat follows [0, 1]

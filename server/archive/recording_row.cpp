@@ -22,6 +22,8 @@ RecordingSummary summary_of(const Lesson& lesson) {
   out.session = lesson.session;
   out.scene = lesson.scene.name;
   out.start_unix_ns = lesson.start_unix_ns;
+  // A recording may begin in the midst of its session.
+  if (out.start_unix_ns != 0 && !lesson.time_ns.empty()) out.start_unix_ns += lesson.time_ns.front();
   out.rows = lesson.rows();
   out.complete = lesson.complete;
   if (!lesson.tick.empty()) {

@@ -22,7 +22,7 @@ void add_person(std::vector<RecordedPerson>& persons, const std::string& name, c
 /// Content of one recording, as the index keeps it.
 struct RecordingSummary {
   std::string session, scene;      ///< names of session and scene
-  std::int64_t start_unix_ns = 0;  ///< wall clock at the first tick; 0: unknown
+  std::int64_t start_unix_ns = 0;  ///< wall clock at the first row; 0: unknown
   double duration_s = 0;           ///< session time between the first and the last row [s]
   std::uint64_t rows = 0, missing_ticks = 0;
   bool complete = true;  ///< false: the file has no end, or was repaired
@@ -40,7 +40,7 @@ struct RecordingRow {
 
   /// Returns whether the index can say what the file contains.
   [[nodiscard]] bool readable() const noexcept { return problem.empty(); }
-  /// Begin of the session, or the last change of a file that does not state it [ns since 1970].
+  /// Begin of the recording, or the last change of a file that does not state it [ns since 1970].
   [[nodiscard]] std::int64_t begun_ns() const noexcept {
     return summary.start_unix_ns != 0 ? summary.start_unix_ns : modified_ns;
   }

@@ -25,6 +25,8 @@ class SummaryBuilder {
     } else if (topic == rec::kSheetsTopic) {
       keep(lesson_->sheets, rec::decode_sheet(message.data));
     } else if (topic == rec::kAuthorityTopic) {  // every tick has this message
+      if (lesson_->tick.empty())                 // the time of the first row alone: the begin of the recording
+        lesson_->time_ns.push_back(static_cast<std::int64_t>(message.log_time) - lesson_->start_unix_ns);
       if (lesson_->tick.empty() || message.sequence > lesson_->tick.back()) lesson_->tick.push_back(message.sequence);
     }
   }

@@ -17,6 +17,7 @@ TANDEM_PACKAGES=(
   "nlohmann-json3-dev: writes the JSON reports"
   "libhdf5-dev: exports recordings as HDF5"
   "libsqlite3-dev: the index of recordings"
+  "libqhull-dev: convex hulls of motions, for scores"
   "libasio-dev: the control connection's sockets and timers"
   "libboost-dev: HTTP and WebSocket of tandem-console"
   "libssl-dev: TLS of the control connection, keys, SHA-256 of traces"

@@ -120,6 +120,19 @@ TEST(AppendFile, SaysWhyAFileOnAFullDiskIsNotComplete) {
   EXPECT_EQ(kept, block(0));
 }
 
+TEST(AppendFile, LeavesNoFileWithoutAByte) {
+  const test::Folder folder;
+  auto file = open_file(folder.file("a"), {.reserve = 0});
+  test::inject(folder.file(""), {.kind = FileFault::Kind::kNoSpace, .lasting = true});
+  file->append(block(0));
+  const std::string problem = file->close(200ms);
+  EXPECT_NE(problem.find("a was not written, not even in part: the disk is full"), std::string::npos) << problem;
+  file.reset();
+  test::no_faults();
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.part")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
+}
+
 TEST(AppendFile, TakesNothingMoreWhenItsBacklogIsFull) {
   const test::Folder folder;
   const auto file = open_file(folder.file("a"), {.backlog_max = 2500, .reserve = 0});

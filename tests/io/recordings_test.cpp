@@ -157,7 +157,11 @@ TEST(Recordings, AreDeletedOnlyWithYesAndWithAnAuditLine) {
   EXPECT_TRUE(fs::exists(folder.file("a.mcap")));
   Process without = recordings({"delete", "a.mcap", "--dir", folder.file(""), "--yes", "--state", state.file("none")});
   EXPECT_EQ(without.wait(), 1);
-  EXPECT_NE(without.err().find("each deletion needs a line in the audit log"), std::string::npos) << without.err();
+  EXPECT_NE(without.err().find("each deletion needs a line in the audit log of a state folder, and there is none at " +
+                               state.file("none") + ". Repeat with --state DIR"),
+            std::string::npos)
+      << without.err();
+  EXPECT_NE(without.err().find("`tandem-server init --state DIR`"), std::string::npos) << without.err();
   EXPECT_TRUE(fs::exists(folder.file("a.mcap")));
   Process gone = recordings({"delete", "a.mcap", "--dir", folder.file(""), "--yes", "--state", keys});
   EXPECT_EQ(gone.wait(), 0) << gone.err();
@@ -177,6 +181,26 @@ TEST(Recordings, AreDeletedOnlyWithYesAndWithAnAuditLine) {
   Process person = recordings({"forget-person", "Ada", "--dir", folder.file(""), "--yes", "--state", keys});
   EXPECT_EQ(person.wait(), 0) << person.err();
   EXPECT_NE(person.err().find("no recording has a person \"Ada\""), std::string::npos) << person.err();
+}
+
+TEST(Recordings, HaveTheirLengthInSessionTimeAfterARepair) {
+  const Folder folder;
+  ASSERT_TRUE(record(folder, "a"));
+  const std::string whole = folder.read("a.mcap");
+  folder.write("cut.mcap.part", whole.substr(0, whole.size() * 7 / 10));
+  Process repair = server({"repair", folder.file("cut.mcap.part")});
+  ASSERT_EQ(repair.wait(), 0) << repair.err();
+  Process show = recordings({"show", "cut.mcap", "--dir", folder.file(""), "--json"});
+  ASSERT_EQ(show.wait(), 0) << show.err();
+  const double length = Json::parse(show.out())[0]["duration_s"];
+  EXPECT_GT(length, 0.5);
+  char text[40];
+  std::snprintf(text, sizeof text, ", %.3f s of the session\n", length);
+  EXPECT_NE(repair.out().find(text), std::string::npos) << text << " in " << repair.out();
+  folder.write("empty.mcap.part", "");
+  Process empty = server({"repair", folder.file("empty.mcap.part")});
+  EXPECT_EQ(empty.wait(), 1);
+  EXPECT_NE(empty.err().find("empty.mcap.part: is empty: "), std::string::npos) << empty.err();
 }
 
 TEST(Recordings, NameAllMistakesOfTheirArguments) {

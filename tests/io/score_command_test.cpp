@@ -98,6 +98,19 @@ TEST(ScoreCommand, ComparesALearnerWithExperts) {
   EXPECT_NE(process.err().find("against 3 expert recordings, and over 2 sessions"), std::string::npos);
 }
 
+TEST(ScoreCommand, SaysWhatAForeignFileIsNot) {
+  const Folder folder;
+  folder.write("empty.mcap", "");
+  folder.write("letter.txt", "Dear Ada,\nhello\n");
+  folder.write("picture.png", std::string("\x89PNG\r\n\x1a\n\0\0", 10));
+  Process process = score({folder.file("empty.mcap"), folder.file("letter.txt"), folder.file("picture.png")});
+  EXPECT_EQ(code_of(process), 2);
+  for (const std::string part :
+       {"empty.mcap: is empty; scores are computed from a recording (MCAP)",
+        "letter.txt: is no table: its first line has no name[unit]", "picture.png: is a binary file of another kind"})
+    EXPECT_NE(process.err().find(part), std::string::npos) << part << " in " << process.err();
+}
+
 TEST(ScoreCommand, NamesEveryMistakeAtOnce) {
   const Folder folder;
   const std::string file = trace(folder, "a.csv", "contact", "0.5");

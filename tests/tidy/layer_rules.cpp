@@ -16,7 +16,7 @@ struct Library {
   std::string_view prefix;
   std::string_view name;
 };
-constexpr std::array<Library, 23> kLibraries{{{"Eigen/", "Eigen"},
+constexpr std::array<Library, 24> kLibraries{{{"Eigen/", "Eigen"},
                                               {"unsupported/Eigen/", "Eigen"},
                                               {"asio/", "asio"},
                                               {"asio.hpp", "asio"},
@@ -37,6 +37,7 @@ constexpr std::array<Library, 23> kLibraries{{{"Eigen/", "Eigen"},
                                               {"zstd.h", "zstd"},
                                               {"zlib.h", "zlib"},
                                               {"sqlite3.h", "sqlite"},
+                                              {"libqhull_r/", "qhull"},
                                               {"prometheus/", "prometheus"},
                                               {"boost/", "boost"}}};
 constexpr std::string_view kSystem = "system";

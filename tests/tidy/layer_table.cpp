@@ -82,9 +82,11 @@ const std::array<Layer, 53> kLayers{{
      {"Eigen"},
      "hal/core is base, Eigen and the plain structs of a scene; it knows no driver, no bus and no simulation"},
     {"hal/sim",
-     {"common/base", "common/control/integrator.h", "hal/core", "hal/sim", "proto/spec/scene_spec.h"},
+     {"common/base", "common/control/integrator.h", "hal/core", "hal/sim", "proto/spec/lesson.h",
+      "proto/spec/scene_spec.h"},
      {"Eigen"},
-     "hal/sim simulates devices, hands and environments: core, integrators and the plain structs of a scene"},
+     "hal/sim simulates devices, hands and environments: core, integrators and the plain structs of a scene and of a "
+     "lesson"},
     {"hal/drivers",
      {"common/base", "hal/core", "hal/drivers", "hal/sim", "proto/spec/device_spec.h", "proto/spec/spacemouse_spec.h",
       "proto/spec/woodenhaptics_spec.h"},
@@ -92,7 +94,8 @@ const std::array<Layer, 53> kLayers{{
      "a driver is codec, kinematics and start-up behind the pipes and the clock of hal/core: no bus library, no file, "
      "no clock of the machine"},
     {"hal/io",
-     {"common/base", "common/io/clock.h", "hal/core", "hal/drivers", "hal/io", "hal/sim", "proto/spec/scene_spec.h"},
+     {"common/base", "common/io/clock.h", "common/io/whole_file.h", "hal/core", "hal/drivers", "hal/io", "hal/sim",
+      "proto/recording/lesson_reader.h", "proto/spec/scene_spec.h"},
      {"Eigen"},
      "hal/io has the buses, servo threads, the watchdog process and files of motion; it knows no backend, no network "
      "and no session"},
@@ -222,7 +225,7 @@ const std::array<Layer, 53> kLayers{{
     {"netsim/score",
      {"common/base", "netsim/demo/captioned_figure.h", "netsim/demo/report_style.h", "netsim/plot", "netsim/score",
       "proto/spec", "server/console/evaluation_sheets.h"},
-     {"Eigen", "boost", "json"},
+     {"Eigen", "boost", "json", "qhull"},
      "scores are computed from recorded lessons by pure functions: no session, files or clocks; those belong to "
      "netsim/app"},
     {"netsim/testing",

@@ -13,6 +13,7 @@
 #include "common/io/usage_errors.h"
 #include "hal/backends/backend.h"
 #include "hal/io/open_sim_device.h"
+#include "hal/io/recording_motion.h"
 #include "proto/wire/wire_messages.h"
 
 namespace tandem::client {
@@ -42,7 +43,8 @@ SeatOptions parse_command(const JoinArguments& arguments, io::UsageErrors& error
     errors.add("--seat: a name has 1 to 32 characters");
   if (HardwareDevice::is_hardware_spec(arguments.device)) {
     errors.add(HardwareDevice::spec_errors(arguments.device));
-  } else if (const auto device = hal::open_sim_device(arguments.device, SimDeviceSpec{}, HandSpec{})) {
+  } else if (const auto device = hal::open_sim_device(arguments.device, SimDeviceSpec{}, HandSpec{}, {}, {},
+                                                      hal::recording_motion_reader(arguments.seat))) {
     plan.join.caps = known_caps(device->device->caps());
   } else {
     std::istringstream lines(device.error().message);
@@ -128,7 +130,9 @@ void add_join_command(const io::Command& root) {
       "  sim:keyboard                you move the hand: arrow keys and PgUp/PgDn\n"
       "  sim:motion=FILE.csv         a recorded motion moves the hand; behind it, without spaces, also ,columns=PREFIX "
       ",rec=N\n"
-      "                              ,scale=auto|S ,axes=+x+y+z ,end=hold|loop ,middle=zero|keep\n" +
+      "                              ,scale=auto|S ,axes=+x+y+z ,end=hold|loop ,middle=zero|keep\n"
+      "  sim:motion=FILE.mcap        a hand of a recording moves the hand; ,seat=NAME names it (default: that of "
+      "--seat)\n" +
       hardware +
       "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
       "serial=)\n"

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "common/base/format.h"
 #include "common/base/milliseconds.h"
 #include "common/base/unit_suffix.h"
 #include "common/io/command_line.h"
+#include "common/io/whole_file.h"
 #include "netsim/profiles/app/capacity_file.h"
 #include "netsim/profiles/app/network_numbers.h"
 #include "netsim/profiles/network_csv.h"
@@ -62,21 +60,8 @@ std::string lines_of(const InputErrors& errors) {
   return text;
 }
 
-std::expected<std::string, std::string> read_whole_file(const std::string& path, std::uintmax_t bytes_max) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) return std::unexpected(path + ": " + error.message());
-  if (size > bytes_max) return std::unexpected(path + ": is larger than " + std::to_string(bytes_max >> 20) + " MiB");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string text(static_cast<std::size_t>(size), '\0');
-  file.read(text.data(), static_cast<std::streamsize>(size));
-  if (!file) return std::unexpected(path + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
-  return text;
-}
-
 std::expected<std::string, std::string> read_network_file(const std::string& path) {
-  return read_whole_file(path, kFileMax);
+  return io::read_whole_file(path, kFileMax);
 }
 
 std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {

@@ -87,9 +87,6 @@ void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& 
 /// Returns one line per error, without a line feed at the end.
 [[nodiscard]] std::string lines_of(const InputErrors& errors);
 
-/// Returns the contents of a file of at most `bytes_max` bytes, or an error: `FILE: reason`.
-[[nodiscard]] std::expected<std::string, std::string> read_whole_file(const std::string& path,
-                                                                      std::uintmax_t bytes_max);
 /// Returns the contents of a profile or recording of at most 64 MiB, or an error.
 [[nodiscard]] std::expected<std::string, std::string> read_network_file(const std::string& path);
 

@@ -88,10 +88,15 @@ int print_chosen(const std::vector<RecordingRow>& rows, bool deleted, bool json)
 int delete_chosen(const RecordingsTask& task, OpenIndex& open, const std::vector<std::size_t>& chosen,
                   const char* reason) {
   if (!task.yes || chosen.empty()) return print_chosen(picked(open.rows, chosen), false, task.json);
+  const std::string why = "nothing was deleted: each deletion needs a line in the audit log of a state folder";
+  if (const auto path = auth::server_state_path(task.state); path)
+    if (std::error_code error; !std::filesystem::exists(*path, error) && !error)
+      return print_error(kCommand, why + ", and there is none at " + *path +
+                                       ". Repeat with --state DIR, the folder of the server that recorded. If that " +
+                                       "server has none (loopback, started without --state), make one: " +
+                                       "`tandem-server init --state DIR`");
   auto state = open_state(task.state);
-  if (!state)
-    return print_error(kCommand,
-                       "nothing was deleted, because each deletion needs a line in the audit log: " + state.error());
+  if (!state) return print_error(kCommand, why + ": " + state.error());
   const AuditLine audit = [&state](const char* event, const std::string& name, const std::string& detail) {
     return state->audit(auth::wall_seconds(), event, name, detail);
   };

@@ -1,10 +1,12 @@
 #include <string>
 #include <vector>
 
+#include "common/base/format.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "server/app/commands/server_commands.h"
+#include "server/archive/app/lesson_file.h"
 #include "server/recording/io/recording_repair.h"
 
 namespace tandem::server {
@@ -14,6 +16,12 @@ struct RepairArguments {
   std::vector<std::string> files;
 };
 
+/// Length of a recording in session time, as `recordings list` has it; empty if it cannot be read.
+std::string length_text(const std::string& path) {
+  const auto summary = load_summary(path);
+  return summary ? format(", %.3f s of the session", summary->duration_s) : std::string();
+}
+
 int repair_command(const RepairArguments& arguments) {
   int code = io::kExitDone;
   for (const std::string& file : arguments.files) {
@@ -21,7 +29,8 @@ int repair_command(const RepairArguments& arguments) {
         file, [&file](const std::string& progress) { io::print(stderr, file + ": " + progress + "\n"); });
     const bool good =
         repair.kind == RecordingRepair::Kind::kRepaired || repair.kind == RecordingRepair::Kind::kComplete;
-    io::print(good ? stdout : stderr, (good ? "" : "tandem-server repair: ") + repair.text + "\n");
+    io::print(good ? stdout : stderr,
+              (good ? "" : "tandem-server repair: ") + repair.text + (good ? length_text(repair.path) : "") + "\n");
     if (!good) code = io::kExitTrouble;
   }
   return code;

@@ -104,8 +104,6 @@ std::string write_new(const std::string& path, std::string_view bytes, const Pro
 std::string kept_text(const mcap::RepairResult& repaired) {
   std::string text = format("%llu chunks with %llu messages", static_cast<unsigned long long>(repaired.chunks),
                             static_cast<unsigned long long>(repaired.messages));
-  if (repaired.messages > 0)
-    text += format(", %.2f s", 1e-9 * static_cast<double>(repaired.end_time - repaired.start_time));
   if (repaired.damaged > 0)
     text += format("; %llu damaged chunks are left out", static_cast<unsigned long long>(repaired.damaged));
   if (repaired.lost_bytes > 0)
@@ -130,6 +128,7 @@ RecordingRepair repair_recording(const std::string& path, const Progress& on_pro
     return {Kind::kInUse, path, path + ": a program writes this recording now; end it first"};
   auto bytes = read_all(file.get(), static_cast<std::uint64_t>(status.st_size), on_progress);
   if (!bytes) return failed(bytes.error());
+  if (bytes->empty()) return failed("is empty: its program ended before the disk took a byte; delete it");
   auto repaired = mcap::repair(std::as_bytes(std::span(*bytes)));
   if (!repaired) return {Kind::kFailed, path, repaired.error().text(path)};
   const std::string target = target_of(path);

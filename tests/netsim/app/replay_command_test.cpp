@@ -124,6 +124,8 @@ TEST_F(ReplayCommand, ComparesTwoRecordings) {
   EXPECT_EQ(netsim({"diff", path("a.mcap"), path("a.mcap"), "--limit", "measured_cp"}), 2);
   EXPECT_EQ(netsim({"diff", path("a.mcap"), path("a.mcap"), "--limit", "nothing=1"}), 2);
   EXPECT_NE(err_.find("there is no channel nothing"), std::string::npos) << err_;
+  EXPECT_NE(netsim({"diff", path("a.mcap")}), 0);
+  EXPECT_NE(err_.find("B.mcap is required"), std::string::npos) << err_;
 }
 
 TEST_F(ReplayCommand, TakesAHandOfARecording) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
@@ -55,6 +56,7 @@ TEST_F(RunRecording, GivesTheTraceOfTheSameRun) {
     std::vector<std::string> arguments{"run",      scene,          "--duration", "3",          "--quiet",
                                        "--record", path("a.mcap"), "--trace",    path("a.csv")};
     arguments.insert(arguments.end(), options.begin(), options.end());
+    std::filesystem::remove(path("a.mcap"));
     ASSERT_LE(netsim(arguments), 1) << err_;
     ASSERT_EQ(netsim({"trace", path("a.mcap"), "--output", path("b.csv")}), 0) << err_;
     EXPECT_EQ(err_, "");
@@ -91,6 +93,52 @@ TEST_F(RunRecording, NamesFilesThatCannotBe) {
   EXPECT_EQ(netsim({"trace", path("text.mcap"), "--output", path("b.csv")}), 2);
   EXPECT_NE(err_.find("text.mcap"), std::string::npos) << err_;
   EXPECT_EQ(netsim({"trace", path("missing.mcap"), "--output", path("b.csv")}), 2);
+}
+
+TEST_F(RunRecording, ReplacesNoRecording) {
+  std::ofstream(path("a.mcap")) << "kept";
+  EXPECT_EQ(netsim({"run", "contact", "--duration", "1", "--record", path("a.mcap")}), 2);
+  EXPECT_NE(err_.find("--record " + path("a.mcap") + ": exists already; choose another name"), std::string::npos)
+      << err_;
+  EXPECT_EQ(content("a.mcap"), "kept");
+}
+
+// A file system that takes no byte: the limit of the size of files is 0.
+TEST_F(RunRecording, LeavesNoEmptyFileOnAFullDisk) {
+  Process run({"/bin/sh", "-c",
+               "ulimit -f 0; trap '' XFSZ; exec " TANDEM_NETSIM_PROGRAM " run one_axis --duration 1 --quiet --record " +
+                   path("a.mcap")});
+  EXPECT_EQ(run.wait(), 1) << run.err();
+  EXPECT_NE(run.err().find("a.mcap could not be written to the end: the file would be larger than allowed here"),
+            std::string::npos)
+      << run.err();
+  EXPECT_FALSE(std::filesystem::exists(path("a.mcap")));
+}
+
+// The report has the values and the trust that `score` computes from the same file.
+TEST_F(RunRecording, PutsMainScoresIntoTheReport) {
+  EXPECT_EQ(netsim({"run", "contact", "--scores"}), 2);
+  EXPECT_NE(err_.find("--scores: needs --record"), std::string::npos) << err_;
+  Process run({TANDEM_NETSIM_PROGRAM, "run", "contact", "--duration", "4", "--delay", "20", "--record", path("a.mcap"),
+               "--scores", "--json", path("a.json")});
+  ASSERT_LE(run.wait(), 1) << run.err();
+  EXPECT_NE(run.out().find("  scores"), std::string::npos) << run.out();
+  EXPECT_NE(run.out().find("Path length [mm]"), std::string::npos) << run.out();
+  ASSERT_EQ(netsim({"score", path("a.mcap"), "--json", path("s.json"), "--quiet"}), 0) << err_;
+  const auto report = nlohmann::json::parse(content("a.json"))["scores"];
+  const auto scored = nlohmann::json::parse(content("s.json"))["lessons"][0];
+  ASSERT_EQ(report["seats"].size(), 2u);
+  EXPECT_FALSE(report["conditions"].empty());
+  std::size_t compared = 0;
+  for (std::size_t s = 0; s < 2; ++s)
+    for (const auto& part : report["seats"][s]["parts"])
+      for (const auto& other : scored["seats"][s]["parts"])
+        for (const auto& [key, metric] : part["metrics"].items())
+          if (part["part"] == other["part"]) {
+            EXPECT_EQ(metric, other["metrics"][key]) << key;
+            ++compared;
+          }
+  EXPECT_GT(compared, 30u);
 }
 
 TEST_F(RunRecording, ReportsAFullDisk) {

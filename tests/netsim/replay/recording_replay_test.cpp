@@ -80,6 +80,7 @@ TEST(RecordingReplay, RefusesAFileWithoutInputs) {
   const auto replay = replay_recording(bytes_of(record_file(delayed("contact"), 2, false)));
   ASSERT_FALSE(replay);
   EXPECT_NE(replay.error().find("/inputs"), std::string::npos) << replay.error();
+  EXPECT_NE(replay.error().find("It was made without them"), std::string::npos) << replay.error();
   EXPECT_FALSE(replay_recording(bytes_of("no recording")));
 }
 

@@ -51,6 +51,23 @@ TEST(Experts, NeedThreeValuesThatAreNotWithheld) {
   EXPECT_EQ(threshold_of(thresholds_of(poor, "trainee"), "whole", Metric::kPathLength), nullptr);
 }
 
+TEST(Experts, SetNoMarksForTheLinkAndThePassivityOfTheChannel) {
+  std::vector<LessonScores> experts;
+  for (const double length : {0.1, 0.2, 0.3}) {
+    LessonScores lesson = lesson_of(length);
+    for (double& value : lesson.seats[0].parts[0].values)
+      if (!std::isfinite(value)) value = length;  // as if everything were recorded
+    experts.push_back(std::move(lesson));
+  }
+  const auto thresholds = thresholds_of(experts, "trainee");
+  for (const MetricRow& row : metric_rows())
+    EXPECT_EQ(threshold_of(thresholds, "whole", row.metric) != nullptr,
+              row.better != Better::kNeither && row.group != MetricGroup::kLink && row.group != MetricGroup::kPassivity)
+        << row.key;
+  for (const LearningCurve& curve : learning_curves(experts, "trainee", thresholds))
+    EXPECT_NE(row_of(curve.metric).group, MetricGroup::kLink) << row_of(curve.metric).key;
+}
+
 TEST(Cusum, FollowsItsFormulas) {
   const Cusum c = cusum({true, false, true, true, true, true, true, true, true, true, true});
   const double p = std::log(0.4 / 0.2), q = std::log(0.8 / 0.6);

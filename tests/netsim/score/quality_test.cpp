@@ -144,6 +144,37 @@ TEST(ScoreQuality, TakesGateTripsFromTheLinkWhereTheStateIsUnknown) {
   EXPECT_EQ(quality(maker.scores()).gate_trips, 2u);
 }
 
+// A leave, a stop and a pause release the hand as requested. The gate's state looks the same as after a loss.
+TEST(ScoreQuality, DoesNotFlagARequestedRelease) {
+  LessonMaker maker = clean();
+  for (std::size_t k = 4500; k < 5000; ++k) maker.lesson.seats[0].gate[k] = 4;
+  EXPECT_EQ(quality(maker.scores()).gate_trips, 1u) << "without a counter the lesson does not say why";
+  for (std::uint32_t tick = 0; tick < 5000; tick += 16) {
+    LessonLink link;
+    link.tick = tick;
+    maker.lesson.links.push_back(link);
+  }
+  EXPECT_TRUE(quality(maker.scores()).doubts.empty()) << "the client counted no loss";
+  for (LessonLink& link : maker.lesson.links) link.gate_trips = link.tick > 4500 ? 1 : 0;
+  EXPECT_EQ(trust(maker.scores(), Metric::kForcePeak).reason, "the force gate released the hand 1 time");
+  for (LessonLink& link : maker.lesson.links) link.gate_trips = 0;
+  for (std::size_t k = 4500; k < 5000; ++k) maker.lesson.seats[0].gate[k] = 6;
+  EXPECT_EQ(quality(maker.scores()).gate_trips, 1u) << "a reading that is not a number is no loss, and a fault";
+}
+
+TEST(ScoreQuality, CountsTripsOfItsOwnTimeOnly) {
+  LessonMaker maker = clean();
+  for (std::uint32_t& tick : maker.lesson.tick) tick += 60'000;  // the recording begins a minute after its session
+  for (const auto& [tick, trips] : {std::pair{60'010u, 3u}, std::pair{61'000u, 3u}, std::pair{62'000u, 4u},
+                                    std::pair{63'000u, 0u}, std::pair{64'000u, 1u}}) {
+    LessonLink link;
+    link.tick = tick;
+    link.gate_trips = trips;
+    maker.lesson.links.push_back(link);
+  }
+  EXPECT_EQ(quality(maker.scores()).gate_trips, 2u) << "from 3 to 4, and one of the next program at the seat";
+}
+
 TEST(ScoreQuality, CallsUnknownValuesAbsent) {
   LessonMaker maker;
   maker.ticks(1000).hand(0, [](double t) { return LessonTriple{0.1 * t, 0, 0}; });

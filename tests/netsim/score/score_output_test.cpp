@@ -86,11 +86,27 @@ TEST(ScoreOutput, HasNineCellsInEveryLineOfCsv) {
 
 TEST(ScoreOutput, StatesConditionsAndInterventionsInText) {
   const std::string text = scores_text(result_of(rich()), "trainee");
-  EXPECT_NE(text.find("low-pass at 10 Hz"), std::string::npos);
+  EXPECT_NE(text.find("low-pass of effective order 4 without phase (Butterworth of order 2, run forward and backward), "
+                      "cut-off (-3 dB after both runs) 10 Hz for positions and 20 Hz for forces"),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("1.50 to 3.00 s: trainer takes tool tool from trainee (not recorded)"), std::string::npos)
       << text;
   EXPECT_NE(text.find("held:trainee"), std::string::npos);
   EXPECT_EQ(text.find("\ntrainer, instructor"), std::string::npos) << "only the named seat";
+}
+
+TEST(ScoreOutput, CutsNoHeadOfAColumnAndNamesNoToolThatIsNotRecorded) {
+  LessonMaker maker = rich();
+  maker.lesson.scene.phases = {{"demonstration_of_the_instructor", 0, 1.5, false}};
+  std::string text = scores_text(result_of(maker), "trainee");
+  EXPECT_NE(text.find("  phase:demonstration_of_the_instructor\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("trainee, tool tool\n"), std::string::npos) << text;
+  maker.lesson.tools[0] = {};
+  text = scores_text(result_of(maker), "trainee");
+  EXPECT_NE(text.find("trainee, no tool\n"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(scores_json(result_of(maker)));
+  EXPECT_TRUE(json["lessons"][0]["seats"][1]["tool"].is_null());
 }
 
 TEST(ScorePage, IsWholeAndEscapesEveryText) {

@@ -12,6 +12,8 @@
 #include "netsim/system/simulated_program.h"
 #include "netsim/system/simulated_server.h"
 #include "netsim/system/wake_order.h"
+#include "proto/text/scene_text.h"
+#include "proto/text/scenes_embedded.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem::netsim {
@@ -244,6 +246,21 @@ TEST(SessionLinkMonitors, SummariseEverySeatFromTheirStart) {
   EXPECT_EQ(links[0].link.down.sent, 1u);
   EXPECT_EQ(links[1].name, "b");
   EXPECT_EQ(links[1].link.up.sent, 0u);
+}
+
+TEST(Simulation, LeavesFreeSeatsFreeToTheEnd) {
+  SimulationConfig setup;
+  setup.scene = *parse_scene(find_shipped_scene("eight_seats")->text, "eight_seats.textproto");
+  setup.free_seats = {"evaluator1", "evaluator7"};
+  const auto simulation = *Simulation::make(setup);
+  for (int tick = 0; tick < 1500; ++tick) ASSERT_TRUE(simulation->step());
+  EXPECT_EQ(simulation->session().state(), wire::SessionState::kRunning);
+  for (std::size_t i = 0; i < setup.scene.seats.size(); ++i)
+    EXPECT_EQ(simulation->seat(i) == nullptr, setup.free_seats.contains(setup.scene.seats[i].name)) << i;
+  setup.free_seats = {"trainee"};
+  EXPECT_NE(Simulation::make(setup).error().find("seat trainee cannot stay free"), std::string::npos);
+  setup.free_seats = {"nurse"};
+  EXPECT_NE(Simulation::make(setup).error().find("a free seat nurse"), std::string::npos);
 }
 
 }  // namespace

@@ -80,6 +80,20 @@ TEST(Summary, HasEveryPersonOfSeatsAndNotesOnce) {
   EXPECT_EQ(recordings_with(rows, "eve"), Chosen{}) << "another name";
 }
 
+TEST(Summary, BeginsWithTheFirstRowAndNotWithTheSession) {
+  Lesson lesson = test::empty_lesson(test::shipped("free_motion"));
+  for (const std::uint32_t tick : {60'000u, 60'001u}) {
+    TickRecord record;
+    record.tick = tick;
+    record.time_ns = std::int64_t{1'000'000} * tick;
+    test::append_record(lesson, record);
+  }
+  lesson.start_unix_ns = 0;
+  EXPECT_EQ(summary_of(lesson).start_unix_ns, 0) << "the wall clock is unknown";
+  lesson.start_unix_ns = kNow;
+  EXPECT_EQ(summary_of(lesson).start_unix_ns, kNow + 60'000'000'000) << "an order began it after a minute";
+}
+
 TEST(RecordingText, NamesPersonsAndSkippedFilesSafely) {
   std::vector<RecordingRow> rows{row("good.mcap", 1, 2'500'000), row("bad\x1b[2J.mcap", 1, 7)};
   rows[0].summary.session = "lesson";

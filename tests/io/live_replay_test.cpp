@@ -1,0 +1,283 @@
+// Recordings of real sessions as inputs: replayed bit for bit, played under other conditions, and as hands of a new
+// one.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include "common/base/raw_bytes.h"
+#include "proto/recording/lesson_reader.h"
+#include "tests/common/base/counts.h"
+#include "tests/io/programs.h"
+
+namespace tandem::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A program that has ended.
+struct Ended {
+  int code = 0;
+  std::string out, err;
+};
+Ended ended(const std::string& program, Words words) {
+  words.insert(words.begin(), program);
+  Process process(std::move(words));
+  const int code = process.wait().value_or(-1000);
+  return {code, process.out(), process.err()};
+}
+Ended netsim(Words words) { return ended(TANDEM_NETSIM, std::move(words)); }
+Ended control(const std::string& address, Words words) {
+  words.insert(words.begin(), {"control", "--server", address});
+  return ended(TANDEM_CLIENT, std::move(words));
+}
+
+/// A network that loses, delays, doubles and reorders datagrams, in front of a server.
+Process lossy(const std::string& address, std::uint64_t seed) {
+  Process proxy({TANDEM_NETSIM, "proxy", "--to", address, "--listen", "127.0.0.1:0", "--delay", "5", "--jitter", "3",
+                 "--loss", "8", "--duplicate", "2", "--reorder", "2", "--seed", std::to_string(seed)});
+  proxy.wait_for("listening on ");
+  return proxy;
+}
+
+/// Expects that a recording replays equal. @return the result
+Json expect_equal(const std::string& file) {
+  const Ended replay = netsim({"replay", file, "--json", "-"});
+  EXPECT_EQ(replay.code, 0) << replay.out << replay.err;
+  Json result = Json::parse(replay.out, nullptr, false);
+  if (result.is_discarded()) {
+    ADD_FAILURE() << "no JSON: " << replay.out << replay.err;
+    return Json::object();
+  }
+  EXPECT_EQ(result["equal"], true) << result;
+  EXPECT_EQ(result["complete"], true) << result;
+  return result;
+}
+
+Lesson lesson_in(const Folder& folder, const std::string& name) {
+  const std::string bytes = folder.read(name);
+  auto lesson = read_lesson(bytes_of(bytes));
+  EXPECT_TRUE(lesson) << name << ": " << lesson.error();
+  return lesson ? std::move(*lesson) : Lesson{};
+}
+
+std::size_t events_of(const Lesson& lesson, const std::string& what) {
+  return static_cast<std::size_t>(std::ranges::count(lesson.events, what, &LessonEvent::what));
+}
+
+// Timing of a live server is not repeatable: each recording is another sequence of arrivals, which the replay must hit.
+TEST(LiveReplay, GivesALiveSessionOverALossyNetworkBitForBit) {
+  const std::size_t seeds = draws(3, 8, 20);
+  std::uint64_t ticks = 0, datagrams = 0, outputs = 0;
+  double lost = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Folder folder;
+    const std::string scene = seed % 3 == 0 ? "seed_contact" : seed % 3 == 1 ? "contact" : "two_by_two";
+    Process host = hosting(scene, {"--duration", "4", "--record", folder.file("a.mcap")});
+    Process proxy = lossy(address_of(host), seed);
+    std::vector<Process> clients;
+    for (const std::string& seat : Words{"trainer", "trainee"}) clients.push_back(client(address_of(proxy), seat));
+    EXPECT_TRUE(host.wait()) << host.err();
+    for (Process& process : clients) EXPECT_TRUE(process.wait()) << process.err();
+    const Json result = expect_equal(folder.file("a.mcap"));
+    EXPECT_GT(result.value("rows", 0), 3000);
+    ticks += result.value("ticks", 0U);
+    datagrams += result.value("datagrams", 0U);
+    outputs += result.value("outputs", 0U);
+    for (const LessonLink& link : lesson_in(folder, "a.mcap").links)
+      if (std::isfinite(link.loss_up_percent)) lost = std::max(lost, link.loss_up_percent);
+  }
+  std::printf(
+      "[  figures ] %zu of %zu live sessions bit for bit: %llu ticks, %llu datagrams, %llu outputs; loss %.1f %%\n",
+      seeds, seeds, static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(datagrams),
+      static_cast<unsigned long long>(outputs), lost);
+  EXPECT_GT(lost, 2.0) << "the network lost datagrams";
+}
+
+TEST(LiveReplay, GivesStopPauseHandoverAndARejoinedSeatBitForBit) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "8", "--record", folder.file("a.mcap")});
+  const std::string address = address_of(host);
+  Process proxy = lossy(address, 7);
+  Process trainer = client(address_of(proxy), "trainer");
+  {
+    Process trainee = client(address_of(proxy), "trainee");
+    ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+    std::this_thread::sleep_for(500ms);
+    EXPECT_EQ(control(address, {"authority", "trainer=0.3,trainee=0.7"}).code, 0);
+    EXPECT_EQ(control(address, {"stop", "look", "here"}).code, 0);
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(control(address, {"resume"}).code, 0);
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(control(address, {"--role", "evaluator", "pause"}).code, 0);
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(control(address, {"resume"}).code, 0);
+    trainee.signal(SIGINT);
+    EXPECT_TRUE(trainee.wait()) << trainee.err();
+  }
+  Process again = client(address_of(proxy), "trainee");
+  EXPECT_TRUE(again.wait_for("the session runs")) << again.err();
+  EXPECT_TRUE(host.wait()) << host.err();
+  EXPECT_TRUE(trainer.wait()) << trainer.err();
+  EXPECT_TRUE(again.wait()) << again.err();
+  const Lesson lesson = lesson_in(folder, "a.mcap");
+  for (const auto& [what, least] : std::map<std::string, std::size_t>{
+           {"join", 3}, {"leave", 1}, {"authority", 1}, {"stop", 1}, {"pause", 1}, {"resume", 2}})
+    EXPECT_GE(events_of(lesson, what), least) << what;
+  const Json result = expect_equal(folder.file("a.mcap"));
+  EXPECT_GT(result.value("rows", 0), 7000);
+}
+
+TEST(LiveReplay, PlaysAWhatIfWithASeatThatWasNeverTaken) {
+  const Folder folder;
+  Process host = hosting("eight_seats", {"--duration", "4", "--record", folder.file("a.mcap")});
+  Process trainee = client(address_of(host), "trainee"), evaluator = client(address_of(host), "evaluator3");
+  EXPECT_TRUE(host.wait()) << host.err();
+  EXPECT_TRUE(trainee.wait()) << trainee.err();
+  EXPECT_TRUE(evaluator.wait()) << evaluator.err();
+  const Ended played = netsim({"replay", folder.file("a.mcap"), "--what-if", "delay=20", "--json", "-"});
+  ASSERT_EQ(played.code, 0) << played.err;
+  const Json numbers = Json::parse(played.out)["numbers"];
+  EXPECT_TRUE(numbers["leader_tool_rms_m"]["played"].is_number()) << numbers;
+  expect_equal(folder.file("a.mcap"));
+  const Ended none = netsim({"run", "eight_seats", "--hand", "trainee=" + folder.file("a.mcap") + ",seat=evaluator1"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("no participant took seat evaluator1; the recording has the hands: trainee evaluator3"),
+            std::string::npos)
+      << none.err;
+}
+
+// An order begins the recording in the midst of its session, and a recorder outside of the server has values only.
+TEST(LiveReplay, SaysWhyARecordingHasNoInputs) {
+  const Folder folder, films;
+  Process host = hosting("one_axis", {"--duration", "5", "--record", films.file(""), "--record-on-order"});
+  const std::string address = address_of(host);
+  Process recorder({TANDEM_CLIENT, "record", "--server", address, "--out", folder.file("out.mcap"), "--quiet"});
+  Process trainer = client(address, "trainer");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  std::this_thread::sleep_for(1500ms);
+  EXPECT_EQ(control(address, {"record", "start"}).code, 0);
+  EXPECT_TRUE(host.wait()) << host.err();
+  EXPECT_TRUE(trainer.wait()) << trainer.err();
+  EXPECT_TRUE(recorder.wait()) << recorder.err();
+  const Ended list = ended(TANDEM_SERVER, {"recordings", "list", "--dir", films.file(""), "--json"});
+  ASSERT_EQ(list.code, 0) << list.err;
+  const Json rows = Json::parse(list.out);
+  ASSERT_EQ(rows.size(), 1u) << rows;
+  const std::string name = rows[0]["file"];
+  const Lesson lesson = lesson_in(films, name);
+  ASSERT_GT(lesson.tick.front(), 1000u);
+  EXPECT_EQ(rows[0]["start_unix_ns"], lesson.start_unix_ns + lesson.time_ns.front())
+      << "begin of the recording, not of its session";
+  Ended replay = netsim({"replay", films.file(name)});
+  EXPECT_EQ(replay.code, 2);
+  const std::string reason =
+      "The recording was begun by an order at tick " + std::to_string(lesson.tick.front()) + " of its session";
+  EXPECT_NE(replay.err.find(reason), std::string::npos) << replay.err;
+  EXPECT_EQ(netsim({"score", films.file(name)}).code, 0);
+  EXPECT_EQ(netsim({"replay", films.file(name), "--what-if", "delay=10"}).code, 0);
+  replay = netsim({"replay", folder.file("out.mcap")});
+  EXPECT_EQ(replay.code, 2);
+  EXPECT_NE(replay.err.find("`tandem-client record` receives values"), std::string::npos) << replay.err;
+}
+
+// A leave at the end is no fault: no score is flagged for it.
+TEST(LiveReplay, ScoresALeaveWithoutAFlag) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "5", "--record", folder.file("a.mcap")});
+  const std::string address = address_of(host);
+  Process trainer = client(address, "trainer"), trainee = client(address, "trainee");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  std::this_thread::sleep_for(3s);
+  trainee.signal(SIGINT);
+  EXPECT_TRUE(trainee.wait()) << trainee.err();
+  EXPECT_TRUE(host.wait()) << host.err();
+  EXPECT_TRUE(trainer.wait()) << trainer.err();
+  const Lesson lesson = lesson_in(folder, "a.mcap");
+  std::uint32_t losses = 0;
+  for (const LessonLink& link : lesson.links) losses = std::max(losses, link.gate_trips);
+  EXPECT_GT(std::ranges::count(lesson.seats[1].gate, std::uint8_t{4}), 0) << "the gate released the hand";
+  const Ended scored = netsim({"score", folder.file("a.mcap"), "--json", "-", "--quiet"});
+  ASSERT_EQ(scored.code, 0) << scored.err;
+  for (const Json& seat : Json::parse(scored.out)["lessons"][0]["seats"])
+    EXPECT_LE(seat["parts"][0]["quality"]["gate_trips"], losses) << seat["seat"];
+}
+
+// The hand's intention is the recorded tip, and the hand has a mass and a spring of 1000 N/m: it follows within 2 mm.
+TEST(LiveReplay, ARecordedHandFollowsItsPathInANewLiveSession) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "6", "--record", folder.file("a.mcap")});
+  Process trainer = client(address_of(host), "trainer"), trainee = client(address_of(host), "trainee");
+  EXPECT_TRUE(host.wait()) << host.err();
+  EXPECT_TRUE(trainer.wait()) << trainer.err();
+  EXPECT_TRUE(trainee.wait()) << trainee.err();
+
+  Process next = hosting("free_motion", {"--duration", "6", "--record", folder.file("b.mcap")});
+  const std::string hand = "sim:motion=" + folder.file("a.mcap") + ",seat=trainer";
+  Process leader = client(address_of(next), "trainer", {}, hand);
+  Process other = client(address_of(next), "trainee", {}, "sim:hand=relaxed");
+  EXPECT_TRUE(next.wait()) << next.err();
+  EXPECT_EQ(leader.wait(), 0) << leader.err();
+  EXPECT_TRUE(other.wait()) << other.err();
+
+  const Lesson before = lesson_in(folder, "a.mcap"), now = lesson_in(folder, "b.mcap");
+  std::map<std::uint32_t, std::size_t> rows;
+  for (std::size_t k = 0; k < before.rows(); ++k) rows[before.seats[0].sample_tick[k]] = k;
+  double sum = 0, worst = 0, reach = 0;
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < now.rows(); ++k) {
+    const auto at = rows.find(now.seats[0].sample_tick[k]);
+    if (at == rows.end() || now.tick[k] < 2000) continue;  // hands are engaged, and have settled
+    double square = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double d = now.seats[0].x[k][a] - before.seats[0].x[at->second][a];
+      square += d * d;
+      reach = std::max(reach, std::abs(before.seats[0].x[at->second][a]));
+    }
+    sum += square;
+    worst = std::max(worst, std::sqrt(square));
+    ++n;
+  }
+  ASSERT_GT(n, 3000u);
+  const double rms = std::sqrt(sum / static_cast<double>(n));
+  std::printf(
+      "[  figures ] recorded hand in a new session beside its recording: RMS %.2f mm, worst %.2f mm, path of %.0f mm\n",
+      1e3 * rms, 1e3 * worst, 1e3 * reach);
+  EXPECT_GT(reach, 0.03);
+  EXPECT_LT(rms, 2e-3);
+  EXPECT_LT(worst, 5e-3);
+}
+
+TEST(LiveReplay, RejectsAHandThatTheRecordingHasNot) {
+  const Folder folder;
+  const Ended made = netsim({"run", "contact", "--duration", "2", "--quiet", "--record", folder.file("a.mcap")});
+  ASSERT_LE(made.code, 1) << made.err;
+  const auto refusal = [&](const std::string& device) {
+    Process refused = client("127.0.0.1:1", "trainer", {}, device);
+    EXPECT_EQ(refused.wait(), 2) << device << refused.err();
+    return refused.err();
+  };
+  const std::string a = "sim:motion=" + folder.file("a.mcap");
+  std::string words = refusal(a + ",seat=nurse");
+  EXPECT_NE(
+      words.find(folder.file("a.mcap") + ": seat=nurse: the recording has no hand nurse; it has: trainer trainee"),
+      std::string::npos)
+      << words;
+  words = refusal(a + ",scale=2");
+  EXPECT_NE(words.find("scale=2: a recording (" + folder.file("a.mcap") + ") takes seat=NAME only"), std::string::npos)
+      << words;
+  words = refusal("sim:motion=" + folder.write("a.csv", "t_s[s],x[m],y[m],z[m]\n0,0,0,0\n1,0,0,0\n") + ",seat=trainer");
+  EXPECT_NE(words.find("seat=trainer: belongs to a recording (motion=FILE.mcap)"), std::string::npos) << words;
+  words = refusal("sim:motion=" + folder.file("absent.mcap"));
+  EXPECT_NE(words.find("absent.mcap"), std::string::npos) << words;
+  words = refusal("sim:motion=" + folder.write("text.mcap", "no recording"));
+  EXPECT_NE(words.find("text.mcap: "), std::string::npos) << words;
+}
+
+}  // namespace
+}  // namespace tandem::test
