@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -34,6 +35,10 @@ struct SessionCommand;
 class InputJournal {
  public:
   static constexpr std::size_t kCapacity = std::size_t{8} << 20;  ///< [bytes]: about 2 s of 16 seats at 1 kHz
+  /// Returns the bytes of about 2 s of a scene at 1 kHz. A seat's datagram grows with each tool that it is coupled to.
+  [[nodiscard]] static constexpr std::size_t capacity_for(std::size_t seats, std::size_t tools) noexcept {
+    return std::min(kCapacity, seats * (1 + tools) * 320 * 1024);
+  }
 
   /// @param key       hides network addresses; random, and never written to a file
   /// @param capacity  bytes that wait for the draining thread, at most

@@ -67,6 +67,12 @@ TANDEM_PACKAGES_FULL=(
   "libxml2-utils: checks the JUnit files"
   "python3-h5py: reads exported HDF5 files"
   "octave: reads them too"
+  "libenet-dev: a package that the benchmark peers compares with"
+  "libzmq3-dev: the same"
+  "cyclonedds-dev: the same"
+  "cyclonedds-tools: its compiler of message definitions"
+  "libgrpc++-dev: the same, with TLS"
+  "protobuf-compiler-grpc: its compiler of message definitions"
 )
 
 # Further packages of ./test --fuzz.

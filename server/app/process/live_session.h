@@ -13,12 +13,12 @@
 #include "server/app/monitor/session_status.h"
 #include "server/app/process/checkpoint_publisher.h"
 #include "server/app/process/local_slaves.h"
+#include "server/app/process/tick_queue.h"
 #include "server/report/violations.h"
 #include "server/session/session.h"
 
 namespace tandem::server {
 
-using TickQueue = io::SpscQueue<TickRecord>;
 using AuditEventQueue = io::SpscQueue<AuditEvent>;
 
 /// A session as served by a shard: the session, its invariant checker, the queue of its tick records, and a status

@@ -21,9 +21,6 @@
 namespace tandem::server {
 namespace {
 
-/// Two seconds of ticks at 1 kHz: the recorder may be delayed for so long before ticks are dropped and counted.
-constexpr std::size_t kQueueTicks = 2048;
-
 const char* to_text(EndReason end) {
   constexpr const char* kNames[] = {"scene",       "signal",   "nobody_came", "peers_lost",
                                     "people_left", "operator", "time_limit"};
@@ -84,7 +81,8 @@ SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves,
                                  const SessionSnapshot* kept)
     : options_(&plan),
       id_(kept != nullptr ? kept->id : auth::random_bytes<auth::Id16>()),
-      queue_(kQueueTicks),
+      queue_(TickQueue::capacity_for(plan.scene.seats.size(), plan.scene.tools.size()), plan.scene.seats.size(),
+             plan.scene.tools.size()),
       recorder_(plan.scene, queue_, trace_),
       live_session_(std::make_unique<LiveSession>(plan.scene, std::move(slaves), slot, queue_,
                                                   kept != nullptr ? &kept->checkpoint : nullptr)),
@@ -117,7 +115,8 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
 void SessionInstance::attach_journal(Time start, const SessionSnapshot* kept) {
   transport::HashKey key;
   auth::fill_random(key);
-  journal_ = std::make_unique<InputJournal>(key);
+  journal_ = std::make_unique<InputJournal>(
+      key, InputJournal::capacity_for(options_->scene.seats.size(), options_->scene.tools.size()));
   unrecorded_ = journal_.get();
   live_session_->session().attach_journal(*journal_, start, build_text(),
                                           kept != nullptr ? &kept->checkpoint : nullptr);

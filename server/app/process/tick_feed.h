@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "server/app/process/live_session.h"
+#include "server/app/process/tick_queue.h"
 
 namespace tandem::server {
 
@@ -12,8 +12,7 @@ namespace tandem::server {
 /// records that do not fit are dropped; `newest` shows a drop behind which no record follows.
 class TickFeed {
  public:
-  /// @param ticks  that the reading thread may be late
-  explicit TickFeed(std::size_t ticks) : ticks_(ticks) {}
+  TickFeed(std::size_t seats, std::size_t tools) : ticks_(TickQueue::capacity_for(seats, tools), seats, tools) {}
 
   /// For the writing thread.
   void push(const TickRecord& record) noexcept {

@@ -10,9 +10,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kQueueTicks = 2048;  // 2 s at 1 kHz: the thread may be delayed for so long
-constexpr std::size_t kPiece = 65536;      // [bytes] of the input journal in one message
-constexpr Duration kPause = 20ms;          // between two looks at the queues
+constexpr std::size_t kPiece = 65536;  // [bytes] of the input journal in one message
+constexpr Duration kPause = 20ms;      // between two looks at the queues
 constexpr Duration kFilesInterval = 250ms, kLinksInterval = 64ms;
 
 }  // namespace
@@ -37,7 +36,7 @@ LiveRecording::LiveRecording(std::unique_ptr<RecordingFiles> files, const LiveSe
       desk_(std::move(desk)),
       inputs_(inputs),
       piece_(kPiece),
-      ticks_(std::make_shared<TickFeed>(kQueueTicks)),
+      ticks_(std::make_shared<TickFeed>(session.scene().seats.size(), session.scene().tools.size())),
       files_(std::move(files)),
       thread_([this] { run(); }) {}
 

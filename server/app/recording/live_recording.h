@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/base/time.h"
+#include "server/app/process/live_session.h"
 #include "server/app/process/tick_feed.h"
 #include "server/app/recording/recording_desk.h"
 #include "server/recording/io/recording_files.h"
