@@ -20,6 +20,7 @@ struct PageOffers {
   bool invite = false;                    ///< the person may ask for a URL for another browser
   std::string play{};                     ///< seat to take at once; empty: none
   bool proved = false;                    ///< the person's name is that of a ticket
+  bool recordings = false;                ///< the gateway has recordings; the role decides whether the person sees them
   std::span<const std::string> scenes{};  ///< from which the person may create sessions
 };
 /// @param person    name for display

@@ -75,7 +75,8 @@ void LivePage::greet() {
   PageOffers offers{.seats = gateway_.seats().allowed(),
                     .invite = person_->house,
                     .play = gateway_.play(),
-                    .proved = person_->proved};
+                    .proved = person_->proved,
+                    .recordings = gateway_.has_recordings()};
   if (scenes_) offers.scenes = *scenes_;
   send(hello_json(person_->name, role_, gateway_.release(), listed_, offers));
 }
