@@ -16,7 +16,7 @@ import { SeatHistory } from './history';
 import { Ring } from './ring';
 import { StateWindow } from './state_window';
 
-export type Link = 'connecting' | 'open' | 'lost' | 'refused';
+export type Link = 'connecting' | 'open' | 'lost' | 'refused' | 'player';
 
 export const kEventsKept = 500;
 export const kNoticesKept = 50;
@@ -106,6 +106,11 @@ export class SessionModel {
     this.link = link;
     this.ownSeat = null;
     this.alarms.connection(true, this.state?.t ?? null, detail);
+  }
+
+  /** The gateway has no session and plays recordings only. */
+  playsOnly(): void {
+    this.link = 'player';
   }
 
   private beginSession(): void {

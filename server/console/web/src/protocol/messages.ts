@@ -18,7 +18,8 @@ export type Right =
   | 'create'
   | 'seat'
   | 'invite'
-  | 'record';
+  | 'record'
+  | 'recordings';
 export type Phase = 'WAITING' | 'RUNNING' | 'STOPPED' | 'PAUSED' | 'OVER';
 export type SheetName = 'OSATS' | 'GEARS' | 'GOALS' | 'CHECKLIST';
 

@@ -16,7 +16,8 @@ import {
   type Vec3,
 } from './messages';
 
-type Json = Record<string, unknown>;
+/** Parsed JSON of the network; nothing is known of its members. */
+export type Json = Record<string, unknown>;
 
 /** Longest frame that the page parses [characters]; a state of 24 seats needs some 12000. */
 export const kFrameMax = 1 << 20;
@@ -25,12 +26,13 @@ const kListMax = 1000;
 const kPhases: readonly Phase[] = ['WAITING', 'RUNNING', 'STOPPED', 'PAUSED', 'OVER'];
 const kSheets: readonly SheetName[] = ['OSATS', 'GEARS', 'GOALS', 'CHECKLIST'];
 
-const isObject = (value: unknown): value is Json =>
+export const isObject = (value: unknown): value is Json =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
-const object = (value: unknown): Json => (isObject(value) ? value : {});
-const list = (value: unknown, max = kListMax): unknown[] => (Array.isArray(value) ? value.slice(0, max) : []);
-const number = (value: unknown): number | null => (typeof value === 'number' && Number.isFinite(value) ? value : null);
-const count = (value: unknown): number => {
+export const object = (value: unknown): Json => (isObject(value) ? value : {});
+export const list = (value: unknown, max = kListMax): unknown[] => (Array.isArray(value) ? value.slice(0, max) : []);
+export const number = (value: unknown): number | null =>
+  typeof value === 'number' && Number.isFinite(value) ? value : null;
+export const count = (value: unknown): number => {
   const found = number(value);
   return found !== null && found >= 0 ? Math.floor(found) : 0;
 };
@@ -38,10 +40,10 @@ const flag = (value: unknown): boolean | null => (typeof value === 'boolean' ? v
 // Control characters could change the direction or the lines of a text on the page.
 // eslint-disable-next-line no-control-regex
 const kControl = /[\u0000-\u001f\u007f-\u009f\u200e\u200f\u202a-\u202e\u2066-\u2069]/g;
-const text = (value: unknown): string =>
+export const text = (value: unknown): string =>
   typeof value === 'string' ? value.slice(0, kTextMax).replace(kControl, ' ') : '';
 const textOrNull = (value: unknown): string | null => (typeof value === 'string' ? text(value) : null);
-const texts = (value: unknown): string[] =>
+export const texts = (value: unknown): string[] =>
   list(value)
     .filter((v) => typeof v === 'string')
     .map(text);
@@ -286,6 +288,11 @@ export function parseMessage(frame: string): GatewayMessage | null {
   } catch {
     return null;
   }
+  return readMessage(parsed);
+}
+
+/** Returns a message from parsed JSON, or null if it is none that the page knows. Never throws. */
+export function readMessage(parsed: unknown): GatewayMessage | null {
   if (!isObject(parsed) || typeof parsed.type !== 'string') return null;
   const reader = Object.prototype.hasOwnProperty.call(kReaders, parsed.type) ? kReaders[parsed.type] : undefined;
   return reader ? reader(parsed) : null;
