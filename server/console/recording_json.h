@@ -13,15 +13,15 @@ namespace tandem::console {
 
 /// One recording of the list.
 struct ListedRecording {
-  std::string id, file;  ///< `file` is for display
+  std::string id{}, file{};  ///< `file` is for display
   std::uint64_t bytes = 0;
-  std::string problem;  ///< why it cannot be read; empty: it can, and the members below are valid
-  std::string session, scene;
+  std::string problem{};  ///< why it cannot be read; empty: it can, and the members below are valid
+  std::string session{}, scene{};
   double start_s = 0;  ///< seconds since 1970; 0: unknown
   double duration_s = 0;
   std::uint64_t missing_ticks = 0;
   bool complete = true;
-  std::vector<std::string> persons;
+  std::vector<std::string> persons{};
 };
 
 struct RecordingList {

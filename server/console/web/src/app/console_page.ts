@@ -126,6 +126,7 @@ export class ConsolePage implements Page {
     const { theme } = this.settings;
     document.documentElement.dataset.theme = theme === 'auto' ? (this.dark.matches ? 'dark' : 'light') : theme;
     this.host.picture?.recolour();
+    this.recordings?.recolour();
   }
 
   private choose(view: ViewName): void {

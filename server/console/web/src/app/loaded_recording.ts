@@ -2,6 +2,9 @@ import { RecordedStates, type Moment } from '../logic/recorded_states';
 import type { Outline } from '../protocol/recordings';
 import { fetchPiece } from './recording_client';
 
+/** Time until a piece that could not be read is asked for again [ms]. */
+const kRetry_ms = 2000;
+
 /** A recording that is open in the page, with the pieces around the time that is shown. */
 export class LoadedRecording {
   readonly states: RecordedStates;
@@ -17,7 +20,10 @@ export class LoadedRecording {
     for (const piece of this.states.wanted(t)) {
       fetchPiece(id, piece).then(
         (states) => this.states.add(piece, states),
-        (error: unknown) => this.states.fail(piece, error instanceof Error ? error.message : String(error)),
+        (error: unknown) => {
+          this.states.fail(piece, error instanceof Error ? error.message : String(error));
+          setTimeout(() => this.states.retry(), kRetry_ms);
+        },
       );
     }
     return this.states.at(t);

@@ -44,7 +44,7 @@ export class RecordedStates {
     this.keep(piece, { states });
   }
 
-  /** The piece could not be read; it is asked for again after `retry`. */
+  /** The piece could not be read; it is asked for again after a `retry`. */
   fail(piece: number, why: string): void {
     this.keep(piece, { failed: why });
   }

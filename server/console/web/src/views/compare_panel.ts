@@ -2,7 +2,7 @@ import { differenceCurve, times } from '../logic/comparison';
 import { clock, fixed } from '../logic/format';
 import type { ListedRecording, Note, Outline } from '../protocol/recordings';
 import { t } from '../strings/strings';
-import { el, fillSelect, labelled, panel, select, setText } from './dom';
+import { el, fillSelect, labelled, panel, select } from './dom';
 import { PlayerChart } from './player_chart';
 
 export type Layout = 'side' | 'overlay';
@@ -31,7 +31,6 @@ export class ComparePanel {
   private readonly anchorB: HTMLSelectElement;
   private readonly shift = el('input', { type: 'number', step: 0.01, value: 0, min: -36000, max: 36000 });
   private readonly details = el('div', { class: 'compare-details' });
-  private readonly now = el('p', { role: 'status', class: 'difference' });
   private readonly chart: PlayerChart;
   private a: Outline | null = null;
   private b: Outline | null = null;
@@ -65,7 +64,6 @@ export class ComparePanel {
         labelled(t('compare.anchor_b'), this.anchorB),
         labelled(t('compare.shift'), this.shift),
       ),
-      this.now,
       this.chart.node,
       el('p', { class: 'note' }, t('compare.note')),
     );
@@ -114,8 +112,6 @@ export class ComparePanel {
   /** @param apart distance of the tools in the states that are shown [m]; null: not known */
   update(time: number, apart: number | null): void {
     if (!this.a || !this.b) return;
-    const text = t('compare.now', { mm: fixed(apart === null ? null : apart * 1000, 2, 'mm') });
-    setText(this.now, text);
-    this.chart.update(time, text);
+    this.chart.update(time, t('compare.now', { mm: fixed(apart === null ? null : apart * 1000, 2, 'mm') }));
   }
 }

@@ -127,6 +127,10 @@ export class PlayerView {
     this.compare.offer(rows);
   }
 
+  recolour(): void {
+    for (const picture of this.pictures) picture?.host.picture?.recolour();
+  }
+
   key(event: KeyboardEvent): boolean {
     return !this.node.hidden && this.controls.key(event);
   }

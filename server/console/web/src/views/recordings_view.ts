@@ -45,6 +45,11 @@ export class RecordingsView implements View {
     return this.player.key(event);
   }
 
+  /** Reads the colours again after a change between light and dark. */
+  recolour(): void {
+    this.player.recolour();
+  }
+
   private async reload(): Promise<void> {
     this.list.say(t('recordings.loading'));
     try {

@@ -109,14 +109,14 @@ test('two recordings on one clock: side by side, overlaid, shifted, with their d
   await expect(page.locator('.stage canvas')).toHaveCount(2);
   await page.getByLabel('Time of the recording').fill('3');
   // Equal recordings are never apart; with a shift they are.
-  await expect(page.locator('.difference')).toHaveText(/: 0\.00/);
+  await expect(page.locator('.compare-panel .chart-legend')).toHaveText(/: 0\.00/);
   await page.getByLabel('Further shift (s)').fill('1.5');
-  await expect(page.locator('.difference')).not.toHaveText(/: (0\.00|–)/);
+  await expect(page.locator('.compare-panel .chart-legend')).not.toHaveText(/: (0\.00|–)/);
   await page.getByLabel('Shown').selectOption('overlay');
   await expect(page.locator('.stage canvas')).toHaveCount(1);
   await expect(page.locator('.stage .labels')).toContainText('trainer (2)');
   await page.getByLabel('Second recording').selectOption('');
-  await expect(page.locator('.difference')).toBeHidden();
+  await expect(page.locator('.compare-panel .chart-legend')).toBeHidden();
   await page.evaluate(kAxe);
   for (const theme of ['light', 'dark'] as const) {
     await page.emulateMedia({ colorScheme: theme });
