@@ -28,7 +28,9 @@ Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr
       seats_(options_.seats, options_.join, news_) {
   if (!options_.recordings.empty() || !options_.files.empty())
     library_ = std::make_unique<RecordingLibrary>(options_.recordings, options_.files);
-  if (!options_.files.empty()) {
+  if (options_.files.empty()) {
+    scores_ = std::make_unique<LiveScores>(mailbox_, news_);
+  } else {
     house_ = std::make_shared<Person>();
     house_->name = "player";
     house_->house = true;
@@ -158,6 +160,19 @@ std::shared_ptr<ServerLink> Gateway::best_view(const std::shared_ptr<ServerLink>
   return best;
 }
 
+void Gateway::on_news() {
+  if (!scores_) return;
+  const Time now = io::monotonic_now();
+  const auto hear = [&](const std::shared_ptr<ServerLink>& link) {
+    if (link && link->live()) scores_->hear(*link->newest(), now);
+  };
+  if (house_) hear(house_->link);
+  for (const auto& [name, other] : others_) hear(other.lock());
+  browsers_.each([&](const std::shared_ptr<Person>& person) {
+    if (!person->house) hear(person->link);
+  });
+}
+
 bool Gateway::may_review(const Person& person) {
   return person.link == nullptr || console::may_review(person.link->newest()->role);
 }
@@ -175,6 +190,7 @@ bool Gateway::ask_recording(RecordingRequest request, Recorded done) {
 
 void Gateway::abandon_requests() {
   library_.reset();
+  scores_.reset();
   readings_.clear();
   pending_.clear();
 }

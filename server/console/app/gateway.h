@@ -14,6 +14,7 @@
 
 #include "common/auth/limiter.h"
 #include "server/console/app/browser_seats.h"
+#include "server/console/app/live_scores.h"
 #include "server/console/app/mailbox.h"
 #include "server/console/app/recording_library.h"
 #include "server/console/app/server_link.h"
@@ -82,6 +83,13 @@ class Gateway {
   /// Reads from a recording. @return false: too many requests wait, and `done` is not called. @pre has_recordings()
   [[nodiscard]] bool ask_recording(RecordingRequest request, Recorded done);
 
+  /// Call it after a new picture of any link.
+  void on_news();
+  /// Returns the newest message `scores` of a session; null: none yet. It is for persons who may review.
+  [[nodiscard]] std::shared_ptr<const std::string> scores_of(const rpc::Id& session) const {
+    return scores_ ? scores_->of(session) : nullptr;
+  }
+
   /// Sessions that the person may see.
   [[nodiscard]] std::vector<rpc::ListedSession> sessions_of(const Person& person) const;
   /// Returns the link of another session for a person with the gateway's connection; null: unknown session.
@@ -118,6 +126,7 @@ class Gateway {
   std::map<std::uint64_t, Recorded> readings_;  ///< requests about recordings, by number
   std::uint64_t readings_asked_ = 0;
   std::unique_ptr<RecordingLibrary> library_;  ///< null: none
+  std::unique_ptr<LiveScores> scores_;         ///< null: the gateway only plays recordings, or ends
 };
 
 }  // namespace tandem::console

@@ -62,6 +62,7 @@ class WebServer {
   }
 
   void on_news() {
+    state_.gateway.on_news();
     each([](LiveSocket& socket) { socket.on_news(); });
   }
 
