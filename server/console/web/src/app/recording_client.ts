@@ -1,14 +1,7 @@
 import type { State } from '../protocol/messages';
-import {
-  readList,
-  readOutline,
-  readPiece,
-  readScores,
-  type Outline,
-  type RecordingList,
-  type Scores,
-} from '../protocol/recordings';
-import { object, text } from '../protocol/parse';
+import { object, text } from '../protocol/json';
+import { readList, readOutline, readPiece, type Outline, type RecordingList } from '../protocol/recordings';
+import { readScores, type Scores } from '../protocol/scores';
 import { t } from '../strings/strings';
 
 const kPoll_ms = 400;

@@ -1,6 +1,7 @@
 import type {
   GatewayMessage,
   Hello,
+  LiveScores,
   Notes,
   Notice,
   OwnSeat,
@@ -29,6 +30,7 @@ export class SessionModel {
   notes: Notes | null = null;
   ownSeat: OwnSeat | null = null;
   tickets: Tickets | null = null;
+  scores: LiveScores | null = null;
   readonly states = new StateWindow();
   readonly acknowledgements = new Acknowledgements();
   readonly alarms = new AlarmLog();
@@ -90,6 +92,9 @@ export class SessionModel {
         this.tickets = message;
         this.revision += 1;
         break;
+      case 'scores':
+        this.scores = message;
+        break;
       case 'reply':
         break;
     }
@@ -119,6 +124,7 @@ export class SessionModel {
     this.events.clear();
     this.notes = null;
     this.ownSeat = null;
+    this.scores = null;
   }
 
   /** After a reconnect the gateway sends the events again. */

@@ -1,5 +1,6 @@
 import type { Scene, State } from './messages';
-import { count, isObject, list, number, object, readMessage, text, texts } from './parse';
+import { count, list, number, object, text, textOrNull, texts } from './json';
+import { readMessage } from './parse';
 
 /** Replies of the gateway about recordings. Quantities are SI; null means unknown. Bytes of the network are checked here. */
 
@@ -72,30 +73,6 @@ export interface Outline {
   curves: Curves;
 }
 
-export type Trust = 'good' | 'flagged' | 'withheld' | 'absent';
-
-export interface ScoreCell {
-  /** Value in the unit of the metric; null: withheld or absent. */
-  text: string | null;
-  trust: Trust;
-  reason: string;
-}
-
-export interface Scores {
-  rate_hz: number | null;
-  from_s: number | null;
-  to_s: number | null;
-  metrics: readonly { key: string; title: string; unit: string }[];
-  seats: readonly {
-    seat: string;
-    person: string;
-    parts: readonly { part: string; title: string; cells: readonly ScoreCell[] }[];
-  }[];
-  notes: readonly string[];
-}
-
-const kTrusts: readonly Trust[] = ['good', 'flagged', 'withheld', 'absent'];
-const problemOf = (value: unknown): string | null => (typeof value === 'string' ? text(value) : null);
 const curve = (value: unknown): Curve => list(value, kPointsMax).map(number);
 
 export function readList(value: unknown): RecordingList {
@@ -107,7 +84,7 @@ export function readList(value: unknown): RecordingList {
         id: text(row.id),
         file: text(row.file),
         bytes: count(row.bytes),
-        problem: problemOf(row.problem),
+        problem: textOrNull(row.problem),
         session: text(row.session),
         scene: text(row.scene),
         start_s: number(row.start_s),
@@ -120,7 +97,7 @@ export function readList(value: unknown): RecordingList {
     read: count(from.read),
     to_read: count(from.to_read),
     unfinished: count(from.unfinished),
-    problem: problemOf(from.problem),
+    problem: textOrNull(from.problem),
   };
 }
 
@@ -184,37 +161,4 @@ export function readPiece(value: unknown): State[] {
     const state = readMessage(entry);
     return state?.type === 'state' ? [state] : [];
   });
-}
-
-/** Returns scores, or null if the value has none. */
-export function readScores(value: unknown): Scores | null {
-  if (!isObject(value) || !Array.isArray(value.metrics)) return null;
-  return {
-    rate_hz: number(value.rate_hz),
-    from_s: number(value.from_s),
-    to_s: number(value.to_s),
-    metrics: list(value.metrics, 64)
-      .map(object)
-      .map((row) => ({ key: text(row.key), title: text(row.title), unit: text(row.unit) })),
-    seats: list(value.seats, 24)
-      .map(object)
-      .map((seat) => ({
-        seat: text(seat.seat),
-        person: text(seat.person),
-        parts: list(seat.parts, 64)
-          .map(object)
-          .map((part) => ({
-            part: text(part.part),
-            title: text(part.title),
-            cells: list(part.cells, 64)
-              .map(object)
-              .map((cell) => ({
-                text: problemOf(cell.text),
-                trust: kTrusts.find((known) => known === cell.trust) ?? 'absent',
-                reason: text(cell.reason),
-              })),
-          })),
-      })),
-    notes: texts(value.notes),
-  };
 }

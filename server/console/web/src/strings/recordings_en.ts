@@ -64,6 +64,8 @@ export const recordingsEn = {
     'The curve has the points of the first recording. The second one is taken between its two nearest points, never over a gap.',
   'scores.title': 'Scores',
   'scores.computing': 'The gateway computes the scores.',
+  'scores.live': 'Scores so far',
+  'scores.waiting': 'The first scores come some seconds after the session runs.',
   'scores.metric': 'Score',
   'scores.none': 'No seat has samples.',
   'scores.range': 'From {from} to {to}, at {hz}. Pass over a value for its flag.',

@@ -67,6 +67,8 @@ export const recordingsFr: Readonly<Record<keyof typeof recordingsEn, string>> =
     'La courbe a les points du premier enregistrement. Le second est pris entre ses deux points les plus proches, jamais à travers une lacune.',
   'scores.title': 'Notes',
   'scores.computing': 'La passerelle calcule les notes.',
+  'scores.live': 'Notes jusqu’ici',
+  'scores.waiting': 'Les premières notes viennent quelques secondes après le début de la session.',
   'scores.metric': 'Note',
   'scores.none': 'Aucun siège n’a d’échantillons.',
   'scores.range': 'De {from} à {to}, à {hz}. Survolez une valeur pour sa réserve.',

@@ -1,5 +1,5 @@
 import { clock, fixed, kUnknown } from '../logic/format';
-import type { ScoreCell, Scores } from '../protocol/recordings';
+import type { ScoreCell, Scores } from '../protocol/scores';
 import { t, word } from '../strings/strings';
 import { el } from './dom';
 

@@ -164,3 +164,17 @@ test('the gateway shows a folder, names damaged files, and says how to allow rec
   const without = await open();
   await expect(without.locator('.recordings-panel')).toContainText('--recordings DIR');
 });
+
+test('scores of the running session come to the instructor, with their flags', async ({ page, run }) => {
+  const server = await addressOf(run('tandem-server', 'run', 'contact', '--listen', '127.0.0.1:0'));
+  for (const seat of ['trainer', 'trainee'])
+    run('tandem-client', 'join', '--server', server, '--seat', seat, '--device', 'sim');
+  await page.goto(await urlOf(run('tandem-console', '--server', server, '--listen', '127.0.0.1:0')));
+  for (const name of ['instructor', 'evaluator']) {
+    await view(page, name);
+    const scores = page.locator('.live-scores-panel');
+    await expect(scores.locator('table.scores').first()).toContainText('Path length', { timeout: 20_000 });
+    await expect(scores).toContainText('jerk needs every tick');
+    await expect(scores).toContainText('59 Hz');
+  }
+});

@@ -11,7 +11,8 @@ import {
 import { PlayerClock } from '../../src/logic/player_clock';
 import { emptyState, kPiecesKept, RecordedStates } from '../../src/logic/recorded_states';
 import type { Scene, State } from '../../src/protocol/messages';
-import { readList, readOutline, readPiece, readScores, type Outline } from '../../src/protocol/recordings';
+import { readList, readOutline, readPiece, type Outline } from '../../src/protocol/recordings';
+import { readScores } from '../../src/protocol/scores';
 
 const kScene: Scene = {
   type: 'scene',
