@@ -52,21 +52,9 @@ void add_participants(const mcap::Reader& reader, RecordingSummary& summary) {
       for (const auto& [seat, person] : record.values) add_person(summary.persons, person, seat);
 }
 
-/// The part of the file before the first message is a recording whose lesson has all metadata and no row.
-std::expected<Lesson, std::string> read_head(std::span<const std::byte> bytes, const mcap::Reader& reader) {
-  const std::uint64_t begin = reader.parts().empty() ? bytes.size() : reader.parts().front();
-  return read_lesson(bytes.first(static_cast<std::size_t>(begin)));
-}
-
-}  // namespace
-
-std::expected<RecordingSummary, std::string> read_summary(std::span<const std::byte> bytes) {
-  const auto reader = mcap::Reader::open(bytes);
-  if (!reader) return std::unexpected(reader.error().message);
-  auto lesson = read_head(bytes, *reader);
-  if (!lesson) return std::unexpected(lesson.error());
-  SummaryBuilder builder(*lesson);
-  mcap::MessageCursor cursor{*reader};
+/// Adds the messages of a file. @return whether all of them were whole
+bool add_messages(const mcap::Reader& reader, SummaryBuilder& builder) {
+  mcap::MessageCursor cursor{reader};
   std::map<std::uint16_t, std::string> topics;
   bool known = true;
   while (const auto message = cursor.next()) {
@@ -78,10 +66,26 @@ std::expected<RecordingSummary, std::string> read_summary(std::span<const std::b
     }
     builder.add(*message, topic->second);
   }
-  lesson->complete = known && builder.whole() && reader->complete() && cursor.damaged() == 0 &&
-                     reader->metadata(rec::kCountsRecord) != nullptr;
+  return known && cursor.damaged() == 0;
+}
+
+}  // namespace
+
+std::expected<RecordingSummary, std::string> read_summary(const RecordingParts& parts, const ReadAt& read) {
+  const std::vector<std::byte> definitions = parts.piece(read, 0, 0);
+  auto lesson = read_lesson(definitions);  // all metadata, and no row
+  if (!lesson) return std::unexpected(lesson.error());
+  SummaryBuilder builder(*lesson);
+  bool whole = true;
+  constexpr std::size_t kTogether = 8;  // chunks
+  for (std::size_t i = 0; i < parts.size(); i += kTogether) {
+    const std::vector<std::byte> piece = parts.piece(read, i, i + kTogether);
+    const auto reader = mcap::Reader::open(piece);
+    whole = reader && add_messages(*reader, builder) && whole;
+  }
+  lesson->complete = whole && builder.whole() && parts.complete();
   RecordingSummary summary = summary_of(*lesson);
-  add_participants(*reader, summary);
+  if (const auto reader = mcap::Reader::open(definitions)) add_participants(*reader, summary);
   return summary;
 }
 

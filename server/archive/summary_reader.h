@@ -1,17 +1,17 @@
 #pragma once
 
-#include <cstddef>
 #include <expected>
-#include <span>
 #include <string>
 
+#include "server/archive/recording_parts.h"
 #include "server/archive/recording_row.h"
 
 namespace tandem::server {
 
-/// Reads what the index keeps of a recording, without its rows: the same as `summary_of(read_lesson(bytes))`, with a
-/// thousandth of its memory. Any bytes are safe.
+/// Reads what the index keeps of a recording: the same as `summary_of(read_lesson(bytes))` of its bytes, with the memory
+/// of a few chunks and 4 bytes per tick. Any bytes are safe.
 /// @return the summary, or why this is no recording, without the name of the file
-[[nodiscard]] std::expected<RecordingSummary, std::string> read_summary(std::span<const std::byte> bytes);
+[[nodiscard]] std::expected<RecordingSummary, std::string> read_summary(const RecordingParts& parts,
+                                                                        const ReadAt& read);
 
 }  // namespace tandem::server

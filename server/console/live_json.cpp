@@ -7,6 +7,7 @@
 #include "common/auth/ticket.h"
 #include "common/base/hex.h"
 #include "server/console/json_text.h"
+#include "server/console/recording_request.h"
 #include "server/policy/roles.h"
 
 namespace tandem::console {
@@ -35,6 +36,7 @@ json may_of(AccessRole role, const PageOffers& offers) {
     if (server::allowed_without_seat(role, kind)) may.push_back(name);
   if (offers.seats) may.push_back("seat");
   if (offers.invite) may.push_back("invite");
+  if (offers.recordings && may_review(role)) may.push_back("recordings");
   return may;
 }
 

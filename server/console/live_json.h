@@ -21,6 +21,7 @@ struct PageOffers {
   bool invite = false;             ///< the person may ask for a URL for another browser
   std::string play{};              ///< seat to take at once; empty: none
   bool proved = false;             ///< the person's name is that of a ticket
+  bool recordings = false;         ///< the gateway has recordings; the role decides whether the person sees them
   const rpc::SceneList* scenes{};  ///< from which the person may create sessions; null: none
   std::string workstation{};       ///< of the gateway; empty: not known
 };

@@ -20,8 +20,10 @@ struct WebGateway {
 
   /// @param server  its address
   explicit WebGateway(const std::string& server, Words more = {}, bool tls = false)
-      : process(started(server, std::move(more))) {
-    process.wait_for("/join\n");
+      : WebGateway(started(server, std::move(more)), "/join\n", tls) {}
+  /// @param last  end of the line with the URL
+  WebGateway(Process running, const std::string& last, bool tls) : process(std::move(running)) {
+    process.wait_for(last);
     const std::string mark = tls ? "https://" : "http://";
     std::string url = process.after("once: " + mark);
     if (url.empty()) url = process.after("sign in with a ticket: " + mark);

@@ -12,6 +12,7 @@
 
 #include "common/io/fd.h"
 #include "proto/recording/lesson_reader.h"
+#include "server/archive/app/recording_file.h"
 #include "server/archive/summary_reader.h"
 
 namespace tandem::server {
@@ -49,9 +50,9 @@ std::expected<Lesson, std::string> load_lesson(const std::string& path) try {
 }
 
 std::expected<RecordingSummary, std::string> load_summary(const std::string& path) try {
-  const auto bytes = read_all(path);
-  if (!bytes) return std::unexpected(bytes.error());
-  return read_summary(*bytes);
+  const auto file = RecordingFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  return read_summary(file->parts(), file->read());
 } catch (const std::bad_alloc&) {
   return std::unexpected(kTooLarge);
 }

@@ -26,6 +26,15 @@ Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr
       news_(std::move(news)),
       all_joins_(kAllJoinRate, kAllJoinBurst),
       seats_(options_.seats, options_.join, news_) {
+  if (!options_.recordings.empty() || !options_.files.empty())
+    library_ = std::make_unique<RecordingLibrary>(options_.recordings, options_.files);
+  if (options_.files.empty()) {
+    scores_ = std::make_unique<LiveScores>(mailbox_, news_);
+  } else {
+    house_ = std::make_shared<Person>();
+    house_->name = "player";
+    house_->house = true;
+  }
   if (!own) return;
   const bool watch = own->feed.has_value() || !own->warning.empty();
   house_ = std::make_shared<Person>();
@@ -61,6 +70,7 @@ bool Gateway::is_watched(const rpc::Id& session) const {
 }
 
 std::expected<void, std::string> Gateway::join(const JoinBody& body, const auth::Source& from, Time now, Joined done) {
+  if (!options_.files.empty()) return std::unexpected("this gateway plays recordings only; it has no server");
   if (!join_rates_.at(from, now, TokenBucket{kJoinRate, kJoinBurst}).take(now) || !all_joins_.take(now) ||
       pending_.size() >= kJoinsMax)
     return std::unexpected("too many persons sign in at once; try again in a few seconds");
@@ -148,6 +158,41 @@ std::shared_ptr<ServerLink> Gateway::best_view(const std::shared_ptr<ServerLink>
   for (const auto& [name, other] : others_) consider(other.lock());
   browsers_.each([&](const std::shared_ptr<Person>& person) { consider(person->link); });
   return best;
+}
+
+void Gateway::on_news() {
+  if (!scores_) return;
+  const Time now = io::monotonic_now();
+  const auto hear = [&](const std::shared_ptr<ServerLink>& link) {
+    if (link && link->live()) scores_->hear(*link->newest(), now);
+  };
+  if (house_) hear(house_->link);
+  for (const auto& [name, other] : others_) hear(other.lock());
+  browsers_.each([&](const std::shared_ptr<Person>& person) {
+    if (!person->house) hear(person->link);
+  });
+}
+
+bool Gateway::may_review(const Person& person) {
+  return person.link == nullptr || console::may_review(person.link->newest()->role);
+}
+
+bool Gateway::ask_recording(RecordingRequest request, Recorded done) {
+  const std::uint64_t number = ++readings_asked_;
+  const bool asked = library_->ask(std::move(request), [this, number](RecordingReply reply) {
+    mailbox_->post([this, number, reply = std::move(reply)] {
+      if (const auto found = readings_.extract(number)) found.mapped()(reply);
+    });
+  });
+  if (asked) readings_.emplace(number, std::move(done));
+  return asked;
+}
+
+void Gateway::abandon_requests() {
+  library_.reset();
+  scores_.reset();
+  readings_.clear();
+  pending_.clear();
 }
 
 void Gateway::on_second(Time now) {

@@ -15,7 +15,9 @@
 #include "common/auth/io/identity_selector.h"
 #include "common/auth/limiter.h"
 #include "server/console/app/browser_seats.h"
+#include "server/console/app/live_scores.h"
 #include "server/console/app/mailbox.h"
+#include "server/console/app/recording_library.h"
 #include "server/console/app/server_link.h"
 #include "server/console/browser_sessions.h"
 #include "server/console/join_body.h"
@@ -27,7 +29,8 @@ namespace tandem::console {
 struct Person {
   std::string name;                  ///< for display
   bool proved = false;               ///< the name is that of the ticket
-  std::shared_ptr<ServerLink> link;  ///< control connection, whose rights the person has; the orders go there
+  /// Control connection, whose rights the person has; the orders go there. Null if the gateway only plays recordings.
+  std::shared_ptr<ServerLink> link;
   bool house = false;                ///< has the gateway's own connection
 };
 
@@ -43,6 +46,9 @@ class Gateway {
     std::string release;       ///< version of the program
     bool seats = false;        ///< browsers may take seats
     std::string play{};        ///< seat that a page takes at once; empty: none
+    std::string recordings{};  ///< folder of recordings that persons may see; empty: none
+    /// Recordings that this gateway plays, without any server: the person of the printed URL sees them. Empty: none.
+    std::vector<std::string> files{};
   };
   /// @param own  the gateway's own connection; empty: each person signs in with a ticket
   /// @param news  called by any thread after a new picture of any link
@@ -56,10 +62,13 @@ class Gateway {
   /// Name of the gateway's workstation at its server; empty: only the server knows it.
   [[nodiscard]] std::string workstation() const { return options_.local ? auth::kLocalWorkstation : ""; }
 
+  /// Whether the gateway has a connection of its own, or plays files, so that it prints a token.
+  [[nodiscard]] bool has_token() const noexcept { return house_ != nullptr; }
+
   /// Redeems the token of the printed URL. @return secret of a new cookie; empty: refused
   [[nodiscard]] std::string redeem(std::string_view token, Time now);
   /// Makes a token that `redeem` accepts once. At most kTokensMax wait: the oldest ends when one more is made.
-  /// @pre the gateway has a connection of its own
+  /// @pre has_token()
   [[nodiscard]] std::string make_token(Time now);
 
   /// Called in the web thread with the secret of a new cookie, or cause and remedy.
@@ -68,14 +77,30 @@ class Gateway {
   [[nodiscard]] std::expected<void, std::string> join(const JoinBody& body, const auth::Source& from, Time now,
                                                       Joined done);
 
+  /// Whether the gateway has recordings that it may show.
+  [[nodiscard]] bool has_recordings() const noexcept { return library_ != nullptr; }
+  /// Whether a person may see recordings and scores.
+  [[nodiscard]] static bool may_review(const Person& person);
+  /// Called in the web thread.
+  using Recorded = std::function<void(RecordingReply)>;
+  /// Reads from a recording. @return false: too many requests wait, and `done` is not called. @pre has_recordings()
+  [[nodiscard]] bool ask_recording(RecordingRequest request, Recorded done);
+
+  /// Call it after a new picture of any link.
+  void on_news();
+  /// Returns the newest message `scores` of a session; null: none yet. It is for persons who may review.
+  [[nodiscard]] std::shared_ptr<const std::string> scores_of(const rpc::Id& session) const {
+    return scores_ ? scores_->of(session) : nullptr;
+  }
+
   /// Sessions that the person may see.
   [[nodiscard]] std::vector<rpc::ListedSession> sessions_of(const Person& person) const;
   /// Returns the link of another session for a person with the gateway's connection; null: unknown session.
   [[nodiscard]] std::shared_ptr<ServerLink> open(const Person& person, const std::string& session);
   /// Returns the link that shows the session of `link` best: `link` itself, or another one with datagrams.
   [[nodiscard]] std::shared_ptr<ServerLink> best_view(const std::shared_ptr<ServerLink>& link) const;
-  /// Ends pending joins without a reply. @pre the mailbox is disconnected
-  void abandon_joins() { pending_.clear(); }
+  /// Ends pending joins and readings without a reply. @pre the mailbox is disconnected
+  void abandon_requests();
   /// Ends cookies that are idle. Call it about every second.
   void on_second(Time now);
 
@@ -101,6 +126,10 @@ class Gateway {
   std::uint64_t joins_ = 0;
   BrowserSeats seats_;
   unsigned names_ = 0;
+  std::map<std::uint64_t, Recorded> readings_;  ///< requests about recordings, by number
+  std::uint64_t readings_asked_ = 0;
+  std::unique_ptr<RecordingLibrary> library_;  ///< null: none
+  std::unique_ptr<LiveScores> scores_;         ///< null: the gateway only plays recordings, or ends
 };
 
 }  // namespace tandem::console

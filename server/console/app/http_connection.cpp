@@ -8,6 +8,8 @@
 #include "server/console/app/page_files.h"
 #include "server/console/app/sign_in_page.h"
 #include "server/console/join_body.h"
+#include "server/console/recording_json.h"
+#include "server/console/recording_request.h"
 #include "server/console/request_rules.h"
 
 namespace tandem::console {
@@ -78,6 +80,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (target == "/healthz") return answer(http::status::ok, "ok\n");
     if (target == "/join") return send_sign_in(http::status::ok, {});
     if (const std::string_view token = token_of(target); !token.empty()) return redeem(token);
+    if (is_recording_target(target)) return recordings(person.get(), target);
     // The page has no secret: without a cookie it shows the form for a ticket.
     for (const PageFile& file : page_files())
       if (file.path == target) return send_file(file);
@@ -122,6 +125,37 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
           self->answer_json(http::status::ok, true, "", *secret);
         });
     if (!begun) refuse_join(http::status::too_many_requests, form, begun.error());
+  }
+
+  void recordings(const Person* person, std::string_view target) {
+    if (person == nullptr) return answer_problem(http::status::unauthorized, "sign in first");
+    if (!Gateway::may_review(*person))
+      return answer_problem(http::status::forbidden, "only instructors, evaluators and operators see recordings");
+    if (!state_.gateway.has_recordings())
+      return answer_problem(http::status::not_found,
+                            "this gateway shows no recordings; start it with --recordings DIR, the folder of the "
+                            "recordings");
+    auto request = parse_recording_request(target);
+    if (!request) return answer_problem(http::status::not_found, "there is no such recording");
+    const bool asked = state_.gateway.ask_recording(
+        std::move(*request), [self = shared_from_this()](const RecordingReply& reply) { self->send_recording(reply); });
+    if (!asked)
+      answer_problem(http::status::service_unavailable, "too many pages read recordings; try again in a few seconds");
+  }
+
+  void send_recording(const RecordingReply& reply) {
+    Response response{static_cast<http::status>(reply.status), request_.version()};
+    response.set(http::field::content_type, "application/json");
+    response.set(http::field::content_encoding, "gzip");
+    response.body() = *reply.gzip;
+    send(std::move(response));
+  }
+
+  void answer_problem(http::status status, std::string_view text) {
+    Response response{status, request_.version()};
+    response.set(http::field::content_type, "application/json");
+    response.body() = problem_json(text);
+    send(std::move(response));
   }
 
   void refuse_join(http::status status, bool form, const std::string& why) {

@@ -7,6 +7,7 @@
 
 #include "common/io/clock.h"
 #include "server/console/live_json.h"
+#include "server/console/recording_request.h"
 #include "server/console/seat_picture.h"
 #include "server/console/state_json.h"
 
@@ -76,6 +77,7 @@ void LivePage::greet() {
                           .invite = person_->house,
                           .play = gateway_.play(),
                           .proved = person_->proved,
+                          .recordings = gateway_.has_recordings(),
                           .scenes = scenes_.get(),
                           .workstation = gateway_.workstation()};
   send(hello_json(person_->name, role_, gateway_.release(), listed_, offers));
@@ -88,6 +90,7 @@ void LivePage::on_news() {
   if (!greeted_ || own->role != role_ || scenes) greet();
   send_notices(*own, *view);
   send_notes(*own);
+  send_scores(*own);
   send_seat();
   if (view->number == shown_) return;
   const bool first = shown_ == 0;
@@ -179,6 +182,7 @@ void LivePage::watch(const Watch& wish) {
   event_ = 0;
   scene_.clear();
   notes_.reset();
+  scores_.reset();
   warning_.clear();
   connected_ = true;
   choose_view();
@@ -217,6 +221,14 @@ void LivePage::send_notes(const LivePicture& own) {
   if (own.notes == notes_ || !own.notes) return;
   notes_ = own.notes;
   send(notes_->message());
+}
+
+void LivePage::send_scores(const LivePicture& own) {
+  if (!may_review(own.role)) return;
+  auto newest = gateway_.scores_of(own.status.session_id);
+  if (!newest || newest == scores_) return;
+  scores_ = std::move(newest);
+  send(*scores_);
 }
 
 // The gateway's own right may take any seat, so it serves only persons who have the gateway's connection.

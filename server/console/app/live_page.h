@@ -52,6 +52,7 @@ class LivePage : public std::enable_shared_from_this<LivePage> {
   void mark(const MarkFrame& frame);
   void sheet(const SheetFrame& frame);
   void send_notes(const LivePicture& own);
+  void send_scores(const LivePicture& own);
   void take(const TakeSeat& wish);
   void leave(const LeaveSeat& wish);
   void point(const Pointer& pointer);
@@ -73,6 +74,7 @@ class LivePage : public std::enable_shared_from_this<LivePage> {
   std::uint64_t shown_ = 0;                 ///< number of the last picture of `view_`
   std::uint32_t event_ = 0;
   std::shared_ptr<const EvaluationNotes> notes_;  ///< of the last message notes
+  std::shared_ptr<const std::string> scores_;     ///< the last message scores
   std::shared_ptr<const rpc::SceneList> scenes_;  ///< as in the last hello
   unsigned frames_ = 0;
   AccessRole role_ = AccessRole::kObserver;

@@ -15,6 +15,7 @@ namespace websocket = beast::websocket;
 
 constexpr std::chrono::seconds kWriteTimeout{5};
 constexpr auto kSignIn = static_cast<websocket::close_code>(4401);  // private use [RFC 6455, 7.4.2]
+constexpr auto kNoSession = static_cast<websocket::close_code>(4404);
 
 class BeastSocket final : public LiveSocket {
  public:
@@ -66,6 +67,7 @@ class BeastSocket final : public LiveSocket {
   void opened() {
     open_ = true;
     if (!person_) return close({kSignIn, "sign in with a ticket: /join"});
+    if (person_->link == nullptr) return close({kNoSession, "this gateway plays recordings only"});
     page_ = std::make_shared<LivePage>(gateway_, person_, [this] {
       if (open_ && !writing_) write();
     });

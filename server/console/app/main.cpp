@@ -14,8 +14,10 @@
 #include "common/io/signals.h"
 #include "common/io/usage_errors.h"
 #include "proto/io/scene_file.h"
+#include "server/archive/app/recording_index.h"
+#include "server/console/app/page_address.h"
+#include "server/console/app/play_command.h"
 #include "server/console/app/server_link.h"
-#include "server/console/app/tls_files.h"
 #include "server/console/app/web_server.h"
 
 #ifndef TANDEM_VERSION
@@ -30,7 +32,8 @@ constexpr double kPlaySeconds = 86400;
 
 struct Arguments {
   client::ConnectionArguments connection{.ticket = {}, .server = "127.0.0.1:7000", .session = {}, .state = {}};
-  std::string listen = "127.0.0.1:7080", role = "instructor", certificate, key;
+  PageAddressArguments page;
+  std::string role = "instructor", recordings;
   bool sign_in = false, seats = false, play = false;
 };
 
@@ -39,32 +42,17 @@ int complain(const std::string& text) {
   return io::kExitTrouble;
 }
 
-/// Certificate and key as given; nothing, and perhaps an error, without them.
-std::optional<TlsFiles> tls_of(const Arguments& arguments, const io::SocketAddress& listen, io::UsageErrors& errors) {
-  if (arguments.certificate.empty() != arguments.key.empty()) {
-    errors.add("--certificate and --key belong together; the other one is missing");
-    return std::nullopt;
-  }
-  if (arguments.certificate.empty()) {
-    if (!listen.loopback())
-      errors.add("--listen: " + arguments.listen +
-                 " is reachable by other computers, which needs TLS; give --certificate FILE and --key FILE, or "
-                 "listen on 127.0.0.1 or [::1]");
-    return std::nullopt;
-  }
-  auto files = TlsFiles::load(arguments.certificate, arguments.key);
-  if (files) return std::move(*files);
-  errors.add(files.error());
-  return std::nullopt;
+/// Why the folder of recordings cannot be shown; empty: it can.
+std::string recordings_problem(const std::string& folder) {
+  if (folder.empty()) return {};
+  const auto index = server::RecordingIndex::open(folder);
+  return index ? std::string{} : index.error();
 }
 
 void print_url(const std::string& url, const std::string& token) {
-  if (token.empty()) {
-    std::printf("sign in with a ticket: %sjoin\n", url.c_str());
-  } else {
-    std::printf("open within 10 minutes, once: %s?token=%s\n", url.c_str(), token.c_str());
-    std::printf("for another URL restart this program; persons with a ticket sign in at %sjoin\n", url.c_str());
-  }
+  print_page_url(url, token);
+  if (token.empty()) return;
+  std::printf("for another URL restart this program; persons with a ticket sign in at %sjoin\n", url.c_str());
   std::fflush(stdout);
 }
 
@@ -78,10 +66,8 @@ int run(const Arguments& arguments) {
     errors.add("--play: it starts a server of its own; leave out --sign-in and the ticket");
   if (arguments.sign_in && !options.ticket.empty())
     errors.add("--sign-in: without a connection of its own, the gateway needs no ticket");
-  const auto listen = io::parse_address(arguments.listen, 0);
-  if (!listen) errors.add("--listen", listen.error());
-  std::optional<TlsFiles> tls;
-  if (listen) tls = tls_of(arguments, *listen, errors);
+  PageAddress page = page_address_of(arguments.page, errors);
+  errors.add("--recordings", recordings_problem(arguments.recordings));
   if (!errors.empty()) return errors.print("tandem-console: ");
   const io::Fd signals = io::make_signalfd();
   options.signals = signals.get();
@@ -104,14 +90,15 @@ int run(const Arguments& arguments) {
     own = std::move(*joined);
   }
   const bool local = !arguments.sign_in && options.ticket.empty();
-  const WebOptions web{.listen = *listen,
-                       .tls = std::move(tls),
+  const WebOptions web{.listen = page.listen,
+                       .tls = std::move(page.tls),
                        .signals = signals.get(),
                        .gateway = {.join = options,
                                    .local = local,
                                    .release = TANDEM_VERSION,
                                    .seats = arguments.seats || arguments.play,
-                                   .play = seat}};
+                                   .play = seat,
+                                   .recordings = arguments.recordings}};
   const auto served = run_web_server(web, std::move(own), print_url);
   return served ? io::kExitDone : complain(served.error());
 }
@@ -133,19 +120,17 @@ int main(int argc, char** argv) {
   client::add_ticket_options(root, arguments.connection.ticket, "ticket printed by `tandem-server ticket`");
   root.add_option("--role", arguments.role, "without a ticket; default instructor")
       .check(io::one_of({"instructor", "evaluator", "operator", "recorder"}));
-  root.add_option("--listen", arguments.listen,
-                  "address of the page; port 0: a free one; default 127.0.0.1:7080. Beyond loopback it needs TLS")
-      .value_name("HOST:PORT");
-  root.add_option("--certificate", arguments.certificate, "TLS certificate of the page, a chain in PEM format")
-      .value_name("FILE");
-  root.add_option("--key", arguments.key, "private key of the certificate, in PEM format without a password")
-      .value_name("FILE");
+  console::add_page_address_options(root, arguments.page);
   root.add_flag("--sign-in", arguments.sign_in,
                 "no connection of its own: each person signs in with a ticket, and no URL with a token is printed");
   root.add_flag("--allow-browser-seats", arguments.seats,
                 "a person may take a free MASTER seat in the browser, with mouse, touch screen or gamepad");
   root.add_flag("--play", arguments.play,
                 "starts a server with the scene lesson and a simulated partner; the page takes your seat");
+  root.add_option("--recordings", arguments.recordings,
+                  "instructors, evaluators and operators play the recordings of this folder, and see its scores")
+      .value_name("DIR");
+  console::add_play_command(root);
   client::add_state_option(root, arguments.connection.state);
   client::add_timeout_option(root, arguments.connection.timeout);
   root.footer(
@@ -154,6 +139,7 @@ int main(int argc, char** argv) {
       "  tandem-console --server 127.0.0.1:7000\n"
       "  tandem-console --play --listen 127.0.0.1:0\n"
       "  tandem-console --server lab-server:7000 --ticket-file operator.ticket --listen 127.0.0.1:0\n"
+      "  tandem-console --recordings lessons\n"
       "  tandem-console --sign-in --listen 0.0.0.0:7443 --certificate page.pem --key page.key");
   io::log_to_stderr("tandem-console");
   return program.run({argv + 1, argv + argc});

@@ -62,6 +62,7 @@ class WebServer {
   }
 
   void on_news() {
+    state_.gateway.on_news();
     each([](LiveSocket& socket) { socket.on_news(); });
   }
 
@@ -151,7 +152,6 @@ std::expected<void, std::string> run_web_server(
       if (*server != nullptr) (*server)->on_news();
     });
   };
-  const bool has_own = own.has_value();
   Gateway gateway(options.gateway, std::move(own), mailbox, news);
   WebState state{gateway, options.tls ? &*options.tls : nullptr};
   std::optional<net::ssl::context> tls;
@@ -165,12 +165,12 @@ std::expected<void, std::string> run_web_server(
   {
     WebServer web(context, std::move(*acceptor), state, tls ? &*tls : nullptr, ::dup(options.signals));
     *server = &web;
-    started(url_of(options, state.port), has_own ? gateway.make_token(io::monotonic_now()) : std::string{});
+    started(url_of(options, state.port), gateway.has_token() ? gateway.make_token(io::monotonic_now()) : std::string{});
     context.run();
     *server = nullptr;
   }
   mailbox->connect({});
-  gateway.abandon_joins();
+  gateway.abandon_requests();
   return {};
 }
 

@@ -1,5 +1,6 @@
 import './style/base.css';
 import './style/views.css';
+import './style/recordings.css';
 import './style/narrow.css';
 
 import { Connection } from './app/connection';

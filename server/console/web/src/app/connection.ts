@@ -9,6 +9,8 @@ import { t } from '../strings/strings';
 const kReserve = 10;
 /** Close code of the gateway for a browser without a valid cookie. */
 const kSignIn = 4401;
+/** Close code of a gateway that plays recordings and has no session. */
+const kPlayer = 4404;
 /** Time between two measurements of the round trip [ms]. */
 const kMeasurePeriod = 10_000;
 
@@ -122,6 +124,10 @@ export class Connection {
     this.socket = null;
     this.pending.failAll(t('order.no_connection'));
     const detail = reason || `WebSocket ${code}`;
+    if (code === kPlayer) {
+      this.model.playsOnly();
+      return this.onChange();
+    }
     const refused = code === kSignIn || (!opened && (await gatewayAnswers()));
     this.model.disconnected(refused ? 'refused' : 'lost', detail);
     this.onChange();

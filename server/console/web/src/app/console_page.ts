@@ -11,6 +11,7 @@ import { JoinView } from '../views/join_view';
 import { LiveView } from '../views/live_view';
 import { Messages } from '../views/messages';
 import { PictureHost } from '../views/picture_host';
+import { RecordingsView } from '../views/recordings_view';
 import { SeatView } from '../views/seat_view';
 import { kViews, TopBar } from '../views/top_bar';
 import type { Connection } from './connection';
@@ -29,6 +30,7 @@ export class ConsolePage implements Page {
   private bar: TopBar | null = null;
   private control: ControlBar | null = null;
   private views = new Map<ViewName, View>();
+  private recordings: RecordingsView | null = null;
   private current: ViewName = 'live';
   private main = el('main', { id: 'main', tabindex: -1 });
   private join: JoinView | null = null;
@@ -85,12 +87,15 @@ export class ConsolePage implements Page {
       change: (settings) => this.change(settings),
     });
     this.control = new ControlBar(this);
+    const recordings = new RecordingsView(this);
+    this.recordings = recordings;
     this.views = new Map<ViewName, View>([
       ['live', new LiveView(this, this.host)],
       ['instructor', new InstructorView(this)],
       ['evaluator', new EvaluatorView(this)],
       ['seat', new SeatView(this)],
       ['desk', new DeskView(this)],
+      ['recordings', recordings],
     ]);
     this.main = el('main', { id: 'main', tabindex: -1 });
     this.root.replaceChildren(
@@ -121,6 +126,7 @@ export class ConsolePage implements Page {
     const { theme } = this.settings;
     document.documentElement.dataset.theme = theme === 'auto' ? (this.dark.matches ? 'dark' : 'light') : theme;
     this.host.picture?.recolour();
+    this.recordings?.recolour();
   }
 
   private choose(view: ViewName): void {
@@ -136,6 +142,8 @@ export class ConsolePage implements Page {
 
   private onChange(): void {
     const { model } = this;
+    if (model.link === 'player' && this.current !== 'recordings') this.choose('recordings');
+    this.root.classList.toggle('player-only', model.link === 'player');
     if (model.link === 'refused') {
       this.join ??= new JoinView(this.prefilled, () => this.connection.reconnect());
       if (!this.join.node.isConnected) this.main.replaceChildren(this.join.node);
@@ -185,7 +193,7 @@ export class ConsolePage implements Page {
   }
 
   private onKey(event: KeyboardEvent): void {
-    if (!this.settings.keys || event.ctrlKey || event.altKey || event.metaKey || event.repeat) return;
+    if (!this.settings.keys || event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.target;
     const writes =
       target instanceof HTMLElement &&
@@ -194,6 +202,8 @@ export class ConsolePage implements Page {
     if (writes || this.join) return;
     const key = event.key.toLowerCase();
     const view = kViews[Number(key) - 1];
+    if (this.current === 'recordings' && this.recordings?.key(event)) return event.preventDefault();
+    if (event.repeat || this.model.link === 'player') return;
     if (key === 's') this.control?.order('stop');
     else if (key === 'p') this.control?.order('pause');
     else if (key === 'r') this.control?.order('resume');

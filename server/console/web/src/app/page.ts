@@ -4,7 +4,7 @@ import type { Notice, OrderBody, Reply, Request } from '../protocol/messages';
 import type { Connection } from './connection';
 import type { Sound } from './sound';
 
-export type ViewName = 'live' | 'instructor' | 'evaluator' | 'seat' | 'desk';
+export type ViewName = 'live' | 'instructor' | 'evaluator' | 'seat' | 'desk' | 'recordings';
 
 /** What the views share. */
 export interface Page {

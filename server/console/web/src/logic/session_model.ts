@@ -1,6 +1,7 @@
 import type {
   GatewayMessage,
   Hello,
+  LiveScores,
   Notes,
   Notice,
   OwnSeat,
@@ -16,7 +17,7 @@ import { SeatHistory } from './history';
 import { Ring } from './ring';
 import { StateWindow } from './state_window';
 
-export type Link = 'connecting' | 'open' | 'lost' | 'refused';
+export type Link = 'connecting' | 'open' | 'lost' | 'refused' | 'player';
 
 export const kEventsKept = 500;
 export const kNoticesKept = 50;
@@ -29,6 +30,7 @@ export class SessionModel {
   notes: Notes | null = null;
   ownSeat: OwnSeat | null = null;
   tickets: Tickets | null = null;
+  scores: LiveScores | null = null;
   readonly states = new StateWindow();
   readonly acknowledgements = new Acknowledgements();
   readonly alarms = new AlarmLog();
@@ -90,6 +92,9 @@ export class SessionModel {
         this.tickets = message;
         this.revision += 1;
         break;
+      case 'scores':
+        this.scores = message;
+        break;
       case 'reply':
         break;
     }
@@ -108,6 +113,11 @@ export class SessionModel {
     this.alarms.connection(true, this.state?.t ?? null, detail);
   }
 
+  /** The gateway has no session and plays recordings only. */
+  playsOnly(): void {
+    this.link = 'player';
+  }
+
   private beginSession(): void {
     this.states.clear();
     this.history.clear();
@@ -115,6 +125,7 @@ export class SessionModel {
     this.events.clear();
     this.notes = null;
     this.ownSeat = null;
+    this.scores = null;
   }
 
   /** After a reconnect the gateway sends the events again. */

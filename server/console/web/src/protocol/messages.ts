@@ -1,5 +1,7 @@
 /** Messages of the gateway, version 1. Quantities are SI unless the name has a suffix; null means unknown. */
 
+import type { Scores } from './scores';
+
 export const kProtocol = 1;
 export const kSeatsMax = 24;
 export const kToolsMax = 8;
@@ -18,7 +20,8 @@ export type Right =
   | 'create'
   | 'seat'
   | 'invite'
-  | 'record';
+  | 'record'
+  | 'recordings';
 export type Phase = 'WAITING' | 'RUNNING' | 'STOPPED' | 'PAUSED' | 'OVER';
 export type SheetName = 'OSATS' | 'GEARS' | 'GOALS' | 'CHECKLIST';
 
@@ -238,7 +241,24 @@ export interface Tickets {
   tickets: readonly Ticket[];
 }
 
-export type GatewayMessage = Hello | Scene | State | SessionEvent | Reply | Notice | OwnSeat | Notes | Tickets;
+/** Scores of the watched session so far, for roles that may score. */
+export interface LiveScores {
+  type: 'scores';
+  session: string;
+  scores: Scores;
+}
+
+export type GatewayMessage =
+  | Hello
+  | Scene
+  | State
+  | SessionEvent
+  | Reply
+  | Notice
+  | OwnSeat
+  | Notes
+  | Tickets
+  | LiveScores;
 
 /** Orders of the lesson: the same commands as `tandem-client control`. */
 export type OrderBody =

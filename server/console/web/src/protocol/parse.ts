@@ -1,6 +1,5 @@
 import {
   kSeatsMax,
-  kTextMax,
   kToolsMax,
   type GatewayMessage,
   type Phase,
@@ -16,36 +15,13 @@ import {
   type ToolState,
   type Vec3,
 } from './messages';
-
-type Json = Record<string, unknown>;
+import { count, flag, isObject, list, number, object, text, textOrNull, texts, type Json } from './json';
+import { readScores } from './scores';
 
 /** Longest frame that the page parses [characters]; a state of 24 seats needs some 12000. */
 export const kFrameMax = 1 << 20;
-/** Largest length of a list without a limit of its own. */
-const kListMax = 1000;
 const kPhases: readonly Phase[] = ['WAITING', 'RUNNING', 'STOPPED', 'PAUSED', 'OVER'];
 const kSheets: readonly SheetName[] = ['OSATS', 'GEARS', 'GOALS', 'CHECKLIST'];
-
-const isObject = (value: unknown): value is Json =>
-  typeof value === 'object' && value !== null && !Array.isArray(value);
-const object = (value: unknown): Json => (isObject(value) ? value : {});
-const list = (value: unknown, max = kListMax): unknown[] => (Array.isArray(value) ? value.slice(0, max) : []);
-const number = (value: unknown): number | null => (typeof value === 'number' && Number.isFinite(value) ? value : null);
-const count = (value: unknown): number => {
-  const found = number(value);
-  return found !== null && found >= 0 ? Math.floor(found) : 0;
-};
-const flag = (value: unknown): boolean | null => (typeof value === 'boolean' ? value : null);
-// Control characters could change the direction or the lines of a text on the page.
-// eslint-disable-next-line no-control-regex
-const kControl = /[\u0000-\u001f\u007f-\u009f\u200e\u200f\u202a-\u202e\u2066-\u2069]/g;
-const text = (value: unknown): string =>
-  typeof value === 'string' ? value.slice(0, kTextMax).replace(kControl, ' ') : '';
-const textOrNull = (value: unknown): string | null => (typeof value === 'string' ? text(value) : null);
-const texts = (value: unknown): string[] =>
-  list(value)
-    .filter((v) => typeof v === 'string')
-    .map(text);
 
 /** Returns three finite numbers, or null: one unknown component makes the vector unknown. */
 function vec3(value: unknown): Vec3 | null {
@@ -278,6 +254,10 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
             ];
       }),
   }),
+  scores: (from) => {
+    const scores = readScores(from);
+    return scores && { type: 'scores', session: text(from.session), scores };
+  },
   tickets: (from) => ({
     type: 'tickets',
     session: text(from.session),
@@ -305,6 +285,11 @@ export function parseMessage(frame: string): GatewayMessage | null {
   } catch {
     return null;
   }
+  return readMessage(parsed);
+}
+
+/** Returns a message from parsed JSON, or null if it is none that the page knows. Never throws. */
+export function readMessage(parsed: unknown): GatewayMessage | null {
   if (!isObject(parsed) || typeof parsed.type !== 'string') return null;
   const reader = Object.prototype.hasOwnProperty.call(kReaders, parsed.type) ? kReaders[parsed.type] : undefined;
   return reader ? reader(parsed) : null;

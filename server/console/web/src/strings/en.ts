@@ -1,5 +1,8 @@
+import { recordingsEn } from './recordings_en';
+
 /** English texts of the page. Words in braces are replaced. */
 export const en = {
+  ...recordingsEn,
   'language.name': 'English',
   'nav.label': 'Views',
   'nav.live': 'Live',
@@ -18,7 +21,7 @@ export const en = {
   'bar.keys': 'Keys',
   'bar.invite': 'Invite another browser',
   'bar.invitation': 'URL for the other browser, valid once and for 10 minutes',
-  'bar.keys_help': 'Keys: S stops, P pauses, R resumes, M marks, 1 to 5 choose the view.',
+  'bar.keys_help': 'Keys: S stops, P pauses, R resumes, M marks, 1 to 6 choose the view.',
   'bar.person': '{person}, {role}',
   'bar.settings': 'Settings',
   'recording.server': 'Recorded by the server',

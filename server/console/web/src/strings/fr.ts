@@ -1,7 +1,9 @@
 import type { StringKey } from './en';
+import { recordingsFr } from './recordings_fr';
 
 /** French texts of the page. */
 export const fr: Readonly<Record<StringKey, string>> = {
+  ...recordingsFr,
   'language.name': 'Français',
   'nav.label': 'Vues',
   'nav.live': 'Direct',
@@ -20,7 +22,7 @@ export const fr: Readonly<Record<StringKey, string>> = {
   'bar.keys': 'Touches',
   'bar.invite': 'Inviter un autre navigateur',
   'bar.invitation': 'URL pour l’autre navigateur, valable une fois, pendant 10 minutes',
-  'bar.keys_help': 'Touches : S arrête, P met en pause, R reprend, M marque, 1 à 5 choisissent la vue.',
+  'bar.keys_help': 'Touches : S arrête, P met en pause, R reprend, M marque, 1 à 6 choisissent la vue.',
   'bar.person': '{person}, {role}',
   'bar.settings': 'Réglages',
   'recording.server': 'Enregistrée par le serveur',

@@ -13,7 +13,7 @@ import { kUnknown, percent } from '../logic/format';
 import type { Scene, SceneSeat } from '../protocol/messages';
 import { t, word } from '../strings/strings';
 import { button, el, fillSelect, labelled, panel, select, setDisabled, setText } from './dom';
-import { swatch } from './live_view';
+import { swatch } from './value_table';
 
 interface Row {
   slider: HTMLInputElement;

@@ -1,6 +1,7 @@
 import type { Page, View } from '../app/page';
 import { AlarmList } from './alarm_list';
 import { el } from './dom';
+import { ScorePanel } from './score_panel';
 import { SheetForm } from './sheet_form';
 import { Timeline } from './timeline';
 
@@ -15,12 +16,13 @@ export class EvaluatorView implements View {
     this.timeline = new Timeline(page);
     const sheet = new SheetForm(page);
     const alarms = new AlarmList(page);
-    this.parts = [this.timeline, sheet, alarms];
+    const scores = new ScorePanel(page);
+    this.parts = [this.timeline, sheet, alarms, scores];
     this.node = el(
       'div',
       { class: 'view evaluator-view' },
       el('div', { class: 'column' }, this.slot, this.timeline.node, alarms.node),
-      el('div', { class: 'column' }, sheet.node),
+      el('div', { class: 'column' }, sheet.node, scores.node),
     );
   }
 

@@ -2,6 +2,7 @@ import type { Page, View } from '../app/page';
 import { AlarmList } from './alarm_list';
 import { AuthorityPanel } from './authority_panel';
 import { el } from './dom';
+import { ScorePanel } from './score_panel';
 import { SeatCards } from './seat_cards';
 import { WhoPanel } from './who_panel';
 
@@ -16,13 +17,14 @@ export class InstructorView implements View {
     const who = new WhoPanel(page);
     const cards = new SeatCards(page);
     const alarms = new AlarmList(page);
-    this.parts = [authority, who, cards, alarms];
+    const scores = new ScorePanel(page);
+    this.parts = [authority, who, cards, alarms, scores];
     this.node = el(
       'div',
       { class: 'view instructor-view' },
       el('div', { class: 'column' }, this.slot, who.node),
       el('div', { class: 'column' }, authority.node, alarms.node),
-      el('div', { class: 'column wide' }, cards.node),
+      el('div', { class: 'column wide' }, cards.node, scores.node),
     );
   }
 

@@ -20,7 +20,7 @@ import {
 import type { Scene, SceneSeat, SeatState } from '../protocol/messages';
 import { t, word } from '../strings/strings';
 import { el, labelled, panel, select, setAttribute, setText } from './dom';
-import { swatch } from './live_view';
+import { swatch } from './value_table';
 import { Sparkline } from './sparkline';
 
 const kRows = ['gate', 'force', 'rtt', 'loss', 'gap', 'age', 'margin', 'trips', 'late', 'temperature', 'link'] as const;

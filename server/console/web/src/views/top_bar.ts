@@ -6,7 +6,7 @@ import { kLanguages, setLanguage, t, word, currentLanguage, type Language } from
 import { RecordingMark } from './recording_mark';
 import { button, checkbox, el, fillSelect, labelled, select, setAttribute, setDisabled, setText } from './dom';
 
-export const kViews: readonly ViewName[] = ['live', 'instructor', 'evaluator', 'seat', 'desk'];
+export const kViews: readonly ViewName[] = ['live', 'instructor', 'evaluator', 'seat', 'desk', 'recordings'];
 
 export interface TopBarActions {
   choose(view: ViewName): void;
@@ -129,10 +129,18 @@ export class TopBar implements View {
     setText(this.link, t(`link.${model.link}`));
     setAttribute(this.link, 'data-link', model.link);
     setDisabled(this.invite, !model.may('invite'));
+    const right = {
+      live: null,
+      instructor: null,
+      evaluator: 'score',
+      seat: 'seat',
+      desk: 'create',
+      recordings: 'recordings',
+    } as const;
     for (const tab of this.tabs) {
-      const right = { live: null, instructor: null, evaluator: 'score', seat: 'seat', desk: 'create' } as const;
       const needed = right[tab.dataset.view as ViewName];
       tab.classList.toggle('denied', needed !== null && !model.granted(needed));
+      tab.hidden = model.link === 'player' && tab.dataset.view !== 'recordings';
     }
   }
 }

@@ -3,7 +3,7 @@ import { kUnknown } from '../logic/format';
 import type { Scene, SeatState } from '../protocol/messages';
 import { t, word } from '../strings/strings';
 import { ask, button, el, panel, setDisabled, setText } from './dom';
-import { swatch } from './live_view';
+import { swatch } from './value_table';
 
 function stateWords(seat: SeatState | undefined): string {
   if (!seat || seat.taken === null) return kUnknown;

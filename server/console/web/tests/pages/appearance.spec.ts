@@ -4,7 +4,7 @@ import { createRequire } from 'node:module';
 import { expect, test, view } from './fixture';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-const kNames = ['live', 'instructor', 'evaluator', 'seat', 'desk'];
+const kNames = ['live', 'instructor', 'evaluator', 'seat', 'desk', 'recordings'];
 
 interface Violation {
   id: string;
