@@ -151,6 +151,7 @@ export function emptyState(scene: Scene, t: number): State {
     shed: 0,
     held: '',
     recording: null,
+    noRecording: '',
     seats: scene.seats.map(() => unknownSeat),
     tools: scene.tools.map(() => unknownTool),
   };

@@ -6,7 +6,7 @@ import { kTextMax } from './messages';
 export type Json = Record<string, unknown>;
 
 /** Largest length of a list without a limit of its own. */
-const kListMax = 1000;
+export const kListMax = 1000;
 export const isObject = (value: unknown): value is Json =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
 export const object = (value: unknown): Json => (isObject(value) ? value : {});

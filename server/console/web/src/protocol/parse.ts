@@ -15,7 +15,7 @@ import {
   type ToolState,
   type Vec3,
 } from './messages';
-import { count, flag, isObject, list, number, object, text, textOrNull, texts, type Json } from './json';
+import { count, flag, isObject, kListMax, list, number, object, text, textOrNull, texts, type Json } from './json';
 import { readScores } from './scores';
 
 /** Longest frame that the page parses [characters]; a state of 24 seats needs some 12000. */
