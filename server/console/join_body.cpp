@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "proto/rpc/rpc_messages.h"
+#include "proto/rpc/rpc_texts.h"
 
 namespace tandem::console {
 namespace {
@@ -66,12 +66,6 @@ void trim(std::string& text) {
   text.erase(text.begin(), std::ranges::find_if_not(text, space));
 }
 
-bool is_name(std::string_view text) {
-  return text.size() <= rpc::kNameMax && std::ranges::all_of(text, [](char c) {
-           return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
-         });
-}
-
 }  // namespace
 
 std::expected<JoinBody, std::string> parse_join_body(std::string_view content_type, std::string_view body) {
@@ -86,7 +80,8 @@ std::expected<JoinBody, std::string> parse_join_body(std::string_view content_ty
   trim(parsed.name);
   if (parsed.ticket.empty() || parsed.ticket.size() > kTicketTextMax)
     return std::unexpected("\"ticket\" must be the output of `tandem-server ticket`, at most 1024 characters");
-  if (!is_name(parsed.name)) return std::unexpected("\"name\" must be at most 32 characters of A-Z a-z 0-9 _ -");
+  if (!parsed.name.empty() && !rpc::is_name(parsed.name))
+    return std::unexpected("\"name\" must be at most 32 characters of A-Z a-z 0-9 _ -");
   return parsed;
 }
 

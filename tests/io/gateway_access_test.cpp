@@ -32,6 +32,17 @@ TEST(GatewayAccess, IsByAOneTimeTokenThenACookie) {
   EXPECT_EQ(http_get(gateway.at, "/../../etc/passwd", {{"Cookie", cookie}}).status, 404U);
 }
 
+TEST(GatewayAccess, GivesBrowsersItsIcon) {
+  const Process host = hosting("one_axis");
+  WebGateway gateway(address_of(host));
+  for (const char* path : {"/favicon.ico", "/assets/icon.svg"}) {
+    const HttpReply icon = http_get(gateway.at, path);
+    EXPECT_EQ(icon.status, 200U) << path;
+    EXPECT_EQ(icon.fields.at("content-type"), "image/svg+xml") << path;
+  }
+  EXPECT_NE(http_get(gateway.at, "/join").body.find("href=\"/assets/icon.svg\""), std::string::npos);
+}
+
 TEST(GatewayAccess, RefusesForeignHostsAndOrigins) {
   const Process host = hosting("one_axis");
   WebGateway gateway(address_of(host));
@@ -196,6 +207,7 @@ TEST(GatewayAccess, RefusesSigningInWithWords) {
   EXPECT_NE(http_post(gateway.at, "/join", kJson, json_body(bent), origin).status, 200U);
   const HttpReply markup = http_post(gateway.at, "/join", kForm, "ticket=%3Cscript%3E", origin);
   EXPECT_EQ(markup.body.find("<script"), std::string::npos) << markup.body;
+  EXPECT_EQ(markup.status, 400U) << "no ticket";
   EXPECT_EQ(http_post(gateway.at, "/join", kJson, json_body(good), origin).status, 200U) << "still valid";
 
   unsigned refused = 0;

@@ -37,6 +37,22 @@ TEST(Recordings, ExportTheBytesOfTheTrace) {
   }
 }
 
+TEST(Recordings, AreNotOverwrittenByTheirExport) {
+  const Folder folder;
+  ASSERT_TRUE(record(folder, "a"));
+  const std::string file = folder.file("a.mcap"), bytes = folder.read("a.mcap");
+  fs::create_symlink(file, folder.file("link.csv"));
+  fs::create_hard_link(file, folder.file("twin.csv"));
+  for (const std::string& to : {file, folder.file("link.csv"), folder.file("twin.csv"), folder.file("./a.mcap")})
+    for (const std::string format : {"csv", "hdf5"}) {
+      Process refused = recordings({"export", "a.mcap", "--dir", folder.file(""), "--to", to, "--format", format});
+      EXPECT_EQ(refused.wait(), 1) << to;
+      EXPECT_NE(refused.err().find("is the recording itself; name another file"), std::string::npos) << refused.err();
+      EXPECT_TRUE(folder.read("a.mcap") == bytes) << to;
+    }
+  EXPECT_TRUE(fs::is_symlink(folder.file("link.csv")));
+}
+
 TEST(Recordings, AreListedWithDamagedAndForeignFilesNamed) {
   const Folder folder;
   ASSERT_TRUE(record(folder, "a"));
@@ -201,6 +217,14 @@ TEST(Recordings, HaveTheirLengthInSessionTimeAfterARepair) {
   Process empty = server({"repair", folder.file("empty.mcap.part")});
   EXPECT_EQ(empty.wait(), 1);
   EXPECT_NE(empty.err().find("empty.mcap.part: is empty: "), std::string::npos) << empty.err();
+}
+
+TEST(Recordings, AreReplayedLiveFromAFileNotAFolder) {
+  const Folder folder;
+  Process refused = server({"replay-live", folder.file("")});
+  EXPECT_EQ(refused.wait(), 2);
+  EXPECT_NE(refused.err().find(folder.file("") + ": is a folder; name a recording"), std::string::npos)
+      << refused.err();
 }
 
 TEST(Recordings, NameAllMistakesOfTheirArguments) {

@@ -139,6 +139,27 @@ TEST(ScoreCommand, NamesEveryMistakeAtOnce) {
       << other_scene.err();
 }
 
+TEST(ScoreCommand, WritesOntoNoneOfItsInputs) {
+  const Folder folder;
+  const std::string file = trace(folder, "a.csv", "contact", "0.5"), bytes = folder.read("a.csv");
+  std::filesystem::create_symlink(file, folder.file("link"));
+  std::filesystem::copy_file(file, folder.file("other.csv"));
+  const std::string other = folder.file("other.csv");
+  for (const char* option : {"--json", "--csv", "--html"})
+    for (const std::string& output : {file, folder.file("link"), folder.file("./a.csv")})
+      for (const test::Words& inputs :
+           {test::Words{file}, test::Words{"--learner", file}, test::Words{other, "--experts", file}}) {
+        test::Words words = inputs;
+        words.insert(words.end(), {"--scene", "contact", "--quiet", option, output});
+        Process refused = score(words);
+        EXPECT_EQ(code_of(refused), 2) << option << " " << output;
+        EXPECT_NE(refused.err().find(std::string(option) + ": " + output + " is an input; name another file"),
+                  std::string::npos)
+            << refused.err();
+        EXPECT_TRUE(folder.read("a.csv") == bytes) << option << " " << output;
+      }
+}
+
 TEST(ScoreCommand, ReportsAnOutputThatCannotBeWritten) {
   const Folder folder;
   const std::string file = trace(folder, "a.csv", "contact", "0.5");

@@ -2,6 +2,7 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "common/io/clock.h"
@@ -14,11 +15,11 @@ using namespace std::chrono_literals;
 constexpr Duration kSilence = 3s;        // until the page hears that no datagrams arrive
 constexpr Duration kLeastPeriod = 14ms;  // a recorder's connection gets every tick, which no screen needs
 
-std::shared_ptr<const LiveValues> values_of(const client::TelemetryFeed& feed, Time now, ToolVelocities& velocities) {
+std::shared_ptr<const LiveValues> values_of(const client::TelemetryFeed& feed, ToolVelocities& velocities) {
   const client::SessionWatch& watch = feed.watch();
   auto values = std::make_shared<LiveValues>();
   values->telemetry = *watch.newest();
-  values->arrived = now;
+  values->arrived = feed.arrived();
   values->velocities = velocities.update(values->telemetry, feed.scene().tick_hz);
   for (std::size_t i = 0; i < feed.scene().seats.size(); ++i) values->links[i] = watch.link_of(i);
   for (std::size_t j = 0; j < feed.scene().tools.size(); ++j) values->authorities[j] = watch.authority_over(j);
@@ -48,21 +49,24 @@ FeedThread::~FeedThread() {
 }
 
 void FeedThread::work() {
-  Time published{};
+  Time published{}, now{};
   ToolVelocities velocities;
   bool pending = false, silent = false;
   while (true) {
-    pollfd files[] = {{feed_.fd(), POLLIN, 0}, {over_.get(), POLLIN, 0}};
-    const bool recent = pending && io::monotonic_now() - published < kLeastPeriod;
-    ::poll(files, 2, recent ? 5 : client::TelemetryFeed::kServeIntervalMs);
-    const Time now = io::monotonic_now();
-    if (files[1].revents != 0) return feed_.leave(now);
+    now = io::monotonic_now();
+    const client::ReadPace::Wait wait = feed_.next_wait(now);
+    pollfd files[] = {{over_.get(), POLLIN, 0}, {feed_.fd(), POLLIN, 0}};
+    const timespec longest =
+        io::to_timespec(pending ? std::min(wait.longest, published + kLeastPeriod - now) : wait.longest);
+    ::ppoll(files, wait.for_datagram ? 2 : 1, &longest, nullptr);
+    now = io::monotonic_now();
+    if (files[0].revents != 0) return feed_.leave(now);
     pending = feed_.serve(now) || pending;
     if (const auto why = feed_.watch().closed()) return sink_(nullptr, text_of(*why));
     if (pending && now - published >= kLeastPeriod) {
       published = now;
       pending = silent = false;
-      sink_(values_of(feed_, now, velocities), {});
+      sink_(values_of(feed_, velocities), {});
     } else if (!silent && feed_.watch().silence(now) > kSilence) {
       silent = true;
       sink_(nullptr,

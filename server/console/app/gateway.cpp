@@ -69,13 +69,14 @@ bool Gateway::is_watched(const rpc::Id& session) const {
       [&](const Person& person) { return person.link->live() && person.link->newest()->status.session_id == session; });
 }
 
-std::expected<void, std::string> Gateway::join(const JoinBody& body, const auth::Source& from, Time now, Joined done) {
-  if (!options_.files.empty()) return std::unexpected("this gateway plays recordings only; it has no server");
+std::expected<void, JoinRefusal> Gateway::join(const JoinBody& body, const auth::Source& from, Time now, Joined done) {
+  if (!options_.files.empty())
+    return std::unexpected(JoinRefusal{false, "this gateway plays recordings only; it has no server"});
   if (!join_rates_.at(from, now, TokenBucket{kJoinRate, kJoinBurst}).take(now) || !all_joins_.take(now) ||
       pending_.size() >= kJoinsMax)
-    return std::unexpected("too many persons sign in at once; try again in a few seconds");
+    return std::unexpected(JoinRefusal{true, "too many persons sign in at once; try again in a few seconds"});
   const auto ticket = auth::ticket_from_text(body.ticket);
-  if (!ticket) return std::unexpected(ticket.error());
+  if (!ticket) return std::unexpected(JoinRefusal{false, ticket.error()});
   ServerLink::Options link{.join = options_.join, .news = news_};
   link.join.ticket = body.ticket;
   link.join.session.clear();

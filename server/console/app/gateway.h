@@ -34,6 +34,12 @@ struct Person {
   bool house = false;                ///< has the gateway's own connection
 };
 
+/// A sign-in that the gateway does not begin.
+struct JoinRefusal {
+  bool busy = false;  ///< too many sign in; otherwise the ticket cannot be read
+  std::string why;    ///< cause and remedy
+};
+
 /// Persons with their control connections, and the links that show sessions. For the web thread.
 class Gateway {
  public:
@@ -74,7 +80,7 @@ class Gateway {
   /// Called in the web thread with the secret of a new cookie, or cause and remedy.
   using Joined = std::function<void(std::expected<std::string, std::string>)>;
   /// Joins the server with the ticket of a person. @return error: refused at once, and `done` is not called
-  [[nodiscard]] std::expected<void, std::string> join(const JoinBody& body, const auth::Source& from, Time now,
+  [[nodiscard]] std::expected<void, JoinRefusal> join(const JoinBody& body, const auth::Source& from, Time now,
                                                       Joined done);
 
   /// Whether the gateway has recordings that it may show.

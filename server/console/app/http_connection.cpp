@@ -25,6 +25,9 @@ constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
     "base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 
+// Browsers ask for /favicon.ico where a page names no icon, as the plain texts of refusals.
+constexpr std::string_view kIcon = "/assets/icon.svg";
+
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 beast::string_view boosted(std::string_view text) { return {text.data(), text.size()}; }
 
@@ -82,8 +85,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (const std::string_view token = token_of(target); !token.empty()) return redeem(token);
     if (is_recording_target(target)) return recordings(person.get(), target);
     // The page has no secret: without a cookie it shows the form for a ticket.
+    const std::string_view path = target == "/favicon.ico" ? kIcon : target;
     for (const PageFile& file : page_files())
-      if (file.path == target) return send_file(file);
+      if (file.path == path) return send_file(file);
     answer(http::status::not_found, "no such file\n");
   }
 
@@ -124,7 +128,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
           if (form) return self->redirect("/", *secret);
           self->answer_json(http::status::ok, true, "", *secret);
         });
-    if (!begun) refuse_join(http::status::too_many_requests, form, begun.error());
+    if (!begun)
+      refuse_join(begun.error().busy ? http::status::too_many_requests : http::status::bad_request, form,
+                  begun.error().why);
   }
 
   void recordings(const Person* person, std::string_view target) {
@@ -230,7 +236,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error && self->response_.keep_alive()) return self->read();
       beast::error_code ignored;
-      self->stream_.lowest().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+      static_cast<void>(self->stream_.lowest().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored));
     });
   }
 

@@ -94,6 +94,22 @@ TEST(Summary, BeginsWithTheFirstRowAndNotWithTheSession) {
   EXPECT_EQ(summary_of(lesson).start_unix_ns, kNow + 60'000'000'000) << "an order began it after a minute";
 }
 
+TEST(Summary, CountsTicksThatAFullDiskCost) {
+  Lesson lesson = test::empty_lesson(test::shipped("free_motion"));
+  for (const std::uint32_t tick : {100u, 101u, 105u}) {
+    TickRecord record;
+    record.tick = tick;
+    test::append_record(lesson, record);
+  }
+  EXPECT_EQ(summary_of(lesson).missing_ticks, 3u) << "the rows alone";
+  // The disk stayed full after the last row: only the account has those ticks.
+  lesson.counts["/authority"] = {.recorded = 3, .dropped = 503, .never_received = 0};
+  lesson.counts["/seat"] = {.recorded = 3, .dropped = 2, .never_received = 1};
+  EXPECT_EQ(summary_of(lesson).missing_ticks, 503u);
+  lesson.counts["/authority"].dropped = 1;
+  EXPECT_EQ(summary_of(lesson).missing_ticks, 3u) << "never fewer than the rows show";
+}
+
 TEST(RecordingText, NamesPersonsAndSkippedFilesSafely) {
   std::vector<RecordingRow> rows{row("good.mcap", 1, 2'500'000), row("bad\x1b[2J.mcap", 1, 7)};
   rows[0].summary.session = "lesson";

@@ -128,6 +128,19 @@ TEST(JoinBody, IsAFormOrJson) {
   EXPECT_TRUE(parse_join_body(kForm, "ticket=a&name="));
 }
 
+TEST(JoinBody, MayHaveANameOfTheProtocol) {
+  for (const std::string& name : {std::string("ann_1-B"), std::string(32, 'x'), std::string(" ann ")}) {
+    const auto body = parse_join_body(kForm, "ticket=a&name=" + name);
+    ASSERT_TRUE(body) << body.error();
+    EXPECT_EQ(body->name, name == " ann " ? "ann" : name);
+  }
+  for (const std::string& name : {std::string("Ann+Lee"), std::string("J%C3%BCrgen"), std::string(33, 'x')}) {
+    const auto body = parse_join_body(kForm, "ticket=a&name=" + name);
+    ASSERT_FALSE(body) << name;
+    EXPECT_EQ(body.error(), "\"name\" must be at most 32 characters of A-Z a-z 0-9 _ -");
+  }
+}
+
 TEST(JoinBody, IsRefusedWithoutItsTicketInTheText) {
   const std::string secret = "ticket:SECRETSECRET";
   const std::pair<const char*, std::string> rows[] = {

@@ -56,7 +56,7 @@ export const en = {
   'join.title': 'Join the session',
   'join.explain': 'This browser has no access yet. Type the ticket that you received, or open the link with it.',
   'join.ticket': 'Ticket',
-  'join.name': 'Your name',
+  'join.name': 'Your name (optional: A-Z a-z 0-9 _ -)',
   'join.go': 'Join',
   'join.failed': 'The gateway could not be reached. Try again.',
   'picture.label': 'Picture of the session. Arrow keys turn the camera, plus and minus zoom.',

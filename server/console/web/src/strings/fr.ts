@@ -57,7 +57,7 @@ export const fr: Readonly<Record<StringKey, string>> = {
   'join.title': 'Rejoindre la session',
   'join.explain': 'Ce navigateur n’a pas encore d’accès. Saisissez le billet que vous avez reçu, ou ouvrez son lien.',
   'join.ticket': 'Billet',
-  'join.name': 'Votre nom',
+  'join.name': 'Votre nom (facultatif : A-Z a-z 0-9 _ -)',
   'join.go': 'Rejoindre',
   'join.failed': 'La passerelle est injoignable. Réessayez.',
   'picture.label': 'Image de la session. Les flèches tournent la caméra, plus et moins changent le zoom.',

@@ -1,11 +1,22 @@
+import { kNameLength, kOptionalNamePattern, kTicketLength } from '../logic/sign_in';
 import { t } from '../strings/strings';
 import { el, labelled, panel, setDisabled, setText } from './dom';
 
 /** The form for a ticket, shown when the gateway does not know this browser. */
 export class JoinView {
   readonly node: HTMLElement;
-  private readonly ticket = el('input', { type: 'password', autocomplete: 'off', required: true, maxlength: 4096 });
-  private readonly name = el('input', { type: 'text', autocomplete: 'name', required: true, maxlength: 64 });
+  private readonly ticket = el('input', {
+    type: 'password',
+    autocomplete: 'off',
+    required: true,
+    maxlength: kTicketLength,
+  });
+  private readonly name = el('input', {
+    type: 'text',
+    autocomplete: 'nickname',
+    maxlength: kNameLength,
+    pattern: kOptionalNamePattern,
+  });
   private readonly go = el('button', { type: 'submit', class: 'primary' }, t('join.go'));
   private readonly problem = el('p', { class: 'problem', role: 'alert' });
 
