@@ -186,6 +186,33 @@ TEST(LiveReplay, SaysWhyARecordingHasNoInputs) {
   EXPECT_NE(replay.err.find("`tandem-client record` receives values"), std::string::npos) << replay.err;
 }
 
+TEST(LiveReplay, PutsMainScoresIntoTheReportOfTheServer) {
+  const Folder folder;
+  Process host = hosting(
+      "one_axis", {"--duration", "3", "--record", folder.file("a.mcap"), "--scores", "--json", folder.file("a.json")});
+  Process trainer = client(address_of(host), "trainer");
+  EXPECT_TRUE(host.wait()) << host.err();
+  EXPECT_TRUE(trainer.wait()) << trainer.err();
+  EXPECT_NE(host.out().find("Path length [mm]"), std::string::npos) << host.out() << host.err();
+  const Json report = folder.json("a.json");
+  EXPECT_TRUE(report.contains("seats")) << "the report is whole";
+  const Ended scored = netsim({"score", folder.file("a.mcap"), "--json", "-", "--quiet"});
+  ASSERT_EQ(scored.code, 0) << scored.err;
+  const Json whole = Json::parse(scored.out)["lessons"][0]["seats"][0]["parts"][0];
+  const Json part = report["scores"]["seats"][0]["parts"][0];
+  EXPECT_GT(part["metrics"]["path_length"]["value"], 0.05);
+  for (const auto& [key, metric] : part["metrics"].items()) EXPECT_EQ(metric, whole["metrics"][key]) << key;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.json.new")));
+  for (const Words& wrong : {Words{"--scores"}, Words{"--scores", "--record", folder.file("")},
+                             Words{"--scores", "--record", folder.file("b.mcap"), "--json", "-"}}) {
+    Words words{"run", "one_axis"};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    const Ended refused = ended(TANDEM_SERVER, words);
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_NE(refused.err.find("--scores"), std::string::npos) << refused.err;
+  }
+}
+
 // A leave at the end is no fault: no score is flagged for it.
 TEST(LiveReplay, ScoresALeaveWithoutAFlag) {
   const Folder folder;

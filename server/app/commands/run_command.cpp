@@ -3,12 +3,14 @@
 #include <utility>
 
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
 #include "common/setup/device_stiffness.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
+#include "server/app/commands/run_scores.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/control/server_keys.h"
 #include "server/app/process/server_process.h"
@@ -20,7 +22,7 @@ namespace {
 struct RunArguments {
   std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace, record, metrics,
                      log = "text";
-  bool check = false, quiet = false, fresh = false, pseudonyms = false, on_order = false;
+  bool check = false, quiet = false, fresh = false, pseudonyms = false, on_order = false, scores = false;
 };
 
 /// A recording never replaces a file, and a user who names one expects it there.
@@ -74,6 +76,9 @@ ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& erro
   if (!arguments.record.empty()) errors.add("--record " + arguments.record, record_problem(arguments.record));
   if (arguments.record.empty() && (arguments.pseudonyms || arguments.on_order))
     errors.add(arguments.pseudonyms ? "--pseudonyms" : "--record-on-order", "needs --record");
+  if (arguments.scores && !arguments.record.ends_with(".mcap"))
+    errors.add("--scores", "needs --record FILE.mcap, from which they are computed; a folder gets names of its own");
+  if (arguments.scores && arguments.json == "-") errors.add("--scores", "excludes --json -; name a file");
   plan.record = session.record;
   if (!session.trace.empty() && session.trace == session.json) errors.add("--trace", "is the same file as --json");
   return plan;
@@ -85,7 +90,14 @@ int run_command(const RunArguments& arguments) {
   if (!errors.empty()) return errors.report("tandem-server run");
   if (plan.control.metrics && !plan.control.metrics->loopback())
     io::print_formatted(stderr, "--metrics %s: %s\n", arguments.metrics.c_str(), kUnprotectedMetricsWarning);
-  if (!arguments.check) return run_server(plan);
+  if (!arguments.check) {
+    const int code = run_server(plan);
+    const std::string problem =
+        arguments.scores ? add_scores(arguments.record, arguments.json, arguments.quiet) : std::string();
+    if (problem.empty()) return code;
+    io::print(stderr, "tandem-server run: " + problem + "\n");
+    return io::kExitTrouble;
+  }
   const SceneSpec& scene = plan.sessions.front().scene;
   std::printf("%s%s", effective_scene_text(scene).c_str(), setup::granted_listing(scene).c_str());
   std::puts(
@@ -135,6 +147,9 @@ void add_run_command(const io::Command& root) {
                    "the recording has P1, P2 ... instead of names of participants and workstations");
   command.add_flag("--record-on-order", arguments.on_order,
                    "records only from `tandem-client control record start` on, or the button of the console");
+  command.add_flag("--scores", arguments.scores,
+                   "the report has the main scores of the recording (--record FILE.mcap), with flags, as "
+                   "tandem-netsim score; reads the recording at the end");
   command
       .add_option("--metrics", arguments.metrics,
                   "serves /metrics (Prometheus), /healthz and /readyz at this address over HTTP; default: off")
