@@ -14,7 +14,7 @@
 namespace tandem::console {
 namespace {
 
-constexpr int kScorePriority = 19;                 // nice value
+constexpr int kScorePriority = 19;                  // nice value
 constexpr std::uint64_t kBytesPerRowAndPart = 410;  // of a seat or tool (proto/recording/lesson_reader.h)
 
 RecordingScores::Answer computed(const std::string& path) {
