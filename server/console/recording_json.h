@@ -26,10 +26,10 @@ struct ListedRecording {
 
 struct RecordingList {
   std::vector<ListedRecording> recordings;
-  std::uint64_t left_out = 0;          ///< recordings beyond those of the list
+  std::uint64_t left_out = 0;           ///< recordings beyond those of the list
   std::uint64_t read = 0, to_read = 0;  ///< files of the folder that are being read; both 0: all of them were
-  std::uint64_t unfinished = 0;        ///< files that are being written
-  std::string problem;                 ///< why the folder cannot be read; empty: it can
+  std::uint64_t unfinished = 0;         ///< files that are being written
+  std::string problem;                  ///< why the folder cannot be read; empty: it can
 };
 
 [[nodiscard]] std::string list_json(const RecordingList& list);

@@ -7,7 +7,7 @@
 
 #include "proto/spec/lesson.h"
 
-/// What a page needs to know of a recording before it plays it.
+/// Outline of a recording: all that a page needs before it plays it.
 namespace tandem::console {
 
 /// Ticks [from, to) that the file has no row for.

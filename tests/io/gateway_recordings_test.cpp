@@ -1,4 +1,4 @@
-// Recordings at tandem-console: who may read them, how they are named, and files that are damaged. Real programs.
+// Recordings at tandem-console: rights, ids, and damaged files. Real programs.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -62,8 +62,8 @@ TEST(GatewayRecordings, AreForRolesThatScoreAndForNoneWithoutACookie) {
   MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
   WebGateway gateway(fixture.address, {"--sign-in", "--state", fixture.own, "--recordings", folder.file("")});
   const auto cookie_for = [&](const std::string& role) {
-    Process made = server({"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state",
-                           fixture.state});
+    Process made =
+        server({"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state", fixture.state});
     EXPECT_EQ(made.wait(), 0) << made.err();
     const std::string body = Json{{"ticket", first_line(made.out())}}.dump();
     return cookie_of(http_post(gateway.at, "/join", "application/json", body, gateway.at.origin()));
@@ -71,8 +71,9 @@ TEST(GatewayRecordings, AreForRolesThatScoreAndForNoneWithoutACookie) {
   const std::string id =
       get(gateway.at, "/recordings", cookie_for("instructor")).body["recordings"][0]["id"].get<std::string>();
   const std::string place = "/recordings/" + id;
-  const std::vector<std::string> targets{"/recordings", place, place + "/pieces/0", place + "/scores",
-                                         std::string("/recordings/") + kForeign, "/recordings/x"};
+  const std::vector<std::string> targets{
+      "/recordings",  place, place + "/pieces/0", place + "/scores", std::string("/recordings/") + kForeign,
+      "/recordings/x"};
   for (const char* role : {"trainee", "observer", "recorder"}) {
     const std::string cookie = cookie_for(role);
     WebPage page(gateway.at, cookie);
@@ -170,8 +171,8 @@ TEST(GatewayRecordings, SurviveDamagedDeletedAndForeignFiles) {
   std::filesystem::remove(folder.file("gone.mcap"));
   const unsigned after = status("gone.mcap");
   EXPECT_TRUE(after == 404U || after == 422U) << after << ": a deleted recording is not shown from an open file";
-  for (const char* target : {"/recordings/../good.mcap", "/recordings/good.mcap", "/recordings/%2e%2e/good.mcap",
-                             "/recordings//etc/passwd"})
+  for (const char* target :
+       {"/recordings/../good.mcap", "/recordings/good.mcap", "/recordings/%2e%2e/good.mcap", "/recordings//etc/passwd"})
     EXPECT_EQ(get(gateway.at, target, gateway.cookie).status, 404U) << target;
   EXPECT_EQ(http_get(gateway.at, "/healthz").status, 200U) << "the gateway stays";
 }

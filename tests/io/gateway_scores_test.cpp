@@ -1,4 +1,4 @@
-// Scores of a running session at tandem-console: their content, and who gets them. Real programs.
+// Scores of a running session at tandem-console: their content and their receivers. Real programs.
 #include <gtest/gtest.h>
 
 #include "tests/io/multi_client_fixture.h"
@@ -11,8 +11,8 @@ TEST(GatewayScores, GoToRolesThatScoreOnly) {
   MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
   WebGateway gateway(fixture.address, {"--sign-in", "--state", fixture.own});
   const auto page_of = [&](const std::string& role) {
-    Process made = server({"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state",
-                           fixture.state});
+    Process made =
+        server({"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state", fixture.state});
     EXPECT_EQ(made.wait(), 0) << made.err();
     const std::string body = Json{{"ticket", first_line(made.out())}}.dump();
     const HttpReply reply = http_post(gateway.at, "/join", "application/json", body, gateway.at.origin());
@@ -39,7 +39,8 @@ TEST(GatewayScores, GoToRolesThatScoreOnly) {
       EXPECT_NE(cells[m]["trust"], "good");
     }
   }
-  // Messages are in order: before this reply the others got all messages of the time in which the instructor got scores.
+  // Messages are in order: before this reply the others got all messages of the time in which the instructor got
+  // scores.
   for (const auto* page : {&trainee, &observer}) {
     (*page)->send({{"type", "leave"}, {"id", 9}});
     const Json reply = (*page)->until([](const Json& message) {

@@ -44,9 +44,8 @@ std::expected<RecordingFile, std::string> RecordingFile::open(const std::string&
 }
 
 ReadAt RecordingFile::read() const {
-  return [file = file_.get()](std::uint64_t offset, std::span<std::byte> into) {
-    return read_from(file, offset, into);
-  };
+  return
+      [file = file_.get()](std::uint64_t offset, std::span<std::byte> into) { return read_from(file, offset, into); };
 }
 
 bool RecordingFile::unchanged() const noexcept {

@@ -27,11 +27,11 @@ namespace tandem::console {
 
 /// A person at one or more pages.
 struct Person {
-  std::string name;                  ///< for display
-  bool proved = false;               ///< the name is that of the ticket
+  std::string name;     ///< for display
+  bool proved = false;  ///< the name is that of the ticket
   /// Control connection, whose rights the person has; the orders go there. Null if the gateway only plays recordings.
   std::shared_ptr<ServerLink> link;
-  bool house = false;                ///< has the gateway's own connection
+  bool house = false;  ///< has the gateway's own connection
 };
 
 /// A sign-in that the gateway does not begin.

@@ -4,12 +4,11 @@
 
 #include <new>
 
-
 namespace tandem::console {
 namespace {
 
-constexpr int kFastLevel = 1;           // states repeat their keys, so that higher levels gain little
-constexpr int kGzipWindow = 15 + 16;    // the largest window, with gzip's header
+constexpr int kFastLevel = 1;         // states repeat their keys, so that higher levels gain little
+constexpr int kGzipWindow = 15 + 16;  // the largest window, with gzip's header
 constexpr int kUsualMemory = 8;
 
 }  // namespace

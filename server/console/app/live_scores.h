@@ -16,8 +16,8 @@
 
 namespace tandem::console {
 
-/// Scores of running sessions so far, by the code of `tandem-netsim score`. For the web thread; a thread with the lowest
-/// priority computes them every kPeriod, or less often so that it takes at most 5 % of a core.
+/// Scores of running sessions so far, by the code of `tandem-netsim score`. For the web thread; a thread with the
+/// lowest priority computes them every kPeriod, or less often so that it takes at most 5 % of a core.
 class LiveScores {
  public:
   static constexpr Duration kPeriod = std::chrono::seconds{5};

@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
   root.add_flag("--play", arguments.play,
                 "starts a server with the scene lesson and a simulated partner; the page takes your seat");
   root.add_option("--recordings", arguments.recordings,
-                  "instructors, evaluators and operators play the recordings of this folder, and see its scores")
+                  "instructors, evaluators and operators play the recordings of this folder, with scores")
       .value_name("DIR");
   console::add_play_command(root);
   client::add_state_option(root, arguments.connection.state);

@@ -15,7 +15,7 @@ namespace tandem::console {
 /// outline, 16 bytes per group of chunks, and the rows of one piece.
 class OpenRecording {
  public:
-  static constexpr std::size_t kGroupChunks = 8;            ///< 2 s at 250 ms
+  static constexpr std::size_t kGroupChunks = 8;          ///< 2 s at 250 ms
   static constexpr std::uint64_t kGroupBytes = 8u << 20;  ///< at most, unless a chunk is larger
 
   /// @param id  by which pages ask for it
@@ -38,7 +38,7 @@ class OpenRecording {
 
  private:
   struct Group {
-    std::uint32_t begin = 0, end = 0;          ///< chunks
+    std::uint32_t begin = 0, end = 0;  ///< chunks
     std::uint32_t first_tick = 0, last_tick = 0;
   };
   [[nodiscard]] std::expected<Lesson, std::string> read(std::size_t begin, std::size_t end) const;

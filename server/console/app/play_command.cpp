@@ -30,8 +30,9 @@ int run_play(const PlayArguments& arguments) {
                " recordings; at most 100 are allowed. Show a folder with: tandem-console --recordings DIR");
   for (const std::string& file : arguments.files)
     if (const auto recording = server::RecordingFile::open(file); !recording)
-      errors.add(file + ": " + recording.error() + "; give a recording of tandem-server, tandem-client or "
-                                                   "tandem-netsim");
+      errors.add(file + ": " + recording.error() +
+                 "; give a recording of tandem-server, tandem-client or "
+                 "tandem-netsim");
   if (!errors.empty()) return errors.print("tandem-console: ");
   const io::Fd signals = io::make_signalfd();
   const WebOptions web{.listen = page.listen,

@@ -82,7 +82,8 @@ void RecordingCatalogue::scan(RecordingList& list) {
     return;
   }
   known_.clear();
-  for (const server::RecordingRow& row : *rows) known_.emplace(id_of(row.file), Found{row.file, folder_ + "/" + row.file});
+  for (const server::RecordingRow& row : *rows)
+    known_.emplace(id_of(row.file), Found{row.file, folder_ + "/" + row.file});
   keep(list, std::move(*rows));
 }
 
@@ -104,9 +105,8 @@ void RecordingCatalogue::list_files(RecordingList& list) {
 
 void RecordingCatalogue::keep(RecordingList& list, std::vector<server::RecordingRow> rows) {
   if (!folder_.empty())
-    std::ranges::stable_sort(rows, std::ranges::greater{}, [](const server::RecordingRow& row) {
-      return row.begun_ns();
-    });
+    std::ranges::stable_sort(rows, std::ranges::greater{},
+                             [](const server::RecordingRow& row) { return row.begun_ns(); });
   list.left_out = rows.size() - std::min(rows.size(), kListedMax);
   rows.resize(std::min(rows.size(), kListedMax));
   for (const server::RecordingRow& row : rows) list.recordings.push_back(listed(row));

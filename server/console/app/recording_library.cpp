@@ -125,9 +125,8 @@ void RecordingLibrary::forget(const std::string& id) {
 }
 
 RecordingLibrary::Open* RecordingLibrary::in_preparation() {
-  const auto found = std::ranges::find_if(open_, [](const Open& open) {
-    return open.recording && !open.recording->ready();
-  });
+  const auto found =
+      std::ranges::find_if(open_, [](const Open& open) { return open.recording && !open.recording->ready(); });
   return found == open_.end() ? nullptr : &*found;
 }
 
@@ -150,8 +149,8 @@ RecordingReply RecordingLibrary::piece_of(Open& open, std::uint32_t number) {
   const OpenRecording& recording = *open.recording;
   if (!recording.ready() || recording.outline().empty() || number >= recording.pieces())
     return recording.ready() ? reply_of(404, problem_json("the recording has no such piece")) : outline_of(open);
-  const auto known = std::ranges::find_if(
-      pieces_, [&](const Piece& piece) { return piece.id == open.id && piece.number == number; });
+  const auto known =
+      std::ranges::find_if(pieces_, [&](const Piece& piece) { return piece.id == open.id && piece.number == number; });
   if (known != pieces_.end()) {
     pieces_.splice(pieces_.begin(), pieces_, known);
     return {200, pieces_.front().gzip};

@@ -31,8 +31,8 @@ struct RecordingReply {
 /// requests, open recordings and remembered pieces; the one that was used least recently ends first.
 class RecordingLibrary {
  public:
-  static constexpr std::size_t kWaitingMax = 64;              ///< requests
-  static constexpr std::size_t kOpenMax = 6;                  ///< recordings whose outline is kept
+  static constexpr std::size_t kWaitingMax = 64;            ///< requests
+  static constexpr std::size_t kOpenMax = 6;                ///< recordings whose outline is kept
   static constexpr std::size_t kPieceBytesMax = 32u << 20;  ///< compressed pieces that are kept
 
   /// @param folder  of recordings; empty: only `files`

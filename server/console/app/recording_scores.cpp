@@ -14,7 +14,7 @@
 namespace tandem::console {
 namespace {
 
-constexpr int kScorePriority = 19;                 // nice value
+constexpr int kScorePriority = 19;                  // nice value
 constexpr std::uint64_t kBytesPerRowAndPart = 410;  // of a seat or tool (proto/recording/lesson_reader.h)
 
 RecordingScores::Answer computed(const std::string& path) {
@@ -34,7 +34,7 @@ RecordingScores::Answer RecordingScores::of(const std::string& id, const std::st
   const Lesson& head = outline.head();
   const std::uint64_t bytes = outline.rows() * kBytesPerRowAndPart * (head.seats.size() + head.tools.size());
   if (bytes > kBytesMax)
-    return {.problem = format("its scores need %.1f GB of memory here (limit 1.1); compute them with: "
+    return {.problem = format("its scores need %.1f GB of memory here (limit 0.8); compute them with: "
                               "tandem-netsim score FILE",
                               1e-9 * static_cast<double>(bytes))};
   const std::lock_guard hold{lock_};

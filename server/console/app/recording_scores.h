@@ -16,7 +16,7 @@ namespace tandem::console {
 /// larger ones than kBytesMax are refused, so that memory is bounded.
 class RecordingScores {
  public:
-  static constexpr std::uint64_t kBytesMax = 1u << 30;  ///< memory of a lesson, some 14 minutes of two seats
+  static constexpr std::uint64_t kBytesMax = 768u << 20;  ///< of a lesson in memory, some 11 minutes of two seats
   static constexpr std::size_t kKept = 16;              ///< results
 
   RecordingScores();

@@ -15,8 +15,8 @@ using netsim::score::PartScore;
 using netsim::score::Trust;
 using nlohmann::json;
 
-constexpr std::array kShown{Metric::kTime,      Metric::kPathLength,      Metric::kSparc,    Metric::kLogJerk,
-                            Metric::kForcePeak, Metric::kForceMean,       Metric::kContacts, Metric::kContactTimeMean,
+constexpr std::array kShown{Metric::kTime,      Metric::kPathLength,    Metric::kSparc,    Metric::kLogJerk,
+                            Metric::kForcePeak, Metric::kForceMean,     Metric::kContacts, Metric::kContactTimeMean,
                             Metric::kTracking,  Metric::kAuthorityShare};
 
 MetricTrust trust_of(const PartScore& part, Metric metric, double value, std::span<const RateDoubt> doubts) {

@@ -83,7 +83,8 @@ TEST(RecordingParts, SurviveAnyFlippedByte) {
     SCOPED_TRACE(seed);
     RandomStream random{seed};
     auto damaged = bytes;
-    for (int i = 0; i < 3; ++i) damaged[random.bits() % damaged.size()] ^= static_cast<std::byte>(1 + random.bits() % 255);
+    for (int i = 0; i < 3; ++i)
+      damaged[random.bits() % damaged.size()] ^= static_cast<std::byte>(1 + random.bits() % 255);
     const auto read = reader_of(damaged);
     const auto parts = RecordingParts::find(read, damaged.size());
     if (!parts) continue;

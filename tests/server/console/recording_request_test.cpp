@@ -22,13 +22,28 @@ TEST(RecordingRequests, HaveFourForms) {
 
 // An id has hex digits only, so that no request has a path, whatever a browser or proxy makes of dots and escapes.
 TEST(RecordingRequests, RefuseEveryPathAndEveryOtherForm) {
-  for (const std::string& tail :
-       {std::string("/"), std::string("/../x"), std::string("/%2e%2e/x"), "/" + kId + "/", "/" + kId + "/..",
-        "/" + kId + "/pieces", "/" + kId + "/pieces/", "/" + kId + "/pieces/-1", "/" + kId + "/pieces/01",
-        "/" + kId + "/pieces/1/", "/" + kId + "/pieces/10000000", "/" + kId + "/pieces/99999999999999999999",
-        "/" + kId + "/pieces/1e3", "/" + kId + "/scores/", "/" + kId + "?x", "/" + kId.substr(1),
-        "/" + kId + "0", "/" + std::string(32, 'A'), "/" + std::string(32, '.'), "/" + std::string(32, '/'),
-        std::string("x"), "/" + std::string(31, '0') + std::string(1, '\0')})
+  for (const std::string& tail : {std::string("/"),
+                                  std::string("/../x"),
+                                  std::string("/%2e%2e/x"),
+                                  "/" + kId + "/",
+                                  "/" + kId + "/..",
+                                  "/" + kId + "/pieces",
+                                  "/" + kId + "/pieces/",
+                                  "/" + kId + "/pieces/-1",
+                                  "/" + kId + "/pieces/01",
+                                  "/" + kId + "/pieces/1/",
+                                  "/" + kId + "/pieces/10000000",
+                                  "/" + kId + "/pieces/99999999999999999999",
+                                  "/" + kId + "/pieces/1e3",
+                                  "/" + kId + "/scores/",
+                                  "/" + kId + "?x",
+                                  "/" + kId.substr(1),
+                                  "/" + kId + "0",
+                                  "/" + std::string(32, 'A'),
+                                  "/" + std::string(32, '.'),
+                                  "/" + std::string(32, '/'),
+                                  std::string("x"),
+                                  "/" + std::string(31, '0') + std::string(1, '\0')})
     EXPECT_FALSE(parse_recording_request("/recordings" + tail)) << tail;
   for (const char* other : {"", "/", "/recording", "/RECORDINGS", "recordings", "//recordings"})
     EXPECT_FALSE(parse_recording_request(other)) << other;

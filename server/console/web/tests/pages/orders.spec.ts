@@ -163,7 +163,7 @@ test('a recording starts and ends by the button; all see a red dot with words', 
   const gateway = await start();
   const page = await open(gateway);
   await expect(page.locator('.recording')).toBeHidden();
-  await page.getByRole('button', { name: 'Record' }).click();
+  await page.getByRole('button', { name: 'Record', exact: true }).click();
   await expect(page.locator('.recording')).toHaveText('Recorded by the server');
   await expect(page.locator('.recording-dot')).toBeVisible();
   gateway.session.recording = { by_server: true, by_recorders: 0, pseudonyms: false, dropped: 12, trouble: '' };

@@ -1,8 +1,4 @@
-<<<<<<<< HEAD:server/console/web/dist/assets/picture-Bw2oCDbd.js
-import{R as bl,s as mr,i as Al,t as wl}from"./page-Br4xfcnI.js";/**
-========
-import{R as bl,s as mr,i as Al,t as wl}from"./page-C952HVON.js";/**
->>>>>>>> cpu16:server/console/web/dist/assets/picture-C50S1TJ4.js
+import{R as bl,s as mr,i as Al,t as wl}from"./page-CYPxhZaQ.js";/**
  * @license
  * Copyright 2010-2024 Three.js Authors
  * SPDX-License-Identifier: MIT
