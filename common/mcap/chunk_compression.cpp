@@ -3,6 +3,7 @@
 #include <zstd.h>
 
 #include <new>
+#include <utility>
 
 #include "common/base/raw_bytes.h"
 #include "common/mcap/mcap_records.h"
@@ -12,14 +13,24 @@ namespace tandem::mcap {
 void Compressor::Free::operator()(ZSTD_CCtx_s* context) const noexcept { ZSTD_freeCCtx(context); }
 void Decompressor::Free::operator()(ZSTD_DCtx_s* context) const noexcept { ZSTD_freeDCtx(context); }
 
-Compressor::Compressor(int level) : context_(ZSTD_createCCtx()) {
-  if (context_ == nullptr || ZSTD_isError(ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, level)) != 0)
-    throw std::bad_alloc();
+Compressor::Compressor(int level) : context_(ZSTD_createCCtx()), small_(ZSTD_createCCtx()) {
+  // The optimal parser finds the short matches between numbers; a shallow search keeps it at 30 MB/s. Measured on
+  // recordings of two seats: 4 % less than level 6, 1 % more than level 16, which takes twice as long.
+  constexpr std::pair<ZSTD_cParameter, int> kSmall[] = {
+      {ZSTD_c_strategy, ZSTD_btopt}, {ZSTD_c_minMatch, 3},  {ZSTD_c_searchLog, 1},    {ZSTD_c_windowLog, 20},
+      {ZSTD_c_hashLog, 15},          {ZSTD_c_chainLog, 15}, {ZSTD_c_targetLength, 16}};
+  const auto set = [](const auto& context, ZSTD_cParameter parameter, int value) {
+    if (context == nullptr || ZSTD_isError(ZSTD_CCtx_setParameter(context.get(), parameter, value)) != 0)
+      throw std::bad_alloc();
+  };
+  set(context_, ZSTD_c_compressionLevel, level);
+  for (const auto& [parameter, value] : kSmall) set(small_, parameter, value);
 }
 
 void Compressor::compress(std::string_view in, std::string& out) {
   out.resize(ZSTD_compressBound(in.size()));
-  const std::size_t size = ZSTD_compress2(context_.get(), out.data(), out.size(), in.data(), in.size());
+  ZSTD_CCtx* const context = (in.size() <= kSmallChunk ? small_ : context_).get();
+  const std::size_t size = ZSTD_compress2(context, out.data(), out.size(), in.data(), in.size());
   if (ZSTD_isError(size) != 0) throw std::bad_alloc();  // with room for the bound, memory is all that can be short
   out.resize(size);
 }

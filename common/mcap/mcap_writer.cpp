@@ -23,14 +23,16 @@ std::uint16_t Writer::add_channel(std::string topic, std::uint16_t schema, std::
 }
 
 void Writer::add_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time, std::string_view data) {
-  places_[channel].emplace_back(time, chunk_.size());
-  const std::size_t at = begin_record(chunk_, Opcode::kMessage);
-  put(chunk_, channel);
-  put(chunk_, sequence);
-  put(chunk_, time);
-  put(chunk_, time);
-  chunk_.append(data);
-  end_record(chunk_, at);
+  std::string& records = open_[channel];
+  const std::size_t at = begin_record(records, Opcode::kMessage);
+  places_[channel].emplace_back(time, at);
+  put(records, channel);
+  put(records, sequence);
+  put(records, time);
+  put(records, time);
+  records.append(data);
+  end_record(records, at);
+  open_bytes_ += records.size() - at;
   start_time_ = messages_ == 0 ? time : std::min(start_time_, time);
   end_time_ = messages_ == 0 ? time : std::max(end_time_, time);
   ++messages_;
@@ -38,6 +40,13 @@ void Writer::add_message(std::uint16_t channel, std::uint32_t sequence, std::uin
 
 void Writer::close_chunk() {
   if (messages_ == 0) return;
+  chunk_.clear();
+  for (auto& [channel, records] : open_) {
+    for (auto& place : places_[channel]) place.second += chunk_.size();
+    chunk_ += records;
+    records.clear();
+  }
+  open_bytes_ = 0;
   compressor_.compress(chunk_, compressed_);
   section_.add_chunk({.start_time = start_time_,
                       .end_time = end_time_,
@@ -47,7 +56,6 @@ void Writer::close_chunk() {
                       .compression = kZstd,
                       .records = compressed_,
                       .places = &places_});
-  chunk_.clear();
   for (auto& [channel, places] : places_) places.clear();  // keeps their memory for the next chunk
   messages_ = 0;
 }

@@ -19,24 +19,35 @@ const Channel* MessageCursor::channel(std::uint16_t id) const noexcept {
 
 std::optional<Message> MessageCursor::next() {
   for (;;) {
-    const auto record = record_at(bytes_of(records_), at_);
-    if (!record) {
+    if (at_ == places_.size()) {
       if (!open_part()) return std::nullopt;
+      order();
       continue;
     }
-    at_ = record->end();
-    if (record->opcode != Opcode::kMessage) {
-      define(*record);
-      continue;
-    }
+    const auto record = record_at(bytes_of(records_), places_[at_++].second);
     const auto message = parse_message(record->content);
     if (message && message->log_time >= range_.from && message->log_time <= range_.to) return message;
   }
 }
 
+/// Finds the messages of the open part, and takes the definitions between them.
+void MessageCursor::order() {
+  places_.clear();
+  at_ = 0;
+  std::uint64_t place = 0;
+  while (const auto record = record_at(bytes_of(records_), place)) {
+    if (record->opcode != Opcode::kMessage)
+      define(*record);
+    else if (const auto message = parse_message(record->content))
+      places_.emplace_back(message->log_time, place);
+    place = record->end();
+  }
+  // By place too, so that messages of one time keep the order of the file.
+  if (!std::ranges::is_sorted(places_)) std::ranges::sort(places_);
+}
+
 /// Makes the next chunk's records, or the next message outside a chunk, the open ones. @return false: there is none
 bool MessageCursor::open_part() {
-  at_ = 0;
   while (part_ < reader_->parts().size()) {
     const std::uint64_t offset = reader_->parts()[part_++];
     const auto record = record_at(reader_->file(), offset);

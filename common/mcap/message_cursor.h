@@ -16,7 +16,8 @@ struct TimeRange {
   std::uint64_t from = 0, to = std::numeric_limits<std::uint64_t>::max();
 };
 
-/// Reads the messages of a file in their order. A damaged chunk is skipped as a whole and counted.
+/// Reads the messages of a file: chunk by chunk, within a chunk in the order of their times, and of the file where
+/// these are equal. A damaged chunk is skipped as a whole and counted.
 class MessageCursor {
  public:
   /// @param reader  outlives the cursor
@@ -39,6 +40,7 @@ class MessageCursor {
 
  private:
   [[nodiscard]] bool open_part();
+  void order();
   void skip(std::uint64_t offset, std::string message);
   void define(const Record& record);
 
@@ -50,7 +52,8 @@ class MessageCursor {
   std::vector<std::uint32_t> by_number_;  ///< place of each channel in `channels_`, plus 1; 0: none
   std::size_t part_ = 0;                  ///< next part of the reader
   std::string records_;                   ///< of the open chunk
-  std::uint64_t at_ = 0;                  ///< next record in it
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> places_;  ///< time and place of its messages
+  std::size_t at_ = 0;                                           ///< next of them
   std::uint64_t damaged_ = 0;
   std::optional<ReadError> first_damage_;
 };

@@ -68,12 +68,12 @@ void RunRecording::on_tick(const Simulation& simulation) {
     writer_->add_link(server::lesson_link(server::link_of(simulation.session(), simulation.now(), k % seats),
                                           simulation.record().tick));
   ++steps_;
-  take_inputs(simulation.record().tick);
+  take_inputs();
   file_.write(writer_->take());
 }
 
-void RunRecording::take_inputs(std::uint32_t tick) {
-  while (const std::size_t size = journal_.drain(piece_)) writer_->add_inputs(tick, std::span{piece_}.first(size));
+void RunRecording::take_inputs() {
+  while (const std::size_t size = journal_.drain(piece_)) writer_->add_inputs(std::span{piece_}.first(size));
 }
 
 std::string RunRecording::close() {

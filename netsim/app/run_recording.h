@@ -37,7 +37,7 @@ class RunRecording {
   [[nodiscard]] std::string close();
 
  private:
-  void take_inputs(std::uint32_t tick);
+  void take_inputs();
 
   const SimulationConfig* setup_;
   std::map<std::string, std::string> facts_;

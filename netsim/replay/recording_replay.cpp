@@ -10,6 +10,7 @@
 #include "proto/recording/event_messages.h"
 #include "proto/recording/lesson_reader.h"
 #include "proto/recording/recording_format.h"
+#include "server/recording/input_unpacker.h"
 #include "server/recording/lesson_record.h"
 
 namespace tandem::netsim {
@@ -65,8 +66,11 @@ std::optional<server::Checkpoint::Hash> scene_hash_of(const std::string& hex) {
 }
 
 /// Feeds all messages of the inputs. @return whether there are any
-bool feed(const mcap::Reader& reader, SessionReplay& replay, JournalReader& journal) {
+/// @param damage  set if a message is no block of inputs
+bool feed(const mcap::Reader& reader, const Lesson& lesson, SessionReplay& replay, JournalReader& journal,
+          std::string& damage) {
   mcap::MessageCursor cursor{reader};
+  server::InputUnpacker unpacker{lesson};
   bool any = false, more = true;
   const auto apply = [&] {
     while (auto event = journal.next())
@@ -78,7 +82,11 @@ bool feed(const mcap::Reader& reader, SessionReplay& replay, JournalReader& jour
     if (channel == nullptr || channel->topic != rec::kInputsTopic) continue;
     any = true;
     const auto inputs = rec::decode_inputs(message->data);
-    more = inputs && journal.add(inputs->data) && apply();
+    const auto piece = inputs ? unpacker.unpack(inputs->data) : std::nullopt;
+    if (!piece)
+      damage = "a message of " + std::string(rec::kInputsTopic) + " at tick " + std::to_string(message->sequence) +
+               " is damaged";
+    more = piece && journal.add(*piece) && apply();
   }
   return any;
 }
@@ -115,9 +123,10 @@ std::expected<RecordingReplay, std::string> replay_recording(std::span<const std
   RowComparison rows{*lesson, out.seats_compared};
   replay.compare = [&](const server::Session& session) { return rows(session); };
   JournalReader journal;
-  if (!feed(*reader, replay, journal)) return std::unexpected(missing_inputs_text(*lesson));
+  std::string damage;
+  if (!feed(*reader, *lesson, replay, journal, damage)) return std::unexpected(missing_inputs_text(*lesson));
   out.difference = replay.difference();
-  out.error = replay.error().empty() ? journal.error() : replay.error();
+  out.error = !replay.error().empty() ? replay.error() : !journal.error().empty() ? journal.error() : damage;
   out.other_builds = replay.other_builds();
   out.other_scene = !replay.same_scene();
   out.counts = replay.counts();

@@ -104,6 +104,12 @@ void set_seat(Lesson& lesson, std::size_t i, const SeatSample& sample) {
   seat.gate.back() = sample.gate;
   seat.leader.back() = sample.leader;
   seat.ghost.back() = sample.ghost;
+  seat.e_in.back() = sample.energy.e_in;
+  seat.e_out.back() = sample.energy.e_out;
+  seat.dissipated_j.back() = sample.energy.dissipated_j;
+  seat.refused_j.back() = sample.energy.refused_j;
+  seat.margin_min_j.back() = sample.energy.margin_min_j;
+  seat.delivered_j.back() = sample.energy.delivered_j;
 }
 
 void set_tool(Lesson& lesson, std::size_t j, const ToolSample& sample) {
@@ -116,30 +122,14 @@ void set_tool(Lesson& lesson, std::size_t j, const ToolSample& sample) {
   tool.penetration.back() = sample.penetration;
   tool.held.back() = sample.braked ? 1 : 0;
   tool.sample_tick.back() = sample.sample_tick;
+  tool.mfs_j.back() = sample.energy.mfs_j;
+  tool.e_p_j.back() = sample.energy.e_p_j;
+  tool.e_p_axis_j.back() = sample.energy.e_p_axis_j;
 }
 
 void set_authority(Lesson& lesson, const AuthoritySample& sample) {
   for (std::size_t j = 0; j < std::min(sample.tools, lesson.tools.size()); ++j)
     lesson.tools[j].alpha.back() = sample.alpha[j];
-}
-
-void set_energy(Lesson& lesson, const EnergySample& sample) {
-  for (std::size_t i = 0; i < std::min(sample.seats, lesson.seats.size()); ++i) {
-    LessonSeat& seat = lesson.seats[i];
-    const SeatEnergySample& in = sample.seat[i];
-    seat.e_in.back() = in.e_in;
-    seat.e_out.back() = in.e_out;
-    seat.dissipated_j.back() = in.dissipated_j;
-    seat.refused_j.back() = in.refused_j;
-    seat.margin_min_j.back() = in.margin_min_j;
-    seat.delivered_j.back() = in.delivered_j;
-  }
-  for (std::size_t j = 0; j < std::min(sample.tools, lesson.tools.size()); ++j) {
-    LessonTool& tool = lesson.tools[j];
-    tool.mfs_j.back() = sample.tool[j].mfs_j;
-    tool.e_p_j.back() = sample.tool[j].e_p_j;
-    tool.e_p_axis_j.back() = sample.tool[j].e_p_axis_j;
-  }
 }
 
 void set_session(Lesson& lesson, const SessionSample& sample) {

@@ -15,7 +15,6 @@ void append_row(Lesson& lesson, std::uint32_t tick, std::int64_t time_ns);
 void set_seat(Lesson& lesson, std::size_t i, const SeatSample& sample);
 void set_tool(Lesson& lesson, std::size_t j, const ToolSample& sample);
 void set_authority(Lesson& lesson, const AuthoritySample& sample);
-void set_energy(Lesson& lesson, const EnergySample& sample);
 void set_session(Lesson& lesson, const SessionSample& sample);
 
 }  // namespace tandem::rec

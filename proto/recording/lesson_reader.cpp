@@ -23,7 +23,6 @@ enum class ChannelUse : std::uint8_t {
   kSeat,
   kTool,
   kAuthority,
-  kEnergy,
   kSession,
   kLink,
   kEvent,
@@ -33,7 +32,7 @@ enum class ChannelUse : std::uint8_t {
 };
 
 constexpr std::uint8_t kGateMax = 6;               // message Seat, `gate`
-constexpr std::size_t kBytesPerRow = 16;           // every tick has an entry of this size in the index of /authority
+constexpr std::size_t kBytesPerRow = 16;           // every tick has an entry of this size in the index of every tool
 constexpr std::size_t kRowsOfACutChunk = 100'000;  // the index of the last chunk may be missing
 constexpr std::size_t kNotesMax = 1'000'000;       // events, marks, sheets or links that are read
 
@@ -57,8 +56,6 @@ class LessonBuilder {
         return decode(message.data, tool_) && to_row(message, [&] { set_tool(*lesson_, use->index, tool_); });
       case ChannelUse::kAuthority:
         return decode(message.data, authority_) && to_row(message, [&] { set_authority(*lesson_, authority_); });
-      case ChannelUse::kEnergy:
-        return decode(message.data, energy_) && to_row(message, [&] { set_energy(*lesson_, energy_); });
       case ChannelUse::kSession:
         return decode(message.data, session_) && to_row(message, [&] { set_session(*lesson_, session_); });
       case ChannelUse::kLink:
@@ -89,10 +86,10 @@ class LessonBuilder {
 
   [[nodiscard]] Use use_of(const mcap::Channel& channel) const {
     constexpr std::pair<std::string_view, ChannelUse> kTopics[] = {
-        {kAuthorityTopic, ChannelUse::kAuthority}, {kEnergyTopic, ChannelUse::kEnergy},
-        {kSessionTopic, ChannelUse::kSession},     {kLinkTopic, ChannelUse::kLink},
-        {kEventsTopic, ChannelUse::kEvent},        {kMarksTopic, ChannelUse::kMark},
-        {kSheetsTopic, ChannelUse::kSheet},        {kCountsTopic, ChannelUse::kCounts}};
+        {kAuthorityTopic, ChannelUse::kAuthority}, {kSessionTopic, ChannelUse::kSession},
+        {kLinkTopic, ChannelUse::kLink},           {kEventsTopic, ChannelUse::kEvent},
+        {kMarksTopic, ChannelUse::kMark},          {kSheetsTopic, ChannelUse::kSheet},
+        {kCountsTopic, ChannelUse::kCounts}};
     const auto kind = channel.metadata.find(kKindKey);
     if (kind == channel.metadata.end()) return {};
     if (kind->second == kSessionKind) {
@@ -167,7 +164,6 @@ class LessonBuilder {
   SeatSample seat_;
   ToolSample tool_;
   AuthoritySample authority_;
-  EnergySample energy_;
   SessionSample session_;
 };
 
@@ -183,7 +179,7 @@ std::string read_metadata(const mcap::Reader& reader, Lesson& lesson) {
   };
   if (const std::string format = value(*session, "format"); format != kFormat)
     return "has format \"" + format.substr(0, 32) + "\" of recordings; this program reads format " +
-           std::string(kFormat);
+           std::string(kFormat) + "; use the version of Tandem that made it (metadata record \"session\")";
   lesson.metadata = *session;
   lesson.session = value(*session, "session");
   const std::string start = value(*session, "start_unix_ns");
@@ -209,7 +205,7 @@ std::string read_metadata(const mcap::Reader& reader, Lesson& lesson) {
 std::size_t expected_rows(const mcap::Reader& reader, std::size_t rows_max) {
   if (!reader.statistics()) return 0;
   for (const mcap::Channel& channel : reader.channels())
-    if (channel.topic == kAuthorityTopic)
+    if (const auto kind = channel.metadata.find(kKindKey); kind != channel.metadata.end() && kind->second == kToolKind)
       if (const auto count = reader.statistics()->channel_messages.find(channel.id);
           count != reader.statistics()->channel_messages.end())
         return static_cast<std::size_t>(std::min<std::uint64_t>(count->second, rows_max));

@@ -20,11 +20,11 @@ using google::protobuf::FileDescriptor;
 
 const Descriptor* descriptor_of(MessageKind kind) {
   const std::array<const Descriptor*, kMessageKinds> all{
-      recording::Seat::descriptor(),          recording::Tool::descriptor(),        recording::Authority::descriptor(),
-      recording::Energy::descriptor(),        recording::SessionTick::descriptor(), recording::Inputs::descriptor(),
-      recording::Link::descriptor(),          recording::Event::descriptor(),       recording::Mark::descriptor(),
-      recording::Sheet::descriptor(),         recording::Counts::descriptor(),      foxglove::SceneUpdate::descriptor(),
-      foxglove::FrameTransform::descriptor(), foxglove::PoseInFrame::descriptor(),  foxglove::Log::descriptor()};
+      recording::Seat::descriptor(),        recording::Tool::descriptor(),       recording::Authority::descriptor(),
+      recording::SessionTick::descriptor(), recording::Inputs::descriptor(),     recording::Link::descriptor(),
+      recording::Event::descriptor(),       recording::Mark::descriptor(),       recording::Sheet::descriptor(),
+      recording::Counts::descriptor(),      foxglove::SceneUpdate::descriptor(), foxglove::FrameTransform::descriptor(),
+      foxglove::PoseInFrame::descriptor(),  foxglove::Log::descriptor()};
   return all[static_cast<std::size_t>(kind)];
 }
 

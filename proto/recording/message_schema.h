@@ -10,7 +10,6 @@ enum class MessageKind : std::uint8_t {
   kSeat,
   kTool,
   kAuthority,
-  kEnergy,
   kSession,
   kInputs,
   kLink,
@@ -23,7 +22,7 @@ enum class MessageKind : std::uint8_t {
   kPoseInFrame,
   kLog
 };
-inline constexpr std::size_t kMessageKinds = 15;
+inline constexpr std::size_t kMessageKinds = 14;
 
 /// Full name of a message, such as `tandem.recording.Seat`.
 [[nodiscard]] std::string message_name(MessageKind kind);

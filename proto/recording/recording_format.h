@@ -7,7 +7,7 @@
 namespace tandem::rec {
 
 inline constexpr std::string_view kProfile = "x-tandem";   ///< of the MCAP header
-inline constexpr std::string_view kFormat = "1";           ///< value of `format` in the metadata record `session`
+inline constexpr std::string_view kFormat = "2";           ///< value of `format` in the metadata record `session`
 inline constexpr std::string_view kEncoding = "protobuf";  ///< of schemas and messages
 
 /// Metadata records.
@@ -22,9 +22,9 @@ inline constexpr const char* kKindKey = "kind";
 inline constexpr const char* kNameKey = "name";
 inline constexpr std::string_view kSeatKind = "seat", kToolKind = "tool", kSessionKind = "session", kViewKind = "view";
 
-inline constexpr std::string_view kAuthorityTopic = "/authority", kEnergyTopic = "/energy", kSessionTopic = "/session",
-                                  kInputsTopic = "/inputs", kLinkTopic = "/link", kEventsTopic = "/events",
-                                  kMarksTopic = "/marks", kSheetsTopic = "/sheets", kCountsTopic = "/counts",
-                                  kSceneTopic = "/view/scene", kTransformTopic = "/tf", kLogTopic = "/log";
+inline constexpr std::string_view kAuthorityTopic = "/authority", kSessionTopic = "/session", kInputsTopic = "/inputs",
+                                  kLinkTopic = "/link", kEventsTopic = "/events", kMarksTopic = "/marks",
+                                  kSheetsTopic = "/sheets", kCountsTopic = "/counts", kSceneTopic = "/view/scene",
+                                  kTransformTopic = "/tf", kLogTopic = "/log";
 
 }  // namespace tandem::rec

@@ -1,7 +1,9 @@
 #include "proto/recording/tick_messages.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "proto/recording/protobuf_fields.h"
 
@@ -79,15 +81,23 @@ bool read_doubles(std::span<const std::byte> bytes, Triple& out) noexcept {
 void write_seat_energy(FieldWriter& fields, const SeatEnergySample& sample) {
   fields.packed(1, without_zeros(sample.e_in));
   fields.packed(2, without_zeros(sample.e_out));
-  fields.number(3, sample.dissipated_j);
-  fields.number(4, sample.refused_j);
-  fields.number(5, sample.margin_min_j);
-  fields.number(6, sample.delivered_j);
+  const std::array<double, 4> values{sample.dissipated_j, sample.refused_j, sample.margin_min_j, sample.delivered_j};
+  bool exact = true;
+  for (unsigned k = 0; k < values.size(); ++k) {
+    fields.fixed32(3 + k, std::bit_cast<std::uint32_t>(to_single(values[k])));
+    exact &= is_single(values[k]);
+  }
+  if (!exact) fields.packed(7, std::span<const double>(values));
 }
 
+/// The sum as the server computes it, and as a reader does if the message has no e_p_j.
+double sum_of(const Triple& axes) noexcept { return 0 + axes[0] + axes[1] + axes[2]; }
+
 void write_tool_energy(FieldWriter& fields, const ToolEnergySample& sample) {
-  fields.number(1, sample.mfs_j);
-  fields.number(2, sample.e_p_j);
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  if (bits(sample.mfs_j) != 0) fields.number(1, sample.mfs_j);
+  // A NaN may have other bits in another program's sum.
+  if (std::isnan(sample.e_p_j) || bits(sample.e_p_j) != bits(sum_of(sample.e_p_axis_j))) fields.number(2, sample.e_p_j);
   fields.packed(3, without_zeros(sample.e_p_axis_j));
 }
 
@@ -95,7 +105,8 @@ bool read_seat_energy(std::span<const std::byte> bytes, SeatEnergySample& out) n
   out = {};
   FieldScanner scanner{bytes};
   Field field;
-  std::size_t in = 0, given = 0;
+  std::array<double, 4> values{}, exact{};
+  std::size_t in = 0, given = 0, doubles = 0;
   bool ok = true;
   while (scanner.next(field)) switch (field.number) {
       case 1:
@@ -105,20 +116,23 @@ bool read_seat_energy(std::span<const std::byte> bytes, SeatEnergySample& out) n
         ok &= read_values(field, out.e_out, given);
         break;
       case 3:
-        out.dissipated_j = field.number_value();
-        break;
       case 4:
-        out.refused_j = field.number_value();
-        break;
       case 5:
-        out.margin_min_j = field.number_value();
-        break;
       case 6:
-        out.delivered_j = field.number_value();
+        if (field.type == FieldType::kFixed32)
+          values[field.number - 3] = std::bit_cast<float>(static_cast<std::uint32_t>(field.value));
+        break;
+      case 7:
+        ok &= read_values(field, exact, doubles);
         break;
       default:
         break;
     }
+  if (doubles > 0) values = exact;
+  out.dissipated_j = values[0];
+  out.refused_j = values[1];
+  out.margin_min_j = values[2];
+  out.delivered_j = values[3];
   return ok && scanner.ok();
 }
 
@@ -127,12 +141,14 @@ bool read_tool_energy(std::span<const std::byte> bytes, ToolEnergySample& out) n
   FieldScanner scanner{bytes};
   Field field;
   std::size_t axes = 0;
+  std::optional<double> all;
   bool ok = true;
   while (scanner.next(field)) {
     if (field.number == 1) out.mfs_j = field.number_value();
-    if (field.number == 2) out.e_p_j = field.number_value();
+    if (field.number == 2) all = field.number_value();
     if (field.number == 3) ok &= read_values(field, out.e_p_axis_j, axes);
   }
+  out.e_p_j = all ? *all : sum_of(out.e_p_axis_j);
   return ok && scanner.ok();
 }
 
@@ -152,6 +168,7 @@ void encode(const SeatSample& sample, std::string& out) {
   fields.varint(9, sample.engaged ? 1 : 0);
   fields.varint(10, sample.leader);
   if (!without_zeros(sample.ghost).empty()) fields.numbers(11, sample.ghost);
+  fields.message(12, [&](FieldWriter& energy) { write_seat_energy(energy, sample.energy); });
 }
 
 void encode(const ToolSample& sample, std::string& out) {
@@ -165,6 +182,7 @@ void encode(const ToolSample& sample, std::string& out) {
   fields.fixed32(6, sample.sample_tick);
   fields.number(7, sample.penetration);
   fields.varint(8, sample.braked ? 1 : 0);
+  fields.message(9, [&](FieldWriter& energy) { write_tool_energy(energy, sample.energy); });
 }
 
 void encode(const AuthoritySample& sample, std::string& out) {
@@ -172,15 +190,6 @@ void encode(const AuthoritySample& sample, std::string& out) {
   FieldWriter fields{out};
   for (std::size_t j = 0; j < sample.tools; ++j)
     fields.message(1, [&](FieldWriter& row) { row.packed(1, std::span{sample.alpha[j]}.first(sample.masters)); });
-}
-
-void encode(const EnergySample& sample, std::string& out) {
-  out.clear();
-  FieldWriter fields{out};
-  for (std::size_t i = 0; i < sample.seats; ++i)
-    fields.message(1, [&](FieldWriter& row) { write_seat_energy(row, sample.seat[i]); });
-  for (std::size_t j = 0; j < sample.tools; ++j)
-    fields.message(2, [&](FieldWriter& row) { write_tool_energy(row, sample.tool[j]); });
 }
 
 void encode(const SessionSample& sample, std::string& out) {
@@ -230,6 +239,9 @@ bool decode(std::span<const std::byte> bytes, SeatSample& out) noexcept {
       case 11:
         ok &= read_numbers(field.bytes, out.ghost);
         break;
+      case 12:
+        ok &= read_seat_energy(field.bytes, out.energy);
+        break;
       default:
         break;
     }
@@ -267,6 +279,9 @@ bool decode(std::span<const std::byte> bytes, ToolSample& out) noexcept {
       case 8:
         out.braked = field.value != 0;
         break;
+      case 9:
+        ok &= read_tool_energy(field.bytes, out.energy);
+        break;
       default:
         break;
     }
@@ -287,22 +302,6 @@ bool decode(std::span<const std::byte> bytes, AuthoritySample& out) noexcept {
     if (!row.ok()) return false;
     out.masters = masters;
     ++out.tools;
-  }
-  return scanner.ok();
-}
-
-bool decode(std::span<const std::byte> bytes, EnergySample& out) noexcept {
-  out.seats = out.tools = 0;
-  FieldScanner scanner{bytes};
-  Field field;
-  while (scanner.next(field)) {
-    if (field.number == 1 && out.seats < kSeatsMax) {
-      if (!read_seat_energy(field.bytes, out.seat[out.seats])) return false;
-      ++out.seats;
-    } else if (field.number == 2 && out.tools < kToolsMax) {
-      if (!read_tool_energy(field.bytes, out.tool[out.tools])) return false;
-      ++out.tools;
-    }
   }
   return scanner.ok();
 }

@@ -13,28 +13,7 @@ namespace tandem::rec {
 
 using Triple = std::array<double, 3>;
 
-/// Message Seat. Units as in the schema.
-struct SeatSample {
-  Triple measured_cp{}, measured_cv{}, measured_cf{}, servo_cf{};
-  AxisArray measured_jp{};
-  std::uint32_t sample_tick = 0;
-  double alpha = 0;
-  std::uint8_t gate = 0;
-  bool engaged = false;
-  std::uint32_t leader = 0;
-  Triple ghost{};
-};
-
-/// Message Tool.
-struct ToolSample {
-  Triple measured_cp{}, setpoint_cp{}, measured_cf{}, servo_cf{};
-  AxisArray measured_jp{};
-  std::uint32_t sample_tick = 0;
-  double penetration = 0;
-  bool braked = false;
-};
-
-/// Message SeatEnergy.
+/// Message SeatEnergy. Units as in the schema.
 struct SeatEnergySample {
   EnergyArray e_in{}, e_out{};
   double dissipated_j = 0, refused_j = 0, margin_min_j = 0, delivered_j = 0;
@@ -46,11 +25,27 @@ struct ToolEnergySample {
   Triple e_p_axis_j{};
 };
 
-/// Message Energy.
-struct EnergySample {
-  std::size_t seats = 0, tools = 0;  ///< counts, at most those of the arrays
-  std::array<SeatEnergySample, kSeatsMax> seat{};
-  std::array<ToolEnergySample, kToolsMax> tool{};
+/// Message Seat.
+struct SeatSample {
+  Triple measured_cp{}, measured_cv{}, measured_cf{}, servo_cf{};
+  AxisArray measured_jp{};
+  std::uint32_t sample_tick = 0;
+  double alpha = 0;
+  std::uint8_t gate = 0;
+  bool engaged = false;
+  std::uint32_t leader = 0;
+  Triple ghost{};
+  SeatEnergySample energy;
+};
+
+/// Message Tool.
+struct ToolSample {
+  Triple measured_cp{}, setpoint_cp{}, measured_cf{}, servo_cf{};
+  AxisArray measured_jp{};
+  std::uint32_t sample_tick = 0;
+  double penetration = 0;
+  bool braked = false;
+  ToolEnergySample energy;
 };
 
 /// Message Authority.
@@ -70,7 +65,6 @@ struct SessionSample {
 void encode(const SeatSample& sample, std::string& out);
 void encode(const ToolSample& sample, std::string& out);
 void encode(const AuthoritySample& sample, std::string& out);
-void encode(const EnergySample& sample, std::string& out);
 void encode(const SessionSample& sample, std::string& out);
 
 /// Read a message. Unknown fields are ignored; absent ones have their default.
@@ -78,7 +72,6 @@ void encode(const SessionSample& sample, std::string& out);
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, SeatSample& out) noexcept;
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, ToolSample& out) noexcept;
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, AuthoritySample& out) noexcept;
-[[nodiscard]] bool decode(std::span<const std::byte> bytes, EnergySample& out) noexcept;
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, SessionSample& out) noexcept;
 
 }  // namespace tandem::rec

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "common/mcap/mcap_reader.h"
 #include "common/mcap/message_cursor.h"
@@ -19,13 +20,14 @@ class SummaryBuilder {
  public:
   explicit SummaryBuilder(Lesson& lesson) : lesson_(&lesson) {}
 
-  void add(const mcap::Message& message, const std::string& topic) {
+  /// @param of_tool  the message is of a tool's channel, which has one in every tick
+  void add(const mcap::Message& message, const std::string& topic, bool of_tool) {
     if (topic == rec::kMarksTopic) {
       keep(lesson_->marks, rec::decode_mark(message.data));
     } else if (topic == rec::kSheetsTopic) {
       keep(lesson_->sheets, rec::decode_sheet(message.data));
-    } else if (topic == rec::kAuthorityTopic) {  // every tick has this message
-      if (lesson_->tick.empty())                 // the time of the first row alone: the begin of the recording
+    } else if (of_tool) {
+      if (lesson_->tick.empty())  // the time of the first row alone: the begin of the recording
         lesson_->time_ns.push_back(static_cast<std::int64_t>(message.log_time) - lesson_->start_unix_ns);
       if (lesson_->tick.empty() || message.sequence > lesson_->tick.back()) lesson_->tick.push_back(message.sequence);
     }
@@ -45,6 +47,12 @@ class SummaryBuilder {
   bool whole_ = true;
 };
 
+bool of_tool(const mcap::Channel* channel) {
+  if (channel == nullptr) return false;
+  const auto kind = channel->metadata.find(rec::kKindKey);
+  return kind != channel->metadata.end() && kind->second == rec::kToolKind;
+}
+
 /// Adds the persons of every record of participants: a file has several if seats changed hands.
 void add_participants(const mcap::Reader& reader, RecordingSummary& summary) {
   for (const mcap::Metadata& record : reader.metadata())
@@ -55,16 +63,17 @@ void add_participants(const mcap::Reader& reader, RecordingSummary& summary) {
 /// Adds the messages of a file. @return whether all of them were whole
 bool add_messages(const mcap::Reader& reader, SummaryBuilder& builder) {
   mcap::MessageCursor cursor{reader};
-  std::map<std::uint16_t, std::string> topics;
+  std::map<std::uint16_t, std::pair<std::string, bool>> topics;
   bool known = true;
   while (const auto message = cursor.next()) {
     auto topic = topics.find(message->channel);
     if (topic == topics.end()) {
       const mcap::Channel* const channel = cursor.channel(message->channel);
       known = known && channel != nullptr;
-      topic = topics.emplace(message->channel, channel == nullptr ? "" : channel->topic).first;
+      topic =
+          topics.emplace(message->channel, std::pair{channel == nullptr ? "" : channel->topic, of_tool(channel)}).first;
     }
-    builder.add(*message, topic->second);
+    builder.add(*message, topic->second.first, topic->second.second);
   }
   return known && cursor.damaged() == 0;
 }

@@ -50,4 +50,10 @@ void fill_record(const Lesson& lesson, std::size_t row, TickRecord& record) noex
   for (std::size_t j = 0; j < lesson.tools.size(); ++j) fill_tool(lesson.tools[j], row, record.tools[j]);
 }
 
+SeatRecord seat_record(const Lesson& lesson, std::size_t seat, std::size_t row) noexcept {
+  SeatRecord record;
+  fill_seat(lesson.seats[seat], row, record);
+  return record;
+}
+
 }  // namespace tandem::server

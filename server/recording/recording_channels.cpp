@@ -17,10 +17,17 @@ std::uint16_t add_message_schema(mcap::Writer& file, MessageKind kind) {
 
 /// Appends an underscore as long as the topic is one of the recording's own.
 std::string free_topic(std::string topic) {
-  constexpr std::string_view kOwn[] = {rec::kAuthorityTopic, rec::kEnergyTopic, rec::kSessionTopic,
-                                       rec::kInputsTopic,    rec::kLinkTopic,   rec::kEventsTopic,
-                                       rec::kMarksTopic,     rec::kSheetsTopic, rec::kCountsTopic,
-                                       rec::kTransformTopic, rec::kLogTopic,    "/view"};
+  constexpr std::string_view kOwn[] = {rec::kAuthorityTopic,
+                                       rec::kSessionTopic,
+                                       rec::kInputsTopic,
+                                       rec::kLinkTopic,
+                                       rec::kEventsTopic,
+                                       rec::kMarksTopic,
+                                       rec::kSheetsTopic,
+                                       rec::kCountsTopic,
+                                       rec::kTransformTopic,
+                                       rec::kLogTopic,
+                                       "/view"};
   if (std::ranges::find(kOwn, topic) != std::end(kOwn)) topic += '_';
   return topic;
 }
@@ -55,7 +62,6 @@ TickChannels::TickChannels(const SceneSpec& scene, mcap::Writer& file) : seats_(
     channels_.push_back({id, std::move(topic), {}, 0});
   };
   add(std::string(rec::kAuthorityTopic), add_message_schema(file, MessageKind::kAuthority), rec::kSessionKind);
-  add(std::string(rec::kEnergyTopic), add_message_schema(file, MessageKind::kEnergy), rec::kSessionKind);
   const std::uint16_t seat = add_message_schema(file, MessageKind::kSeat);
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     add(seat_topic(scene, i), seat, rec::kSeatKind, scene.seats[i].name);

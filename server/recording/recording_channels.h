@@ -25,13 +25,14 @@ class TickChannels {
     std::uint64_t recorded = 0;  ///< messages
   };
   [[nodiscard]] Channel& seat(std::size_t i) noexcept { return channels_[kSeats + i]; }
+  /// Tools have a message in every tick, seats and authority where one is new.
   [[nodiscard]] Channel& tool(std::size_t j) noexcept { return channels_[kSeats + seats_ + j]; }
+  [[nodiscard]] const Channel& tool(std::size_t j) const noexcept { return channels_[kSeats + seats_ + j]; }
   [[nodiscard]] Channel& authority() noexcept { return channels_[0]; }
-  [[nodiscard]] Channel& energy() noexcept { return channels_[1]; }
   [[nodiscard]] const std::vector<Channel>& all() const noexcept { return channels_; }
 
  private:
-  static constexpr std::size_t kSeats = 2;  ///< channels before those of seats
+  static constexpr std::size_t kSeats = 1;  ///< channels before those of seats
   std::size_t seats_;
   std::vector<Channel> channels_;
 };

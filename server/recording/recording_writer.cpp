@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "common/base/raw_bytes.h"
 #include "proto/recording/event_messages.h"
 #include "proto/recording/recording_format.h"
 #include "server/recording/build_identity.h"
@@ -67,7 +68,8 @@ rec::SeatSample sample_of(const SeatRecord& r) {
           .gate = static_cast<std::uint8_t>(r.gate),
           .engaged = r.engaged,
           .leader = r.leader,
-          .ghost = r.ghost};
+          .ghost = r.ghost,
+          .energy = {r.e_in, r.e_out, r.dissipated_j, r.refused_j, r.margin_min_j, r.delivered_j}};
 }
 
 rec::ToolSample sample_of(const ToolRecord& r) {
@@ -78,20 +80,8 @@ rec::ToolSample sample_of(const ToolRecord& r) {
           .measured_jp = r.q,
           .sample_tick = r.sample_tick,
           .penetration = r.penetration,
-          .braked = r.held};
-}
-
-void fill_energy(const SceneSpec& scene, const TickRecord& record, rec::EnergySample& out) {
-  out.seats = scene.seats.size();
-  out.tools = scene.tools.size();
-  for (std::size_t i = 0; i < out.seats; ++i) {
-    const SeatRecord& r = record.seats[i];
-    out.seat[i] = {r.e_in, r.e_out, r.dissipated_j, r.refused_j, r.margin_min_j, r.delivered_j};
-  }
-  for (std::size_t j = 0; j < out.tools; ++j) {
-    const ToolRecord& r = record.tools[j];
-    out.tool[j] = {r.mfs_j, r.e_p_j, r.e_p_axis_j};
-  }
+          .braked = r.held,
+          .energy = {r.mfs_j, r.e_p_j, r.e_p_axis_j}};
 }
 
 }  // namespace
@@ -103,7 +93,8 @@ RecordingWriter::RecordingWriter(const SceneSpec& scene, const RecordingInfo& in
       file_(rec::kProfile, library_text()),
       channels_(scene, file_),
       notes_(add_note_channels(file_)),
-      view_(scene, file_) {
+      view_(scene, file_),
+      inputs_(scene) {
   file_.add_metadata({rec::kSessionRecord, session_metadata(scene, info)});
   file_.add_metadata({rec::kSceneRecord, scene_metadata(scene, info)});
   mcap::TextMap roles;
@@ -125,15 +116,18 @@ std::uint64_t RecordingWriter::log_time(std::int64_t time_ns) const noexcept {
 
 /// Ends the open chunk if a message of this time does not belong to it.
 void RecordingWriter::begin_message(std::int64_t time_ns) {
-  if (chunk_begin_ && (time_ns - *chunk_begin_ >= kChunkNs || file_.open_bytes() >= kChunkBytes)) flush();
+  if (chunk_begin_ && (time_ns - *chunk_begin_ >= kChunkNs || file_.open_bytes() + inputs_.size() >= kChunkBytes))
+    flush();
   if (!chunk_begin_) chunk_begin_ = time_ns;
 }
 
 void RecordingWriter::add(const TickRecord& record) {
   if (account_.begun() ? record.tick <= account_.last_tick() : !record.running) return;
+  if (record.time_ns < time_ns_) flush();  // another session of this server: chunks are in the order of time
   begin_message(record.time_ns);
   time_ns_ = record.time_ns;
   account_.add(record.tick);
+  inputs_.add_row(record);
   const rec::SessionSample session{record.running, record.stopped_ticks, record.dropped_ticks};
   if (session != session_) {
     encode(session, message_);
@@ -145,17 +139,14 @@ void RecordingWriter::add(const TickRecord& record) {
   authority.masters = masters_;
   for (std::size_t j = 0; j < authority.tools; ++j) authority.alpha[j] = record.tools[j].alpha;
   encode(authority, message_);
-  add_always(channels_.authority());
-  fill_energy(*scene_, record, energy_);
-  encode(energy_, message_);
-  add_always(channels_.energy());
+  add_if_new(channels_.authority());
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
     encode(sample_of(record.seats[i]), message_);
     add_if_new(channels_.seat(i));
   }
   for (std::size_t j = 0; j < scene_->tools.size(); ++j) {
     encode(sample_of(record.tools[j]), message_);
-    add_if_new(channels_.tool(j));
+    add_always(channels_.tool(j));
   }
   view_.add(record, log_time(time_ns_), file_);
 }
@@ -175,9 +166,18 @@ void RecordingWriter::note(std::uint16_t channel, std::string_view data) {
   file_.add_message(channel, account_.last_tick(), log_time(time_ns_), data);
 }
 
-void RecordingWriter::add_inputs(std::uint32_t tick, std::span<const std::byte> bytes) {
+void RecordingWriter::add_inputs(std::span<const std::byte> piece) {
   begin_message(time_ns_);
-  rec::encode_inputs(tick, bytes, message_);
+  if (inputs_.add(piece)) return;
+  write_inputs(true);  // bytes are missing, which the next block's position shows
+  static_cast<void>(inputs_.add(piece));
+}
+
+/// Adds a block of the inputs so far. @param rest  with a record that is not whole
+void RecordingWriter::write_inputs(bool rest) {
+  inputs_.take(block_, rest);
+  if (block_.empty()) return;
+  rec::encode_inputs(account_.last_tick(), bytes_of(block_), message_);
   note(notes_.inputs, message_);
 }
 
@@ -206,6 +206,7 @@ void RecordingWriter::add_link(const LessonLink& link) {
 
 void RecordingWriter::flush() {
   if (!chunk_begin_) return;
+  write_inputs(false);
   rec::CountsMessage counts;
   counts.ticks = account_.ticks();
   for (const TickChannels::Channel& channel : channels_.all())
@@ -213,11 +214,14 @@ void RecordingWriter::flush() {
   note(notes_.counts, rec::encode_counts(counts));
   file_.close_chunk();
   chunk_begin_.reset();
+  channels_.authority().last.clear();  // each chunk has it, because a damaged one before is skipped
   view_.begin_chunk();
 }
 
 void RecordingWriter::finish() {
   account_.finish();
+  if (inputs_.size() > 0) begin_message(time_ns_);
+  write_inputs(true);
   flush();
   mcap::TextMap counts{{"ticks", std::to_string(account_.ticks())}};
   for (const TickChannels::Channel& channel : channels_.all()) {

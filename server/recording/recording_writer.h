@@ -9,6 +9,7 @@
 #include "proto/recording/tick_messages.h"
 #include "proto/spec/lesson.h"
 #include "proto/spec/scene_spec.h"
+#include "server/recording/input_packer.h"
 #include "server/recording/recording_channels.h"
 #include "server/recording/recording_info.h"
 #include "server/recording/view_channels.h"
@@ -24,7 +25,7 @@ namespace tandem::server {
 /// the index, up to DataSection::kChunksIndexed chunks. Used by an ordinary thread; throws std::bad_alloc only.
 class RecordingWriter {
  public:
-  static constexpr std::int64_t kChunkNs = 250'000'000;             ///< length of a chunk [ns]
+  static constexpr std::int64_t kChunkNs = 500'000'000;             ///< length of a chunk [ns]
   static constexpr std::size_t kChunkBytes = std::size_t{8} << 20;  ///< size at which a chunk ends earlier [bytes]
 
   /// @param scene  outlives the writer
@@ -36,8 +37,9 @@ class RecordingWriter {
   /// Adds a tick. Records whose tick is not later than the last one are ignored, because the session clock stood still;
   /// so are those from before the session runs.
   void add(const TickRecord& record);
-  /// Adds the inputs of a server's tick, for replay. @param bytes  in the encoding of the replay, opaque here
-  void add_inputs(std::uint32_t tick, std::span<const std::byte> bytes);
+  /// Adds inputs of the session, for replay, after the record of their tick.
+  /// @param piece  of the input journal: its position (u64), then bytes, as InputJournal::drain gives them
+  void add_inputs(std::span<const std::byte> piece);
   void add_event(const LessonEvent& event);
   void add_mark(const LessonMark& mark);
   void add_sheet(const LessonSheet& sheet);
@@ -55,8 +57,8 @@ class RecordingWriter {
 
   /// Size of the file without the open chunk [bytes].
   [[nodiscard]] std::uint64_t size() const noexcept { return file_.size(); }
-  /// Ticks so far, and the messages of /authority among them.
-  [[nodiscard]] LessonCount counts() const noexcept { return account_.of(channels_.all().front().recorded); }
+  /// Ticks so far, and those recorded among them.
+  [[nodiscard]] LessonCount counts() const noexcept { return account_.of(channels_.tool(0).recorded); }
 
  private:
   /// Adds a message of this tick unless it is that of the tick before.
@@ -64,6 +66,7 @@ class RecordingWriter {
   void add_always(TickChannels::Channel& channel);
   void note(std::uint16_t channel, std::string_view data);
   void begin_message(std::int64_t time_ns);
+  void write_inputs(bool rest);
   [[nodiscard]] std::uint64_t log_time(std::int64_t time_ns) const noexcept;
 
   const SceneSpec* scene_;
@@ -73,12 +76,13 @@ class RecordingWriter {
   TickChannels channels_;
   NoteChannels notes_;
   ViewChannels view_;
+  InputPacker inputs_;
   TickAccount account_;
   std::int64_t time_ns_ = 0;  ///< of the last record
   std::optional<std::int64_t> chunk_begin_;
   std::optional<rec::SessionSample> session_;
   std::string message_;
-  rec::EnergySample energy_;
+  std::string block_;  ///< of inputs
 };
 
 }  // namespace tandem::server

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "common/io/clock.h"
+#include "netsim/system/simulation.h"
 #include "proto/text/scene_bytes.h"
 #include "proto/text/scene_text.h"
 #include "server/recording/io/recording_files.h"
+#include "server/session/input_journal.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem::bench {
@@ -46,12 +48,23 @@ SceneSpec scene() {
 
 int measure() {
   const SceneSpec setup = scene();
+  server::InputJournal journal{transport::HashKey{}};
+  netsim::SimulationConfig config;
+  config.scene = setup;
+  config.network = netsim::link_from(test::delayed(1, 0.3));
+  config.journal = &journal;
+  const auto simulation = netsim::Simulation::make(config);
+  if (!simulation) return 1;
   std::vector<server::TickRecord> records;
-  const auto result = test::run(setup, test::delayed(1, 0.3), 1, [&](netsim::Simulation& simulation) {
-    if (simulation.session().record().running && records.size() < kTicks)
-      records.push_back(simulation.session().record());
-  });
-  if (records.empty() || !result.trouble.empty()) return 1;
+  std::vector<std::vector<std::byte>> inputs;  // of each record
+  std::vector<std::byte> piece(1 << 16);
+  while (records.size() < kTicks && (*simulation)->step()) {
+    if (!(*simulation)->session().record().running) continue;
+    records.push_back((*simulation)->session().record());
+    const std::size_t size = journal.drain(piece);
+    inputs.emplace_back(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(size));
+  }
+  if (records.empty() || journal.dropped() > 0) return 1;
   std::string folder = (std::filesystem::temp_directory_path() / "tandem-bench-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) return 1;
   server::RecordingInfo info;
@@ -64,6 +77,7 @@ int measure() {
   const Duration before = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
   for (std::size_t k = 0; k < records.size(); ++k) {
     (*files)->add(records[k]);
+    (*files)->add_inputs(inputs[k]);
     if (k % 250 != 249) continue;
     now += std::chrono::milliseconds(250);
     (*files)->step(now);
@@ -74,15 +88,13 @@ int measure() {
   while (!(*files)->closed()) std::this_thread::yield();
   const Duration disk = (*files)->disk_cpu();
   const double session_s = static_cast<double>(records.size()) / 1000;
-  const double mib_min = static_cast<double>((*files)->bytes()) / (1 << 20) / kSeats / (session_s / 60);
+  const double mb_min = static_cast<double>((*files)->bytes()) / 1e6 / kSeats / (session_s / 60);
   std::printf(
       "recording of %d seats and %d tools at 1 kHz, %.0f s: processor time %.1f %% of a core (encoding %.1f, disk "
       "%.1f; "
-      "asked: at most 10); %.2f MiB per minute and seat without inputs (asked: at most 8 with inputs); %llu ticks, "
-      "%llu "
-      "lost\n",
+      "asked: at most 10); %.2f MB per minute and seat with inputs (asked: at most 8); %llu ticks, %llu lost\n",
       kSeats, kTools, session_s, 100 * seconds(encoding + disk) / session_s, 100 * seconds(encoding) / session_s,
-      100 * seconds(disk) / session_s, mib_min, static_cast<unsigned long long>((*files)->recorded()),
+      100 * seconds(disk) / session_s, mb_min, static_cast<unsigned long long>((*files)->recorded()),
       static_cast<unsigned long long>((*files)->lost()));
   files->reset();
   std::filesystem::remove_all(folder);

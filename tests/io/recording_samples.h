@@ -69,7 +69,7 @@ inline std::string account_problem(const Lesson& lesson) {
     // Ticks that were lost behind the last row count, too.
     if (sum < ticks)
       return topic + ": " + std::to_string(sum) + " of " + std::to_string(ticks) + " ticks are accounted";
-    if (topic == "/authority" && count.recorded != lesson.rows())
+    if (topic == "/" + lesson.scene.tools[0].name && count.recorded != lesson.rows())
       return topic + ": " + std::to_string(count.recorded) + " recorded, " + std::to_string(lesson.rows()) + " rows";
   }
   return lesson.counts.empty() ? "no counts" : "";

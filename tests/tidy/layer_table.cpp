@@ -142,10 +142,10 @@ const std::array<Layer, 53> kLayers{{
      "server/archive reads summaries of recordings and decides what a school keeps: no file, no clock; the database "
      "belongs to server/archive/app"},
     {"server/recording",
-     {"common/base", "common/mcap", "proto", "server/recording", "server/report"},
+     {"common/base", "common/mcap", "proto", "server/recording", "server/report", "server/session/input_records.h"},
      {},
      "server/recording turns records of a session into the bytes of a recording: the container, messages, plain "
-     "records; no session, no file"},
+     "records, the layout of the input journal; no session, no file"},
     {"server/recording/io",
      {"common/base", "common/io", "common/mcap", "proto", "server/recording", "server/report"},
      {},

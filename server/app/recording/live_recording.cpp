@@ -114,7 +114,7 @@ void LiveRecording::add_ticks() {
 void LiveRecording::add_inputs() {
   if (inputs_ == nullptr) return;
   while (const std::size_t size = inputs_->drain(piece_))
-    files_->add_inputs(tick_, std::span<const std::byte>(piece_).first(size));
+    files_->add_inputs(std::span<const std::byte>(piece_).first(size));
 }
 
 void LiveRecording::add_links() {

@@ -101,9 +101,9 @@ void RecordingFiles::add(const TickRecord& record) {
   ++recorded_;
 }
 
-void RecordingFiles::add_inputs(std::uint32_t tick, std::span<const std::byte> piece) {
+void RecordingFiles::add_inputs(std::span<const std::byte> piece) {
   if (trouble_.empty() && !closing_) {
-    writer_->add_inputs(tick, piece);
+    writer_->add_inputs(piece);
   } else {
     lost_inputs_ += piece.size();
   }

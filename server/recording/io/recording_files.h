@@ -44,7 +44,7 @@ class RecordingFiles {
   /// Ticks whose records were dropped since the last `add`, because a queue was full.
   void count_dropped(std::uint64_t ticks) { writer_->count_dropped(ticks); }
   /// Adds a piece of the input journal; it is lost while the disk does not accept.
-  void add_inputs(std::uint32_t tick, std::span<const std::byte> piece);
+  void add_inputs(std::span<const std::byte> piece);
   /// The writer of the present file, for events, marks, sheets and links. They are few: they are never left out.
   [[nodiscard]] RecordingWriter& writer() noexcept { return *writer_; }
   /// Participants by seat, from now on.

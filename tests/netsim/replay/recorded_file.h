@@ -26,8 +26,7 @@ inline std::string record_file(SimulationConfig setup, double seconds, bool inpu
   while (simulation->now() < end && simulation->step()) {
     const server::Session& session = simulation->session();
     if (session.recorded()) writer.add(session.record());
-    while (const std::size_t size = inputs ? journal.drain(piece) : 0)
-      writer.add_inputs(session.record().tick, std::span{piece}.first(size));
+    while (const std::size_t size = inputs ? journal.drain(piece) : 0) writer.add_inputs(std::span{piece}.first(size));
     file += writer.take();
   }
   writer.finish();

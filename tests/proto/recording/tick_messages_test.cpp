@@ -143,34 +143,44 @@ TEST(TickMessages, MatchTheLibraryForAnyEnergyAndAuthority) {
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE(seed);
     RandomStream random{RandomKey{seed}};
-    EnergySample energy;
-    energy.seats = random.below(kSeatsMax + 1);
-    energy.tools = random.below(kToolsMax + 1);
-    for (std::size_t i = 0; i < energy.seats; ++i) {
-      SeatEnergySample& s = energy.seat[i];
-      for (EnergyArray* e : {&s.e_in, &s.e_out})
-        for (std::uint64_t& axis : *e) axis = random.below(3) == 0 ? 0 : random.bits();
-      for (double* x : {&s.dissipated_j, &s.refused_j, &s.margin_min_j, &s.delivered_j}) *x = any_double(random);
-    }
-    for (std::size_t j = 0; j < energy.tools; ++j) {
-      energy.tool[j].mfs_j = any_double(random);
-      energy.tool[j].e_p_j = any_double(random);
-      fill(energy.tool[j].e_p_axis_j, random);
-    }
+    SeatSample seat;
+    SeatEnergySample& s = seat.energy;
+    for (EnergyArray* e : {&s.e_in, &s.e_out})
+      for (std::uint64_t& axis : *e) axis = random.below(3) == 0 ? 0 : random.bits();
+    const bool single = random.below(2) == 0;
+    for (double* x : {&s.dissipated_j, &s.refused_j, &s.margin_min_j, &s.delivered_j})
+      *x = single ? static_cast<double>(random.below(1000)) / 8 : any_double(random);
     std::string bytes;
-    encode(energy, bytes);
-    recording::Energy library;
+    encode(seat, bytes);
+    recording::Seat library;
     ASSERT_TRUE(library.ParseFromString(bytes));
-    ASSERT_EQ(static_cast<std::size_t>(library.seats_size()), energy.seats);
-    for (std::size_t i = 0; i < energy.seats; ++i) {
-      const recording::SeatEnergy& s = library.seats(static_cast<int>(i));
-      for (int k = 0; k < s.e_in_size(); ++k) EXPECT_EQ(s.e_in(k), energy.seat[i].e_in[static_cast<std::size_t>(k)]);
-      EXPECT_EQ(bits(s.margin_min_j()), bits(energy.seat[i].margin_min_j));
-    }
-    EnergySample out;
+    const recording::SeatEnergy& e = library.energy();
+    for (int k = 0; k < e.e_in_size(); ++k) EXPECT_EQ(e.e_in(k), s.e_in[static_cast<std::size_t>(k)]);
+    EXPECT_EQ(bits(e.margin_min_j()), bits(to_single(s.margin_min_j)));
+    EXPECT_EQ(e.exact_size() == 0, single);
+    SeatSample out;
     ASSERT_TRUE(decode(bytes_of(library.SerializeAsString()), out));
     std::string again;
     encode(out, again);
+    EXPECT_EQ(again, bytes);
+    EXPECT_EQ(bits(out.energy.refused_j), bits(s.refused_j));
+
+    ToolSample tool;
+    tool.energy.mfs_j = any_double(random);
+    fill(tool.energy.e_p_axis_j, random);
+    const auto& axes = tool.energy.e_p_axis_j;
+    const bool sum = random.below(2) == 0;
+    tool.energy.e_p_j = sum ? 0 + axes[0] + axes[1] + axes[2] : any_double(random);
+    encode(tool, bytes);
+    recording::Tool read_tool;
+    ASSERT_TRUE(read_tool.ParseFromString(bytes));
+    if (sum) {
+      EXPECT_EQ(read_tool.energy().has_e_p_j(), std::isnan(tool.energy.e_p_j)) << "a reader adds the axes";
+    }
+    ToolSample tool_out;
+    ASSERT_TRUE(decode(bytes_of(read_tool.SerializeAsString()), tool_out));
+    EXPECT_EQ(bits(tool_out.energy.e_p_j), bits(tool.energy.e_p_j));
+    encode(tool_out, again);
     EXPECT_EQ(again, bytes);
 
     AuthoritySample authority;

@@ -23,8 +23,8 @@ TEST(RecordingChannels, HaveTheirTopicsAndSchemas) {
   const SceneSpec scene = shipped_scene("contact");
   const std::string file = recording_of(scene, {smooth_record(scene, 1)});
   const std::set<std::string> topics = topics_of(file);
-  for (const char* topic : {"/authority", "/energy", "/session", "/inputs", "/link", "/events", "/marks", "/sheets",
-                            "/counts", "/view/scene", "/tf", "/log"})
+  for (const char* topic : {"/authority", "/session", "/inputs", "/link", "/events", "/marks", "/sheets", "/counts",
+                            "/view/scene", "/tf", "/log"})
     EXPECT_TRUE(topics.contains(topic)) << topic;
   for (const SeatSpec& seat : scene.seats) EXPECT_TRUE(topics.contains("/" + seat.name + "/measured_cp"));
   const auto reader = mcap::Reader::open(bytes_of(file));

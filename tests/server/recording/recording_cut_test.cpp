@@ -21,7 +21,7 @@ std::string sample_recording(const SceneSpec& scene, std::uint32_t ticks) {
 TEST(RecordingCut, AnyCutOfTheLastChunkGivesAllChunksBeforeAndTheirCounts) {
   const SceneSpec scene = shipped_scene("contact");
   std::vector<TickRecord> records;  // ten per chunk
-  for (std::uint32_t tick = 0; tick < 1000; tick += 25) records.push_back(smooth_record(scene, tick));
+  for (std::uint32_t tick = 0; tick < 2000; tick += 50) records.push_back(smooth_record(scene, tick));
   const std::string file = recording_of(scene, records);
   const auto parts = mcap::Reader::open(bytes_of(file))->parts();
   ASSERT_EQ(parts.size(), 4u);
@@ -33,33 +33,33 @@ TEST(RecordingCut, AnyCutOfTheLastChunkGivesAllChunksBeforeAndTheirCounts) {
     const std::size_t rows = size < chunk_end ? 30 : 40;
     ASSERT_EQ(lesson->rows(), rows);
     ASSERT_FALSE(lesson->complete);
-    ASSERT_EQ(lesson->counts.at("/authority").recorded, rows);
+    ASSERT_EQ(lesson->counts.at("/tool").recorded, rows);
   }
 }
 
 TEST(RecordingCut, RepairKeepsRowsAndCountsAndSaysThatTheEndIsMissing) {
   const SceneSpec scene = shipped_scene("contact");
-  const std::string file = sample_recording(scene, 1000);
+  const std::string file = sample_recording(scene, 2000);
   const auto parts = mcap::Reader::open(bytes_of(file))->parts();
   const auto repaired = mcap::repair(bytes_of(std::string_view{file}.substr(0, parts.back() + 50)));
   ASSERT_TRUE(repaired);
   ASSERT_TRUE(mcap::Reader::open(bytes_of(repaired->file))->complete());
   const auto lesson = read_lesson(bytes_of(repaired->file));
   ASSERT_TRUE(lesson) << lesson.error();
-  EXPECT_EQ(lesson->rows(), 750u);
+  EXPECT_EQ(lesson->rows(), 1500u);
   EXPECT_FALSE(lesson->complete);
-  EXPECT_EQ(lesson->counts.at("/energy").recorded, 750u);
+  EXPECT_EQ(lesson->counts.at("/tool").recorded, 1500u);
 }
 
 TEST(RecordingCut, ADamagedChunkIsAGap) {
   const SceneSpec scene = shipped_scene("contact");
-  std::string file = sample_recording(scene, 1000);
+  std::string file = sample_recording(scene, 2000);
   file[mcap::Reader::open(bytes_of(file))->parts()[1] + 100] ^= 4;
   const auto lesson = read_lesson(bytes_of(file));
   ASSERT_TRUE(lesson);
   EXPECT_FALSE(lesson->complete);
-  EXPECT_EQ(lesson->rows(), 750u);
-  EXPECT_EQ(lesson->tick[250], 500u);
+  EXPECT_EQ(lesson->rows(), 1500u);
+  EXPECT_EQ(lesson->tick[500], 1000u);
 }
 
 TEST(RecordingCut, FlippedBitsAreSafe) {
@@ -91,7 +91,8 @@ TEST(RecordingCut, ForeignFilesAreNamed) {
 
 TEST(RecordingCut, AnotherFormatAndABadSceneAreNamed) {
   for (const auto& [format, text, word] :
-       {std::tuple{"2", "", "format"}, std::tuple{"1", "seat { nam: \"x\" }", "scene"}}) {
+       {std::tuple{"1", "", "has format \"1\" of recordings; this program reads format 2"},
+        std::tuple{"3", "", "format"}, std::tuple{"2", "seat { nam: \"x\" }", "scene"}}) {
     mcap::Writer file{"x-tandem", "test"};
     file.add_metadata({"session", {{"format", format}, {"start_unix_ns", "0"}}});
     file.add_metadata({"scene", {{"name", "s"}, {"text", text}}});

@@ -69,7 +69,7 @@ async function countsOf(reader) {
 async function readWhole(file, bytes) {
   const reader = await McapIndexedReader.Initialize({ readable: readable(bytes), decompressHandlers });
   const topics = new Map([...reader.channelsById.values()].map((c) => [c.topic, c]));
-  const wanted = ["/authority", "/energy", "/session", "/inputs", "/link", "/events", "/marks", "/sheets", "/counts", "/view/scene", "/tf", "/log"];
+  const wanted = ["/authority", "/session", "/inputs", "/link", "/events", "/marks", "/sheets", "/counts", "/view/scene", "/tf", "/log"];
   check(`${file}: has all channels of a session`, wanted.every((topic) => topics.has(topic)), [...topics.keys()]);
   check(`${file}: has a schema for every channel`, [...topics.values()].every((c) => reader.schemasById.has(c.schemaId)));
 
