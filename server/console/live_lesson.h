@@ -14,7 +14,7 @@ namespace tandem::console {
 class LiveLesson {
  public:
   static constexpr std::size_t kRowsMax = std::size_t{30} * 60 * 60;  ///< 30 minutes at 60 Hz
-  static constexpr std::size_t kBytesMax = 32u << 20;    ///< of the columns
+  static constexpr std::size_t kBytesMax = 32u << 20;                 ///< of the columns
 
   /// @param scene  of the session
   explicit LiveLesson(const SceneSpec& scene);

@@ -16,7 +16,6 @@ class RecordingFile {
   [[nodiscard]] static std::expected<RecordingFile, std::string> open(const std::string& path);
 
   [[nodiscard]] const RecordingParts& parts() const noexcept { return parts_; }
-  [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
   [[nodiscard]] ReadAt read() const;
   /// Whether the file is still as it was opened: neither changed nor deleted.
   [[nodiscard]] bool unchanged() const noexcept;

@@ -236,8 +236,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error && self->response_.keep_alive()) return self->read();
       beast::error_code ignored;
-      static_cast<void>(
-          self->stream_.lowest().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored));
+      static_cast<void>(self->stream_.lowest().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored));
     });
   }
 

@@ -17,7 +17,7 @@ namespace tandem::console {
 class RecordingScores {
  public:
   static constexpr std::uint64_t kBytesMax = 768u << 20;  ///< of a lesson in memory, some 11 minutes of two seats
-  static constexpr std::size_t kKept = 16;              ///< results
+  static constexpr std::size_t kKept = 16;                ///< results
 
   RecordingScores();
 
