@@ -10,6 +10,7 @@
 #include "common/base/raw_bytes.h"
 #include "common/base/rng.h"
 #include "proto/recording/event_messages.h"
+#include "proto/recording/protobuf_fields.h"
 #include "proto/schema/recording.pb.h"
 #include "tests/common/base/counts.h"
 
