@@ -20,7 +20,7 @@ namespace tandem::io {
 struct AppendFileOptions {
   std::size_t backlog_max = std::size_t{16} << 20U;  ///< [bytes] that wait for the disk; beyond, `accepts` is false
   std::size_t reserve = std::size_t{2} << 20U;       ///< [bytes] that the disk keeps free for the end of the file
-  std::chrono::milliseconds sync{1000};              ///< between two fdatasync
+  std::chrono::milliseconds sync{500};               ///< between two fdatasync
 };
 
 /// New file that grows only at its end, written by a thread of its own. The caller never waits for the disk: bytes go
@@ -49,7 +49,7 @@ class AppendFile {
     std::uint64_t backlog = 0;       ///< [bytes] that wait
     int error = 0;                   ///< errno of the last write, if it failed; 0: the disk accepts
     std::uint64_t failures = 0;      ///< failed attempts to write or to reserve space, so far
-    std::uint64_t unsynced = 0;      ///< failed fdatasync so far: a second may be missing after a power cut
+    std::uint64_t unsynced = 0;      ///< failed fdatasync so far: bytes may be missing after a power cut
     std::chrono::nanoseconds cpu{};  ///< processor time of the thread
     bool closed = false;             ///< the file has its name, or `close_error`
     std::string close_error{};       ///< why the complete file did not get its name

@@ -188,7 +188,7 @@ TEST(GatewayRecordings, PlayWithoutAServer) {
   EXPECT_TRUE(page.read().is_null());
   EXPECT_EQ(page.close_code(), 4404U);
   EXPECT_EQ(http_post(gateway.at, "/join", "application/json", R"({"ticket":"ticket:x"})", gateway.at.origin()).status,
-            429U);
+            400U);
   folder.write("none.mcap", "no recording");
   Process wrong({TANDEM_CONSOLE, "play", folder.file("none.mcap")});
   EXPECT_EQ(wrong.wait(), 2);

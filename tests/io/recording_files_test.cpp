@@ -130,6 +130,9 @@ TEST(RecordingFiles, EndAtTheLimitOfAllFiles) {
   EXPECT_EQ(account_problem(read(folder, "a.mcap")), "");
 }
 
+/// The account of a channel with a message in every tick.
+LessonCount tool_count(const Lesson& lesson) { return lesson.counts.at("/" + lesson.scene.tools[0].name); }
+
 TEST(RecordingFiles, LeaveOutAndCountTicksBeyondTheRate) {
   const Folder folder;
   Recording recording(folder, {.bytes_per_s = 10'000});
@@ -138,7 +141,7 @@ TEST(RecordingFiles, LeaveOutAndCountTicksBeyondTheRate) {
   recording.close();
   const Lesson lesson = read(folder, "a.mcap");
   EXPECT_EQ(account_problem(lesson), "");
-  const LessonCount& count = lesson.counts.at("/authority");
+  const LessonCount count = tool_count(lesson);
   EXPECT_EQ(count.recorded + count.dropped + count.never_received, 20'000u);
   EXPECT_EQ(count.recorded, recording.files().recorded());
   EXPECT_EQ(count.dropped, recording.files().lost());
@@ -154,7 +157,7 @@ TEST(RecordingFiles, CountWhatTheSessionDidNotRecord) {
   recording.files().count_dropped(30);
   recording.run(1);
   recording.close();
-  const LessonCount count = read(folder, "a.mcap").counts.at("/authority");
+  const LessonCount count = tool_count(read(folder, "a.mcap"));
   EXPECT_EQ(count.recorded, 500u);
   EXPECT_EQ(count.dropped, 30u);
   EXPECT_EQ(count.never_received, 40u);
@@ -209,7 +212,7 @@ TEST(RecordingFiles, StayReadableWhenTheDiskIsFullToTheEnd) {
   const RecordingRepair repair = repair_recording(folder.file("a.mcap.part"));
   EXPECT_EQ(repair.kind, RecordingRepair::Kind::kRepaired) << repair.text;
   const Lesson lesson = read(folder, "a.mcap");
-  EXPECT_GE(lesson.rows(), 700u);
+  EXPECT_GE(lesson.rows(), 500u) << "only the chunk that was open is missing";
   EXPECT_EQ(account_problem(lesson), "");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.mcap.part")));
 }

@@ -61,7 +61,7 @@ TEST(DeviceSpec, ReportsNothingForAValidSpec) {
 TEST(DeviceSpec, ReportsAllMistakesOfSimulatedDevices) {
   const auto opened = open_sim_device("sim:hnad=leader,model=tuch,rec=1", SimDeviceSpec{}, HandSpec{});
   ASSERT_FALSE(opened);
-  for (const char* part : {"did you mean hand?", "did you mean touch?", "motion=FILE.csv must come before"})
+  for (const char* part : {"did you mean hand?", "did you mean touch?", "motion=FILE.mcap must come before"})
     EXPECT_NE(opened.error().message.find(part), std::string::npos) << part << "\n" << opened.error().message;
 }
 

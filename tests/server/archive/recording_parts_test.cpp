@@ -31,7 +31,7 @@ TEST(RecordingParts, TogetherAreTheWholeRecording) {
   const auto parts = RecordingParts::find(read, bytes.size());
   ASSERT_TRUE(parts) << parts.error();
   EXPECT_TRUE(parts->complete());
-  ASSERT_GE(parts->size(), 10u) << "chunks of 250 ms";
+  ASSERT_GE(parts->size(), 6u) << "chunks of 500 ms";
   const auto whole = read_lesson(bytes);
   ASSERT_TRUE(whole);
   const auto again = read_lesson(parts->piece(read, 0, parts->size()));
