@@ -33,7 +33,7 @@ struct SeatValues {
   for (const double value : r.x) put(value / scale);
   for (const double value : r.f_cmd) put(value * scale);
   for (const double value : r.f_out) put(value * scale);
-  static_assert(SeatValues::kWords == 4 * 3 + kAxesMax + 4 + 3 * 3);
+  static_assert(SeatValues::kWords == std::size_t{4} * 3 + kAxesMax + 4 + std::size_t{3} * 3);
   for (std::size_t a = 0; a < kAxesMax; ++a) {
     out.longs[a] = r.e_in[a];
     out.longs[kAxesMax + a] = r.e_out[a];
