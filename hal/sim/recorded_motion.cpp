@@ -123,6 +123,21 @@ std::expected<TimeColumn, std::string> find_time(const CsvTable& table, Text fil
   return std::unexpected(std::string(file) + ":1: no time column; t_s[s] is needed");
 }
 
+/// Changes a tangent at one end of an interval so that the curve stays between the interval's ends there, on every
+/// axis: at a pause, and in an interval that is long beside its neighbour, such as a gap of the recording. Otherwise
+/// the last slope before it would swing the curve far out. A tangent of at most three slopes keeps an interval monotone
+/// [Fritsch and Carlson 1980].
+/// @param slope  of the interval  @param length, neighbour  of the interval and of the one at the tangent's other side
+/// [s]
+void keep_between_ends(Vec3& tangent, const Vec3& slope, double length, double neighbour) {
+  constexpr double kLong = 8;
+  if (length <= kLong * neighbour && !slope.isZero(0)) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double limit = std::max(0.0, 3 * slope[axis] * (tangent[axis] < 0 ? -1 : 1));
+    tangent[axis] = std::clamp(tangent[axis], -limit, limit);
+  }
+}
+
 }  // namespace
 
 std::expected<void, std::string> set_motion_option(MotionOptions& options, Text name, Text value) {
@@ -329,6 +344,8 @@ void RecordedMotion::make_tangents() {
     const double before = t_[i] - t_[i - 1], after = t_[i + 1] - t_[i];
     const Vec3 slope_before = (x_[i] - x_[i - 1]) / before, slope_after = (x_[i + 1] - x_[i]) / after;
     v_[i] = (after * slope_before + before * slope_after) / (before + after);
+    keep_between_ends(v_[i], slope_before, before, after);
+    keep_between_ends(v_[i], slope_after, after, before);
   }
   v_[0] = (x_[1] - x_[0]) / (t_[1] - t_[0]);
   v_[n - 1] = (x_[n - 1] - x_[n - 2]) / (t_[n - 1] - t_[n - 2]);
@@ -375,8 +392,9 @@ std::optional<RecordedMotion::Beyond> RecordedMotion::first_beyond(double reach,
 }
 
 std::string RecordedMotion::describe() const {
-  return "position " + columns_ + ", " + shown(duration()) + " s, " + std::to_string(rows()) + " positions (" +
-         std::to_string(repeated_) + " repeated rows left out), scale " + shown(scale_);
+  return "position" + (columns_.empty() ? "" : " " + columns_) + ", " + shown(duration()) + " s, " +
+         std::to_string(rows()) + " positions (" + std::to_string(repeated_) + " repeated rows left out), scale " +
+         shown(scale_);
 }
 
 }  // namespace tandem::hal::sim

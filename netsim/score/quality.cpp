@@ -86,12 +86,13 @@ void add_doubts(const ScoreOptions& options, double force_limit, Quality& q) {
   };
   if (q.missing_share > options.missing_flagged)
     add(q.missing_share > options.missing_withheld, measured,
-        format("%.3g %% of the samples are missing (limit %g %%)", 100 * q.missing_share,
-               100 * options.missing_flagged));
+        format(
+            "%.3g %% of the samples are missing (limit %g %%)", 100 * q.missing_share,
+            100 * (q.missing_share > options.missing_withheld ? options.missing_withheld : options.missing_flagged)));
   if (q.longest_gap_s > options.gap_flagged_s * (1 + 1e-9))
     add(q.longest_gap_s > options.gap_withheld_s, measured,
         format("the longest gap between two samples is %.4g ms (limit %g ms)", 1e3 * q.longest_gap_s,
-               1e3 * options.gap_flagged_s));
+               1e3 * (q.longest_gap_s > options.gap_withheld_s ? options.gap_withheld_s : options.gap_flagged_s)));
   if (q.gate_trips > 0)
     add(false, {kForce, kContact, kTracking, kSharing},
         format("the force gate released the hand %u time%s", q.gate_trips, q.gate_trips == 1 ? "" : "s"));

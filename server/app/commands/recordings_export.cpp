@@ -7,6 +7,7 @@
 #include "server/app/commands/recordings_actions.h"
 #include "server/app/commands/state_option.h"
 #include "server/archive/app/lesson_file.h"
+#include "server/archive/recording_row.h"
 #include "server/export/app/csv_export.h"
 #include "server/export/app/lerobot_export.h"
 #include "server/export/io/hdf5_export.h"
@@ -21,6 +22,12 @@ std::expected<Lesson, std::string> read_exportable(const std::string& file) {
   if (!lesson) return std::unexpected(sanitize(file) + ": " + lesson.error());
   if (const std::string problem = lesson_problem(*lesson); !problem.empty())
     return std::unexpected(sanitize(file) + ": " + problem);
+  const RecordingSummary summary = summary_of(*lesson);
+  if (summary.missing_ticks > 0)
+    io::print_formatted(stderr, "%s: %llu ticks are missing; the export has no rows for them\n", sanitize(file).c_str(),
+                        static_cast<unsigned long long>(summary.missing_ticks));
+  if (!summary.complete)
+    io::print_formatted(stderr, "%s: the end is missing, or a part is damaged\n", sanitize(file).c_str());
   return lesson;
 }
 

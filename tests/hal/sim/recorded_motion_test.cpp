@@ -162,6 +162,42 @@ TEST(RecordedMotion, KeepsAPause) {
   EXPECT_NEAR(m.duration(), 0.3, 1e-12);
 }
 
+// A hand that moves at 10 mm/s, rests for 16 s and moves on: the last slope must not swing it while it rests.
+TEST(RecordedMotion, RestsDuringAPauseOfAnyLength) {
+  for (const double pause : {0.1, 1.0, 16.0}) {
+    std::string csv = "t_s[s],px[m],py[m],pz[m]\n";
+    const auto row = [&](double t, double x) { csv += std::to_string(t) + "," + std::to_string(x) + ",0,0\n"; };
+    for (int i = 0; i <= 1000; ++i) row(i * 1e-3, i * 1e-5);
+    for (int i = 1; i < 10; ++i) row(1 + pause * i / 10, 0.01);
+    for (int i = 0; i <= 1000; ++i) row(1 + pause + i * 1e-3, 0.01 - i * 1e-5);
+    const RecordedMotion m = parsed(csv, "f.csv,middle=keep,scale=1");
+    RecordedMotion::Cursor c;
+    for (double t = 1.001; t < 0.999 + pause; t += 0.01) {
+      EXPECT_NEAR(m.at(t, c).x[0], 0.01, 1e-9) << pause << " s, at " << t;
+      EXPECT_NEAR(m.at(t, c).v[0], 0, 1e-9) << pause << " s, at " << t;
+    }
+    EXPECT_NEAR(position(m, 0.5)[0], 0.005, 1e-6) << "the motion itself is unchanged";
+  }
+}
+
+// Positions that a recording lacks: the hand crosses the gap without leaving the space between its ends.
+TEST(RecordedMotion, CrossesAGapBetweenItsEnds) {
+  std::vector<double> t;
+  std::vector<Vec3> x;
+  for (int i = 0; i <= 100; ++i) t.push_back(i * 1e-3), x.push_back({i * 1e-4, 0, -i * 1e-4});
+  for (int i = 0; i <= 100; ++i) t.push_back(3 + i * 1e-3), x.push_back({0.012 - i * 1e-4, 0, 0.02 + i * 1e-4});
+  const auto m = RecordedMotion::from_points(t, x);
+  ASSERT_TRUE(m) << m.error();
+  RecordedMotion::Cursor c;
+  for (double at = 0.1; at <= 3; at += 0.01) {
+    const Vec3 p = m->at(at, c).x;
+    EXPECT_GE(p[0], 0.01 - 1e-12) << at;
+    EXPECT_LE(p[0], 0.012 + 1e-12) << at;
+    EXPECT_GE(p[2], -0.01 - 1e-12) << at;
+    EXPECT_LE(p[2], 0.02 + 1e-12) << at;
+  }
+}
+
 TEST(RecordedMotion, HoldsOrLoopsAtItsEnd) {
   RecordedMotion::Cursor c;
   EXPECT_EQ(parsed(kSmall).at(50.0, c).v.norm(), 0.0);
