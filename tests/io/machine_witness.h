@@ -34,12 +34,15 @@ class MachineWitness {
   std::jthread thread_{[this](const std::stop_token& end) { watch(end); }};
 };
 
+/// Number of sessions until a test gives up a machine that stands still.
+inline constexpr int kSessionsOfADisturbedMachine = 3;
+
 /// Repeats a session that could not be judged because the machine stood still, and says so if no repetition could.
 /// @param session  returns whether it was judged
 inline void repeat_disturbed(const char* what, const std::function<bool()>& session) {
-  for (int n = 0; n < 3; ++n)
+  for (int n = 0; n < kSessionsOfADisturbedMachine; ++n)
     if (session() || testing::Test::HasFailure()) return;
-  std::printf("[ NOT RUN ] %s: this machine stood still in each of 3 sessions\n", what);
+  std::printf("[ NOT RUN ] %s: this machine stood still in each of %d sessions\n", what, kSessionsOfADisturbedMachine);
 }
 
 }  // namespace tandem::test
