@@ -15,13 +15,15 @@
 namespace tandem::console {
 
 /// Browsers that have access, by the secret of their cookie. Several cookies may have the same person. A cookie that
-/// does not last ends kIdle after the last open socket with it. Bounded: the cookie that is idle for longest ends when
-/// one more is added.
+/// does not last ends a while after the last open socket with it. Bounded: the cookie that is idle for longest ends
+/// when one more is added.
 template <class Person>
 class BrowserSessions {
  public:
   static constexpr std::size_t kMax = 64;
-  static constexpr Duration kIdle = std::chrono::seconds{60};
+
+  /// @param idle  how long a cookie stays without an open socket
+  explicit BrowserSessions(Duration idle) : idle_(idle) {}
 
   /// @param lasts  true: the cookie does not end by idling
   /// @return false: kMax cookies have open sockets, and nothing was added
@@ -56,10 +58,10 @@ class BrowserSessions {
       row.idle_since = now;
     }
   }
-  /// Ends the cookies that were idle for kIdle. @return their number
+  /// Ends the cookies that were idle for too long. @return their number
   std::size_t expire(Time now) {
     return std::erase_if(
-        rows_, [now](const Row& row) { return !row.lasts && row.sockets == 0 && now - row.idle_since >= kIdle; });
+        rows_, [&](const Row& row) { return !row.lasts && row.sockets == 0 && now - row.idle_since >= idle_; });
   }
   /// Returns whether `accepts` holds for the person of any cookie.
   template <class Accepts>
@@ -81,6 +83,7 @@ class BrowserSessions {
     std::size_t sockets = 0;
     Time idle_since{};
   };
+  Duration idle_;
   std::vector<Row> rows_;
 };
 

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <memory>
+#include <vector>
+
 #include "tests/io/multi_client_fixture.h"
 #include "tests/io/web_fixture.h"
 
@@ -97,6 +100,27 @@ TEST(GatewayPersons, WatchWithoutASeatAndGiveNoOrder) {
     }
     EXPECT_EQ(said(page, goals(4, true))["ok"], false);
     EXPECT_EQ(said(page, {{"type", "mark"}, {"t", 1}, {"text", "x"}})["ok"], false);
+  }
+}
+
+TEST(GatewayPersons, SeeLiveValuesAfterTheFirstOneLeft) {
+  const Lesson lesson;
+  const WebGateway gateway = lesson.gateway({"--return-within", "1"});
+  auto ann =
+      std::make_unique<WebPage>(Lesson::page(gateway, lesson.ticket_for({"--role", "instructor", "--person", "ann"})));
+  const auto is_live = [](const Json& s) { return s["age_ms"].is_number(); };
+  ASSERT_FALSE(state_where(*ann, is_live).is_null());
+  WebPage bob = Lesson::page(gateway, lesson.ticket_for({"--role", "operator", "--person", "bob"}));
+  ASSERT_FALSE(state_where(bob, is_live).is_null());
+  ann.reset();
+  unsigned seen = 0;  // of 4 s; the cookie of ann ends after 1 s
+  const Json dead = state_where(bob, [&](const Json& s) { return !is_live(s) || ++seen == 240; });
+  EXPECT_TRUE(is_live(dead)) << "values end with the person who joined first";
+  // The server has eight places of watching consoles. The ninth person sees live values too.
+  std::vector<WebPage> others;
+  for (int i = 0; i < 8; ++i) {
+    others.push_back(Lesson::page(gateway, lesson.ticket_for({"--role", "operator"})));
+    EXPECT_FALSE(state_where(others.back(), is_live).is_null()) << "person " << i + 1 << " after ann had left";
   }
 }
 

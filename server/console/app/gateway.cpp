@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kJoinRate = 0.5, kJoinBurst = 10;      // of one source [1/s], [1]: a class behind one address
 constexpr double kAllJoinRate = 2, kAllJoinBurst = 40;  // of all sources
-constexpr std::size_t kOthersMax = 16;                  // further sessions that the gateway shows at the same time
-constexpr unsigned kFeedsMax = 2;  // persons of a session with datagrams: one stays when the other leaves
 constexpr std::chrono::seconds kTokenLife{600};
 
 }  // namespace
@@ -24,6 +22,7 @@ Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr
     : options_(std::move(options)),
       mailbox_(std::move(mailbox)),
       news_(std::move(news)),
+      browsers_(options_.away),
       all_joins_(kAllJoinRate, kAllJoinBurst),
       seats_(options_.seats, options_.join, news_) {
   if (!options_.recordings.empty() || !options_.files.empty())
@@ -45,6 +44,7 @@ Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr
       ServerLink::Options{
           .join = options_.join, .watch = watch, .again = options_.local, .list = options_.local, .news = news_},
       std::move(own));
+  views_.add(house_->link);
 }
 
 std::string Gateway::make_token(Time now) {
@@ -63,10 +63,9 @@ std::string Gateway::redeem(std::string_view token, Time now) {
   return browsers_.add(secret, house_, true, now) ? secret : std::string{};
 }
 
-bool Gateway::is_watched(const rpc::Id& session) const {
-  if (house_ && house_->link->newest()->status.session_id == session) return true;
-  return browsers_.any(
-      [&](const Person& person) { return person.link->live() && person.link->newest()->status.session_id == session; });
+bool Gateway::has_person(const rpc::Id& session) const {
+  const auto is_in = [&](const Person& person) { return person.link->newest()->status.session_id == session; };
+  return (house_ && is_in(*house_)) || browsers_.any(is_in);
 }
 
 std::expected<void, JoinRefusal> Gateway::join(const JoinBody& body, const auth::Source& from, Time now, Joined done) {
@@ -83,22 +82,23 @@ std::expected<void, JoinRefusal> Gateway::join(const JoinBody& body, const auth:
   link.join.console = auth::claimed_role(*ticket).value_or(AccessRole::kObserver);
   const auto session = auth::claimed_session(*ticket);
   // The server has eight places of watching consoles per session, so the first persons of a session watch for all.
-  link.watch = link.join.console != AccessRole::kRecorder && session && !is_watched(*session);
+  link.watch = link.join.console != AccessRole::kRecorder && session && !views_.is_watched(*session);
   const auto person = std::make_shared<Person>();
   person->name = body.name;
   const std::uint64_t number = ++joins_;
+  const bool watch = link.watch;
   link.joined = [this, number](const std::expected<void, std::string>& result) {
     mailbox_->post([this, number, result] { finish(number, result); });
   };
   person->link = std::make_shared<ServerLink>(std::move(link));
-  pending_.emplace(number, Pending{person, std::move(done)});
+  pending_.emplace(number, Pending{person, watch, std::move(done)});
   return {};
 }
 
 void Gateway::finish(std::uint64_t number, const std::expected<void, std::string>& result) {
   const auto found = pending_.extract(number);
   if (found.empty()) return;
-  const auto& [person, done] = found.mapped();
+  const auto& [person, watch, done] = found.mapped();
   if (!result) return done(std::unexpected(result.error()));
   const auto picture = person->link->newest();
   person->proved = !picture->person.empty();
@@ -106,6 +106,7 @@ void Gateway::finish(std::uint64_t number, const std::expected<void, std::string
   std::string secret = random_secret();
   if (!browsers_.add(secret, person, false, io::monotonic_now()))
     return done(std::unexpected("64 browsers are open already; close one, then ask for a new ticket"));
+  if (watch) views_.add(person->link);
   done(secret);
 }
 
@@ -137,41 +138,15 @@ std::shared_ptr<ServerLink> Gateway::open(const Person& person, const std::strin
   const auto found =
       std::ranges::find(sessions, session, [](const rpc::ListedSession& listed) { return session_hex(listed.id); });
   if (found == sessions.end()) return nullptr;
-  std::erase_if(others_, [](const auto& other) { return other.second.expired(); });
-  if (auto open = others_[found->name].lock()) return open;
-  if (others_.size() > kOthersMax) return nullptr;
   ServerLink::Options link{.join = options_.join, .again = true, .news = news_};
   link.join.session = found->name;  // a restarted server has another id
-  auto opened = std::make_shared<ServerLink>(std::move(link));
-  others_[found->name] = opened;
-  return opened;
-}
-
-std::shared_ptr<ServerLink> Gateway::best_view(const std::shared_ptr<ServerLink>& link) const {
-  if (link->live()) return link;
-  const auto picture = link->newest();
-  std::shared_ptr<ServerLink> best = link;
-  const auto consider = [&](const std::shared_ptr<ServerLink>& other) {
-    if (best == link && other && other->live() && other->newest()->status.session_id == picture->status.session_id)
-      best = other;
-  };
-  if (house_) consider(house_->link);
-  for (const auto& [name, other] : others_) consider(other.lock());
-  browsers_.each([&](const std::shared_ptr<Person>& person) { consider(person->link); });
-  return best;
+  return views_.open(found->name, std::move(link));
 }
 
 void Gateway::on_news() {
   if (!scores_) return;
   const Time now = io::monotonic_now();
-  const auto hear = [&](const std::shared_ptr<ServerLink>& link) {
-    if (link && link->live()) scores_->hear(*link->newest(), now);
-  };
-  if (house_) hear(house_->link);
-  for (const auto& [name, other] : others_) hear(other.lock());
-  browsers_.each([&](const std::shared_ptr<Person>& person) {
-    if (!person->house) hear(person->link);
-  });
+  views_.each_live([&](const ServerLink& link) { scores_->hear(*link.newest(), now); });
 }
 
 bool Gateway::may_review(const Person& person) {
@@ -198,6 +173,7 @@ void Gateway::abandon_requests() {
 
 void Gateway::on_second(Time now) {
   browsers_.expire(now);
+  views_.expire([this](const rpc::Id& session) { return has_person(session); });
   seats_.on_second();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -19,6 +20,7 @@
 #include "server/console/app/mailbox.h"
 #include "server/console/app/recording_library.h"
 #include "server/console/app/server_link.h"
+#include "server/console/app/session_views.h"
 #include "server/console/browser_sessions.h"
 #include "server/console/join_body.h"
 #include "server/console/one_time_token.h"
@@ -40,7 +42,7 @@ struct JoinRefusal {
   std::string why;    ///< cause and remedy
 };
 
-/// Persons with their control connections, and the links that show sessions. For the web thread.
+/// Persons with their control connections and their rights. For the web thread.
 class Gateway {
  public:
   static constexpr std::size_t kJoinsMax = 8;    ///< joins at the same time
@@ -50,9 +52,10 @@ class Gateway {
     client::JoinOptions join;  ///< of the gateway's own connection; persons join with its server, state and timeout
     bool local = false;        ///< the gateway joins without a ticket, so it may see every session of the server
     std::string release;       ///< version of the program
-    bool seats = false;        ///< browsers may take seats
-    std::string play{};        ///< seat that a page takes at once; empty: none
-    std::string recordings{};  ///< folder of recordings that persons may see; empty: none
+    Duration away = std::chrono::seconds{60};  ///< a person whose pages are closed for longer signs in again
+    bool seats = false;                        ///< browsers may take seats
+    std::string play{};                        ///< seat that a page takes at once; empty: none
+    std::string recordings{};                  ///< folder of recordings that persons may see; empty: none
     /// Recordings that this gateway plays, without any server: the person of the printed URL sees them. Empty: none.
     std::vector<std::string> files{};
   };
@@ -104,14 +107,16 @@ class Gateway {
   /// Returns the link of another session for a person with the gateway's connection; null: unknown session.
   [[nodiscard]] std::shared_ptr<ServerLink> open(const Person& person, const std::string& session);
   /// Returns the link that shows the session of `link` best: `link` itself, or another one with datagrams.
-  [[nodiscard]] std::shared_ptr<ServerLink> best_view(const std::shared_ptr<ServerLink>& link) const;
+  [[nodiscard]] std::shared_ptr<ServerLink> best_view(const std::shared_ptr<ServerLink>& link) const {
+    return views_.best(link);
+  }
   /// Ends pending joins and readings without a reply. @pre the mailbox is disconnected
   void abandon_requests();
-  /// Ends cookies that are idle. Call it about every second.
+  /// Ends cookies that are idle, and links that no person needs. Call it about every second.
   void on_second(Time now);
 
  private:
-  [[nodiscard]] bool is_watched(const rpc::Id& session) const;
+  [[nodiscard]] bool has_person(const rpc::Id& session) const;
   [[nodiscard]] std::string name_for(const std::string& wish, AccessRole role);
   void finish(std::uint64_t number, const std::expected<void, std::string>& result);
 
@@ -121,11 +126,12 @@ class Gateway {
   std::shared_ptr<Person> house_;  ///< null: none
   std::deque<OneTimeToken> tokens_;
   BrowserSessions<Person> browsers_;
-  std::map<std::string, std::weak_ptr<ServerLink>> others_;  ///< further sessions of the house, by name
+  SessionViews views_;
   auth::SourceTable<TokenBucket> join_rates_;
   TokenBucket all_joins_;
   struct Pending {
     std::shared_ptr<Person> person;
+    bool watch;
     Joined done;
   };
   std::map<std::uint64_t, Pending> pending_;  ///< joins, by number

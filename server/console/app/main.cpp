@@ -34,6 +34,7 @@ struct Arguments {
   client::ConnectionArguments connection{.ticket = {}, .server = "127.0.0.1:7000", .session = {}, .state = {}};
   PageAddressArguments page;
   std::string role = "instructor", recordings;
+  double away_s = 60;
   bool sign_in = false, seats = false, play = false;
 };
 
@@ -96,6 +97,7 @@ int run(const Arguments& arguments) {
                        .gateway = {.join = options,
                                    .local = local,
                                    .release = TANDEM_VERSION,
+                                   .away = from_seconds(arguments.away_s),
                                    .seats = arguments.seats || arguments.play,
                                    .play = seat,
                                    .recordings = arguments.recordings}};
@@ -123,6 +125,10 @@ int main(int argc, char** argv) {
   console::add_page_address_options(root, arguments.page);
   root.add_flag("--sign-in", arguments.sign_in,
                 "no connection of its own: each person signs in with a ticket, and no URL with a token is printed");
+  root.add_option("--return-within", arguments.away_s,
+                  "how long the pages of a person may be closed before they need another ticket [s]; default 60")
+      .value_name("S")
+      .check(io::number_in(1, 3600, "s"));
   root.add_flag("--allow-browser-seats", arguments.seats,
                 "a person may take a free MASTER seat in the browser, with mouse, touch screen or gamepad");
   root.add_flag("--play", arguments.play,

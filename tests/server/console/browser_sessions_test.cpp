@@ -20,7 +20,7 @@ using Sessions = BrowserSessions<int>;
 std::shared_ptr<int> person(int number) { return std::make_shared<int>(number); }
 
 TEST(BrowserSessions, KnowAPersonByTheSecretOnly) {
-  Sessions sessions;
+  Sessions sessions{60s};
   EXPECT_EQ(sessions.find(""), nullptr);
   ASSERT_TRUE(sessions.add("aa", person(1), true, Time{}));
   ASSERT_TRUE(sessions.add("ab", person(2), true, Time{}));
@@ -30,7 +30,7 @@ TEST(BrowserSessions, KnowAPersonByTheSecretOnly) {
 }
 
 TEST(BrowserSessions, EndSixtySecondsAfterTheLastSocket) {
-  Sessions sessions;
+  Sessions sessions{60s};
   ASSERT_TRUE(sessions.add("ticket", person(1), false, Time{}));
   ASSERT_TRUE(sessions.add("house", person(2), true, Time{}));
   sessions.opened("ticket");
@@ -50,17 +50,17 @@ TEST(BrowserSessions, EndSixtySecondsAfterTheLastSocket) {
 }
 
 TEST(BrowserSessions, ReleaseThePersonAtTheEnd) {
-  Sessions sessions;
+  Sessions sessions{60s};
   auto one = person(1);
   const std::weak_ptr<int> seen = one;
   ASSERT_TRUE(sessions.add("a", std::move(one), false, Time{}));
   EXPECT_FALSE(seen.expired());
-  sessions.expire(Time{} + Sessions::kIdle);
+  sessions.expire(Time{} + 60s);
   EXPECT_TRUE(seen.expired()) << "the control connection ends with it";
 }
 
 TEST(BrowserSessions, AreBoundedAndForgetTheLongestIdle) {
-  Sessions sessions;
+  Sessions sessions{60s};
   for (std::size_t i = 0; i < Sessions::kMax; ++i)
     ASSERT_TRUE(sessions.add("c" + std::to_string(i), person(0), i == 0, Time{} + std::chrono::seconds(i)));
   sessions.opened("c0");
@@ -79,7 +79,7 @@ TEST(BrowserSessions, KeepOpenOnesForAnyOrderOfCalls) {
   const std::uint64_t seeds = test::seeds(50);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     RandomStream rng(seed);
-    Sessions sessions;
+    Sessions sessions{60s};
     std::vector<int> open(100);
     Time now{};
     for (int step = 0; step < 1000; ++step) {
