@@ -103,12 +103,12 @@ std::expected<Lesson, std::string> load_lesson(const std::string& file, const st
   return lesson;
 }
 
-std::expected<std::vector<std::string>, std::string> lesson_files(const std::vector<std::string>& paths) {
-  std::vector<std::string> out;
+std::expected<std::vector<LessonFile>, std::string> lesson_files(const std::vector<std::string>& paths) {
+  std::vector<LessonFile> out;
   for (const std::string& path : paths) {
     std::error_code error;
     if (!std::filesystem::is_directory(path, error)) {
-      out.push_back(path);
+      out.push_back({path});
       continue;
     }
     std::vector<std::string> found;
@@ -120,7 +120,7 @@ std::expected<std::vector<std::string>, std::string> lesson_files(const std::vec
     if (error) return std::unexpected(path + ": " + error.message());
     if (found.empty()) return std::unexpected(path + ": the folder has no recording");
     std::ranges::sort(found);
-    out.insert(out.end(), found.begin(), found.end());
+    for (std::string& name : found) out.push_back({std::move(name), true});
   }
   return out;
 }

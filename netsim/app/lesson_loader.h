@@ -16,8 +16,14 @@ namespace tandem::netsim {
 /// of HDF5 the dataset.
 [[nodiscard]] std::expected<Lesson, std::string> load_lesson(const std::string& file, const std::string& scene);
 
+/// A file that may be a lesson.
+struct LessonFile {
+  std::string name;
+  bool of_folder = false;  ///< found in a folder that was named
+};
+
 /// Returns the recordings that the arguments name: files as they are, of a folder those that end in `.csv`, `.h5`,
 /// `.hdf5` or `.mcap`, sorted by name. Error: a folder without recordings, or one that cannot be read.
-[[nodiscard]] std::expected<std::vector<std::string>, std::string> lesson_files(const std::vector<std::string>& paths);
+[[nodiscard]] std::expected<std::vector<LessonFile>, std::string> lesson_files(const std::vector<std::string>& paths);
 
 }  // namespace tandem::netsim

@@ -44,10 +44,11 @@ Hands hands_of(const ScoreArguments& a, io::UsageErrors& mistakes) {
   return out;
 }
 
-/// Reads and scores files one after the other, so that one lesson is in memory at a time.
+/// Reads and scores files one after the other, so that one lesson is in memory at a time. A file of a folder without
+/// scores is skipped with a note, unless the folder has no other.
 /// @param last  receives the last lesson; null: not wanted
 Scored score_files(const ScoreArguments& a, const std::vector<std::string>& paths, const char* option,
-                   const Hands& hands, Lesson* last, io::UsageErrors& mistakes) {
+                   const Hands& hands, Lesson* last, std::vector<std::string>& notes, io::UsageErrors& mistakes) {
   const std::string prefix = *option == '\0' ? "" : std::string(option) + ": ";
   Scored out;
   const auto files = lesson_files(paths);
@@ -55,20 +56,35 @@ Scored score_files(const ScoreArguments& a, const std::vector<std::string>& path
     mistakes.add(prefix + files.error());
     return out;
   }
-  for (const std::string& file : *files) {
-    auto lesson = load_lesson(file, a.scene);
+  std::vector<std::string> skipped;
+  for (const LessonFile& file : *files) {
+    const auto refuse = [&](const std::string& why) {
+      if (file.of_folder) {
+        skipped.push_back(prefix + why);
+      } else {
+        mistakes.add(prefix + why);
+      }
+    };
+    auto lesson = load_lesson(file.name, a.scene);
     if (!lesson) {
-      mistakes.add(prefix + lesson.error());
+      refuse(lesson.error());
       continue;
     }
     auto scores = score::score_lesson(*lesson, a.options, hands);
     if (!scores) {
-      mistakes.add(prefix + file + ": " + scores.error());
+      refuse(file.name + ": " + scores.error());
       continue;
     }
-    scores->file = file;
+    scores->file = file.name;
     out.push_back(std::move(*scores));
     if (last != nullptr) *last = std::move(*lesson);
+  }
+  for (const std::string& why : skipped) {
+    if (out.empty()) {
+      mistakes.add(why);
+    } else {
+      notes.emplace_back("skipped: " + why);
+    }
   }
   return out;
 }
@@ -111,8 +127,8 @@ int score_command(const ScoreArguments& a) {
 
   score::ScoreResult result;
   Lesson last;
-  result.lessons = score_files(a, paths, "", hands, a.html.empty() ? nullptr : &last, mistakes);
-  const Scored experts = score_files(a, a.experts, "--experts", hands, nullptr, mistakes);
+  result.lessons = score_files(a, paths, "", hands, a.html.empty() ? nullptr : &last, result.notes, mistakes);
+  const Scored experts = score_files(a, a.experts, "--experts", hands, nullptr, result.notes, mistakes);
   if (!a.experts.empty() && experts.size() < score::kExpertsMin)
     mistakes.add(format("--experts: %zu recordings; thresholds need at least %zu", experts.size(), score::kExpertsMin));
   result.experts = experts.size();
@@ -147,7 +163,9 @@ void add_score_command(const io::Command& root) {
       .add_option(
           "files", a.files,
           "recordings: MCAP files of --record, their exports as HDF5, rows of --trace (with --scene), or tables of "
-          "recorded motion; a folder: all of its .mcap, .h5, .hdf5 and .csv files")
+          "recorded motion; a folder: all of its .mcap, .h5, .hdf5 and .csv files, and foreign or damaged ones are "
+          "named and "
+          "skipped")
       .value_name("FILE...");
   command.add_option("--scene", a.scene, "scene of a trace: a file, or the name of a shipped scene")
       .value_name("SCENE");

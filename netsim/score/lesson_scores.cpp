@@ -42,7 +42,8 @@ std::vector<std::string> notes_of(const Lesson& lesson) {
   if (lacks([](const LessonSeat& s) { return !s.margin_min_j.empty(); }))
     notes.emplace_back("The file has no energy accounts: passivity is not judged.");
   if (lesson.links.empty()) notes.emplace_back("The file has no measures of the links.");
-  if (!lesson.complete) notes.emplace_back("The file has no end, or was repaired.");
+  if (!lesson.complete)
+    notes.emplace_back("The file was cut, damaged or repaired, so that a part of the session may be missing.");
   return notes;
 }
 

@@ -25,7 +25,7 @@ struct RecordingSummary {
   std::int64_t start_unix_ns = 0;  ///< wall clock at the first row; 0: unknown
   double duration_s = 0;           ///< session time between the first and the last row [s]
   std::uint64_t rows = 0, missing_ticks = 0;
-  bool complete = true;  ///< false: the file has no end, or was repaired
+  bool complete = true;  ///< false: the file was cut, damaged or repaired
   std::vector<RecordedPerson> persons;
   friend bool operator==(const RecordingSummary&, const RecordingSummary&) = default;
 };

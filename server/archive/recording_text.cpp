@@ -72,12 +72,14 @@ std::string recordings_text(const std::vector<RecordingRow>& rows) {
     bytes += row.bytes;
     text += format("%-*s  %16s  %9.1f s  %10s  %-*s  %s%s\n", w, file.c_str(), time_text(row.begun_ns()).c_str(),
                    row.summary.duration_s, size_text(row.bytes).c_str(), n, sanitize(row.summary.session, 32).c_str(),
-                   persons_text(row.summary).c_str(), row.summary.complete ? "" : "  (no end)");
+                   persons_text(row.summary).c_str(), row.summary.complete ? "" : "  (cut, damaged or repaired)");
   }
   if (readable > 0)
     text.insert(0, format("%-*s  %16s  %11s  %10s  %-*s  %s\n", w, "file", "begin (UTC)", "duration", "size", n,
                           "session", "persons"));
-  return text + format("%zu recordings, %s\n", readable, size_text(bytes).c_str()) + damaged;
+  text += format("%zu recording%s, %s", readable, readable == 1 ? "" : "s", size_text(bytes).c_str());
+  if (readable < rows.size()) text += format("; files that cannot be read: %zu", rows.size() - readable);
+  return text + "\n" + damaged;
 }
 
 std::string recording_text(const RecordingRow& row) {
@@ -90,7 +92,7 @@ std::string recording_text(const RecordingRow& row) {
   text += format("duration  %.3f s\n", s.duration_s);
   text += format("ticks     %llu recorded, %llu not recorded\n", static_cast<unsigned long long>(s.rows),
                  static_cast<unsigned long long>(s.missing_ticks));
-  text += std::string("end       ") + (s.complete ? "complete" : "none: the file was cut or repaired") + "\n";
+  text += std::string("whole     ") + (s.complete ? "yes" : "no: the file was cut, damaged or repaired") + "\n";
   return text + "persons   " + persons_text(s) + "\n";
 }
 

@@ -62,7 +62,7 @@ TEST(Recordings, AreListedWithDamagedAndForeignFilesNamed) {
   Process text = recordings({"list", "--dir", folder.file("")});
   EXPECT_EQ(text.wait(), 0) << text.err();
   EXPECT_NE(text.out().find("2 recordings"), std::string::npos) << text.out();
-  EXPECT_NE(text.out().find("(no end)"), std::string::npos) << "the cut file: " << text.out();
+  EXPECT_NE(text.out().find("(cut, damaged or repaired)"), std::string::npos) << "the cut file: " << text.out();
   EXPECT_NE(text.out().find("foreign.mcap: skipped, "), std::string::npos) << text.out();
   Process list = recordings({"list", "--dir", folder.file(""), "--json"});
   EXPECT_EQ(list.wait(), 0) << list.err();

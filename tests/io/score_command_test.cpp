@@ -111,6 +111,23 @@ TEST(ScoreCommand, SaysWhatAForeignFileIsNot) {
     EXPECT_NE(process.err().find(part), std::string::npos) << part << " in " << process.err();
 }
 
+TEST(ScoreCommand, SkipsForeignFilesOfAFolder) {
+  const Folder folder;
+  std::filesystem::create_directory(folder.file("lessons"));
+  trace(folder, "lessons/b.csv", "contact", "1");
+  folder.write("lessons/a.mcap", "no recording\n");
+  Process process = score({folder.file("lessons"), "--scene", "contact", "--json", "-"});
+  EXPECT_EQ(code_of(process), 0) << process.err();
+  const auto json = nlohmann::json::parse(process.out());
+  EXPECT_EQ(json["lessons"].size(), 1u);
+  EXPECT_NE(json["notes"].dump().find("skipped: " + folder.file("lessons/a.mcap") + ": is no table"), std::string::npos)
+      << json["notes"];
+  EXPECT_NE(process.err().find("lessons/a.mcap: is no table"), std::string::npos) << process.err();
+  std::filesystem::remove(folder.file("lessons/b.csv"));
+  Process foreign = score({folder.file("lessons"), "--scene", "contact"});
+  EXPECT_EQ(code_of(foreign), 2) << "no other file of the folder has scores";
+}
+
 TEST(ScoreCommand, NamesEveryMistakeAtOnce) {
   const Folder folder;
   const std::string file = trace(folder, "a.csv", "contact", "0.5");

@@ -105,7 +105,7 @@ std::string kept_text(const mcap::RepairResult& repaired) {
   std::string text = format("%llu chunks with %llu messages", static_cast<unsigned long long>(repaired.chunks),
                             static_cast<unsigned long long>(repaired.messages));
   if (repaired.damaged > 0)
-    text += format("; %llu damaged chunks are left out", static_cast<unsigned long long>(repaired.damaged));
+    text += format("; damaged and left out: %llu of the chunks", static_cast<unsigned long long>(repaired.damaged));
   if (repaired.lost_bytes > 0)
     text += format("; the last %llu bytes were not whole and are left out",
                    static_cast<unsigned long long>(repaired.lost_bytes));

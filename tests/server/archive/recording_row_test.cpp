@@ -118,7 +118,7 @@ TEST(RecordingText, NamesPersonsAndSkippedFilesSafely) {
   const std::string text = recordings_text(rows);
   EXPECT_NE(text.find("Ada\\x0aByron (trainee)"), std::string::npos) << text;
   EXPECT_NE(text.find("bad\\x1b[2J.mcap: skipped, it is no MCAP file"), std::string::npos) << text;
-  EXPECT_NE(text.find("1 recordings, 2.5 MB"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 recording, 2.5 MB"), std::string::npos) << text;
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
   const auto json = nlohmann::json::parse(recordings_json(rows));
   EXPECT_EQ(json[0]["persons"][0]["name"], "Ada\nByron");
