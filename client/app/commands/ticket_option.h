@@ -28,14 +28,16 @@ inline void add_ticket_options(const io::Command& command, TicketOption& ticket,
 }
 
 /// Returns the text of the ticket; empty if none is given, or if an error was added to `errors`.
-[[nodiscard]] inline std::string ticket_of(const TicketOption& given, io::UsageErrors& errors) {
+/// @param file_option  name of the option that gave `file`
+[[nodiscard]] inline std::string ticket_of(const TicketOption& given, io::UsageErrors& errors,
+                                           const char* file_option = "--ticket-file") {
   if (!given.text.empty() && !given.file.empty()) {
     errors.add("--ticket-file: cannot be combined with --ticket; give one of them");
     return {};
   }
   const bool named = !given.file.empty() || given.text.starts_with('@');
   std::string name = !given.file.empty() ? given.file : named ? given.text.substr(1) : given.text;
-  const char* const option = given.file.empty() ? "--ticket" : "--ticket-file";
+  const char* const option = given.file.empty() ? "--ticket" : file_option;
   if (name.empty() && !named) return {};
   if (!named && name.starts_with("ticket:")) return name;
   std::string line;

@@ -17,8 +17,7 @@ constexpr std::chrono::seconds kTokenLife{600};
 
 }  // namespace
 
-Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr<Mailbox> mailbox,
-                 std::function<void()> news)
+Gateway::Gateway(Options options, GatewayLinks links, std::shared_ptr<Mailbox> mailbox, std::function<void()> news)
     : options_(std::move(options)),
       mailbox_(std::move(mailbox)),
       news_(std::move(news)),
@@ -34,17 +33,34 @@ Gateway::Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr
     house_->name = "player";
     house_->house = true;
   }
-  if (!own) return;
-  const bool watch = own->feed.has_value() || !own->warning.empty();
-  house_ = std::make_shared<Person>();
-  house_->proved = !own->console.welcome.person.empty();
-  house_->name = house_->proved ? own->console.welcome.person : "console";
-  house_->house = true;
-  house_->link = std::make_shared<ServerLink>(
-      ServerLink::Options{
-          .join = options_.join, .watch = watch, .again = options_.local, .list = options_.local, .news = news_},
-      std::move(own));
-  views_.add(house_->link);
+  const auto watches = [](const JoinedLink& link) { return link.feed.has_value() || !link.warning.empty(); };
+  if (links.own) {
+    house_ = std::make_shared<Person>();
+    house_->proved = !links.own->console.welcome.person.empty();
+    house_->name = house_->proved ? links.own->console.welcome.person : "console";
+    house_->house = true;
+    ServerLink::Options link = own_link(watches(*links.own));
+    link.list = options_.local;
+    house_->link = std::make_shared<ServerLink>(std::move(link), std::move(links.own));
+    views_.add(house_->link);
+  }
+  if (links.audience) {
+    audience_ = std::make_shared<Person>();
+    audience_->name = "audience";
+    audience_->audience = true;
+    ServerLink::Options link = own_link(watches(*links.audience));
+    link.join.ticket = options_.audience_ticket;
+    link.join.console = AccessRole::kObserver;
+    audience_->link = std::make_shared<ServerLink>(std::move(link), std::move(links.audience));
+    views_.add(audience_->link);
+    audience_secret_ = random_secret();
+    static_cast<void>(browsers_.add(audience_secret_, audience_, true, io::monotonic_now()));  // the first cookie
+  }
+}
+
+/// Options of a link that the gateway joins before it serves pages.
+ServerLink::Options Gateway::own_link(bool watch) const {
+  return {.join = options_.join, .watch = watch, .again = options_.local, .news = news_};
 }
 
 std::string Gateway::make_token(Time now) {

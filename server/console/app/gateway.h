@@ -33,7 +33,14 @@ struct Person {
   bool proved = false;  ///< the name is that of the ticket
   /// Control connection, whose rights the person has; the orders go there. Null if the gateway only plays recordings.
   std::shared_ptr<ServerLink> link;
-  bool house = false;  ///< has the gateway's own connection
+  bool house = false;     ///< has the gateway's own connection
+  bool audience = false;  ///< one of many who watch without a ticket
+};
+
+/// Connections that a gateway has from the begin.
+struct GatewayLinks {
+  std::optional<JoinedLink> own{};       ///< empty: each person signs in with a ticket
+  std::optional<JoinedLink> audience{};  ///< of an observer, for all who watch without a ticket; empty: there are none
 };
 
 /// A sign-in that the gateway does not begin.
@@ -53,15 +60,16 @@ class Gateway {
     bool local = false;        ///< the gateway joins without a ticket, so it may see every session of the server
     std::string release;       ///< version of the program
     Duration away = std::chrono::seconds{60};  ///< a person whose pages are closed for longer signs in again
+    std::size_t audience = 0;                  ///< pages of the audience at the same time
+    std::string audience_ticket{};             ///< of its connection; empty: it joins without a ticket
     bool seats = false;                        ///< browsers may take seats
     std::string play{};                        ///< seat that a page takes at once; empty: none
     std::string recordings{};                  ///< folder of recordings that persons may see; empty: none
     /// Recordings that this gateway plays, without any server: the person of the printed URL sees them. Empty: none.
     std::vector<std::string> files{};
   };
-  /// @param own  the gateway's own connection; empty: each person signs in with a ticket
   /// @param news  called by any thread after a new picture of any link
-  Gateway(Options options, std::optional<JoinedLink> own, std::shared_ptr<Mailbox> mailbox, std::function<void()> news);
+  Gateway(Options options, GatewayLinks links, std::shared_ptr<Mailbox> mailbox, std::function<void()> news);
 
   [[nodiscard]] const std::string& release() const noexcept { return options_.release; }
   [[nodiscard]] Mailbox& mailbox() noexcept { return *mailbox_; }
@@ -73,6 +81,12 @@ class Gateway {
 
   /// Whether the gateway has a connection of its own, or plays files, so that it prints a token.
   [[nodiscard]] bool has_token() const noexcept { return house_ != nullptr; }
+
+  /// Largest number of pages of the audience.
+  [[nodiscard]] std::size_t audience_max() const noexcept { return options_.audience; }
+  /// Secret of the cookie that each browser of the audience gets: it gives the rights of an observer. Empty: there is
+  /// no audience.
+  [[nodiscard]] const std::string& audience_secret() const noexcept { return audience_secret_; }
 
   /// Redeems the token of the printed URL. @return secret of a new cookie; empty: refused
   [[nodiscard]] std::string redeem(std::string_view token, Time now);
@@ -116,6 +130,7 @@ class Gateway {
   void on_second(Time now);
 
  private:
+  [[nodiscard]] ServerLink::Options own_link(bool watch) const;
   [[nodiscard]] bool has_person(const rpc::Id& session) const;
   [[nodiscard]] std::string name_for(const std::string& wish, AccessRole role);
   void finish(std::uint64_t number, const std::expected<void, std::string>& result);
@@ -123,7 +138,8 @@ class Gateway {
   Options options_;
   std::shared_ptr<Mailbox> mailbox_;
   std::function<void()> news_;
-  std::shared_ptr<Person> house_;  ///< null: none
+  std::shared_ptr<Person> house_, audience_;  ///< null: none
+  std::string audience_secret_;
   std::deque<OneTimeToken> tokens_;
   BrowserSessions<Person> browsers_;
   SessionViews views_;

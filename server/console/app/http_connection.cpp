@@ -82,6 +82,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       return answer(http::status::method_not_allowed, "only GET, and POST of /join, are supported\n");
     if (target == "/healthz") return answer(http::status::ok, "ok\n");
     if (target == "/join") return send_sign_in(http::status::ok, {});
+    if (target == "/watch") return admit_audience(person != nullptr);
     if (const std::string_view token = token_of(target); !token.empty()) return redeem(token);
     if (is_recording_target(target)) return recordings(person.get(), target);
     // The page has no secret: without a cookie it shows the form for a ticket.
@@ -101,10 +102,22 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void upgrade(std::string_view target, bool own_origin, std::shared_ptr<Person> person, const std::string& cookie) {
     if (target != "/live") return answer(http::status::not_found, "the WebSocket is /live\n");
     if (!own_origin) return answer(http::status::forbidden, "only the page of this gateway may open it\n");
-    if (state_.live >= kLiveMax) return answer(http::status::service_unavailable, "64 pages are open already\n");
+    const bool watches = person && person->audience;
+    if (watches ? state_.audience >= state_.gateway.audience_max() : state_.live >= kLiveMax)
+      return answer(http::status::service_unavailable, "too many pages are open already\n");
     stream_.lowest().expires_never();
     open_live_socket(std::move(stream_), request_, state_.gateway, state_.sockets, std::move(person), cookie,
-                     ConnectionSlot(state_.live));
+                     ConnectionSlot(watches ? state_.audience : state_.live));
+  }
+
+  /// @param known  the browser has the cookie of a person already, and keeps it
+  void admit_audience(bool known) {
+    const std::string& secret = state_.gateway.audience_secret();
+    if (secret.empty())
+      return answer(http::status::not_found, "this gateway has no audience; start it with --audience N\n");
+    if (!known && state_.audience >= state_.gateway.audience_max())
+      return answer(http::status::service_unavailable, "the audience is full; try again later\n");
+    redirect("/", known ? std::string{} : secret);
   }
 
   void redeem(std::string_view token) {

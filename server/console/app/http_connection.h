@@ -16,10 +16,10 @@ struct WebState {
   Gateway& gateway;
   const TlsFiles* tls = nullptr;  ///< null: without TLS
   std::uint16_t port = 0;
-  std::size_t http = 0, live = 0;  ///< open connections
+  std::size_t http = 0, live = 0, audience = 0;  ///< open connections; `live` and `audience`: WebSockets
   LiveSockets sockets{};
 };
-inline constexpr std::size_t kHttpMax = 64, kLiveMax = 64;  ///< open connections
+inline constexpr std::size_t kHttpMax = 64, kLiveMax = 64;  ///< open connections, without those of the audience
 
 /// Serves the HTTP requests of one connection: the page, signing in, and the begin of a WebSocket.
 /// @param from  address of the browser

@@ -1,4 +1,6 @@
+#include <cstdint>
 #include <cstdio>
+#include <expected>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,8 +35,9 @@ constexpr double kPlaySeconds = 86400;
 struct Arguments {
   client::ConnectionArguments connection{.ticket = {}, .server = "127.0.0.1:7000", .session = {}, .state = {}};
   PageAddressArguments page;
-  std::string role = "instructor", recordings;
+  std::string role = "instructor", recordings, audience_ticket;
   double away_s = 60;
+  std::uint64_t audience = 0;
   bool sign_in = false, seats = false, play = false;
 };
 
@@ -57,6 +60,28 @@ void print_url(const std::string& url, const std::string& token) {
   std::fflush(stdout);
 }
 
+/// Joins for the gateway itself, and for its audience.
+std::expected<GatewayLinks, std::string> join_links(const Arguments& arguments, client::JoinOptions options,
+                                                    const std::string& audience_ticket) {
+  GatewayLinks links;
+  if (!arguments.sign_in) {
+    auto own = join_link(options, true);
+    if (!own) return std::unexpected(own.error().reason);
+    links.own = std::move(*own);
+  }
+  if (arguments.audience > 0) {
+    options.ticket = audience_ticket;
+    options.console = AccessRole::kObserver;
+    auto audience = join_link(options, arguments.sign_in);
+    if (!audience) return std::unexpected("--audience: " + audience.error().reason);
+    if (const AccessRole role = audience->console.welcome.role; role != AccessRole::kObserver)
+      return std::unexpected("--audience-ticket: the ticket has the role " + std::string(to_text(role)) +
+                             "; the audience may only watch, so make one with `tandem-server ticket --role observer`");
+    links.audience = std::move(*audience);
+  }
+  return links;
+}
+
 int run(const Arguments& arguments) {
   io::UsageErrors errors;
   client::JoinOptions options = client::connection_of(arguments.connection, errors);
@@ -65,6 +90,15 @@ int run(const Arguments& arguments) {
   options.console = access_role_named(arguments.role);
   if (arguments.play && (arguments.sign_in || !options.ticket.empty()))
     errors.add("--play: it starts a server of its own; leave out --sign-in and the ticket");
+  const bool local = !arguments.sign_in && options.ticket.empty();
+  const std::string audience_ticket =
+      client::ticket_of({.text = {}, .file = arguments.audience_ticket}, errors, "--audience-ticket");
+  if (arguments.audience > 0 && !local && arguments.audience_ticket.empty())
+    errors.add(
+        "--audience: this gateway joins by tickets, so the audience needs one too; give it with "
+        "--audience-ticket FILE");
+  if (arguments.audience == 0 && !arguments.audience_ticket.empty())
+    errors.add("--audience-ticket: give the size of the audience with --audience N");
   if (arguments.sign_in && !options.ticket.empty())
     errors.add("--sign-in: without a connection of its own, the gateway needs no ticket");
   PageAddress page = page_address_of(arguments.page, errors);
@@ -84,13 +118,8 @@ int run(const Arguments& arguments) {
     trial.emplace(std::move(*programs));
     seat = yours.name;
   }
-  std::optional<JoinedLink> own;
-  if (!arguments.sign_in) {
-    auto joined = join_link(options, true);
-    if (!joined) return complain(joined.error().reason);
-    own = std::move(*joined);
-  }
-  const bool local = !arguments.sign_in && options.ticket.empty();
+  auto links = join_links(arguments, options, audience_ticket);
+  if (!links) return complain(links.error());
   const WebOptions web{.listen = page.listen,
                        .tls = std::move(page.tls),
                        .signals = signals.get(),
@@ -98,10 +127,18 @@ int run(const Arguments& arguments) {
                                    .local = local,
                                    .release = TANDEM_VERSION,
                                    .away = from_seconds(arguments.away_s),
+                                   .audience = arguments.audience,
+                                   .audience_ticket = audience_ticket,
                                    .seats = arguments.seats || arguments.play,
                                    .play = seat,
                                    .recordings = arguments.recordings}};
-  const auto served = run_web_server(web, std::move(own), print_url);
+  const auto served = run_web_server(web, std::move(*links), [&](const std::string& url, const std::string& token) {
+    print_url(url, token);
+    if (arguments.audience == 0) return;
+    std::printf("audience of up to %llu pages, without a ticket: %swatch\n",
+                static_cast<unsigned long long>(arguments.audience), url.c_str());
+    std::fflush(stdout);
+  });
   return served ? io::kExitDone : complain(served.error());
 }
 
@@ -129,6 +166,13 @@ int main(int argc, char** argv) {
                   "how long the pages of a person may be closed before they need another ticket [s]; default 60")
       .value_name("S")
       .check(io::number_in(1, 3600, "s"));
+  root.add_option("--audience", arguments.audience,
+                  "so many further pages watch as observers, without a ticket: anybody who opens /watch; default 0")
+      .value_name("N")
+      .check(io::whole_number_in(0, 500));
+  root.add_option("--audience-ticket", arguments.audience_ticket,
+                  "ticket of role observer for the connection of the audience, where this gateway joins by tickets")
+      .value_name("FILE");
   root.add_flag("--allow-browser-seats", arguments.seats,
                 "a person may take a free MASTER seat in the browser, with mouse, touch screen or gamepad");
   root.add_flag("--play", arguments.play,

@@ -73,7 +73,7 @@ class WebServer {
         retry_ = true;
         return;
       }
-      if (state_.http < kHttpMax) {
+      if (state_.http < kHttpMax + state_.gateway.audience_max()) {
         socket.set_option(Tcp::no_delay{true}, error);
         socket.set_option(net::socket_base::send_buffer_size{kSendBuffer}, error);
         const auth::Source from = source_of(socket);
@@ -140,7 +140,7 @@ std::string url_of(const WebOptions& options, std::uint16_t port) {
 }  // namespace
 
 std::expected<void, std::string> run_web_server(
-    const WebOptions& options, std::optional<JoinedLink> own,
+    const WebOptions& options, GatewayLinks links,
     const std::function<void(const std::string& url, const std::string& token)>& started) {
   const auto mailbox = std::make_shared<Mailbox>();
   const auto waiting = std::make_shared<std::atomic<bool>>(false);  // many pictures, one call
@@ -152,7 +152,7 @@ std::expected<void, std::string> run_web_server(
       if (*server != nullptr) (*server)->on_news();
     });
   };
-  Gateway gateway(options.gateway, std::move(own), mailbox, news);
+  Gateway gateway(options.gateway, std::move(links), mailbox, news);
   WebState state{gateway, options.tls ? &*options.tls : nullptr};
   std::optional<net::ssl::context> tls;
   if (options.tls) tls.emplace(tls_context(*options.tls));

@@ -20,11 +20,11 @@ struct WebOptions {
 };
 
 /// Serves the page, signing in and the WebSocket /live until a signal arrives. One thread, the caller's.
-/// @param own      the gateway's own connection; empty: each person signs in with a ticket
-/// @param started  called once the port is open. token: of the first URL, empty without `own`; url: without it
+/// @param started  called once the port is open. token: of the first URL, empty without a connection of its own; url:
+/// without it
 /// @return error: the port cannot be opened
 [[nodiscard]] std::expected<void, std::string> run_web_server(
-    const WebOptions& options, std::optional<JoinedLink> own,
+    const WebOptions& options, GatewayLinks links,
     const std::function<void(const std::string& url, const std::string& token)>& started);
 
 }  // namespace tandem::console

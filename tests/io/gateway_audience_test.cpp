@@ -1,0 +1,105 @@
+// The audience of tandem-console: many pages that watch without a ticket. Real programs on loopback.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "tests/io/multi_client_fixture.h"
+#include "tests/io/web_fixture.h"
+
+namespace tandem::test {
+namespace {
+
+std::size_t open_files(const Process& process) {
+  const std::filesystem::directory_iterator files("/proc/" + std::to_string(process.id()) + "/fd");
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+/// Opens /watch as a browser with these cookies does.
+HttpReply watch(const WebAddress& at, const Fields& fields = {}) { return http_get(at, "/watch", fields); }
+bool is_live(const Json& state) { return state["age_ms"].is_number(); }
+
+TEST(GatewayAudience, WatchesWithoutATicketAndCostsTheServerNothingMore) {
+  constexpr std::size_t kPages = 200;
+  const Process host = hosting("one_axis");
+  const Process trainer = client(address_of(host), "trainer");
+  WebGateway gateway(address_of(host), {"--audience", std::to_string(kPages)});
+  gateway.open_url();
+  gateway.process.wait_for("/watch\n");
+  WebPage instructor = gateway.page();
+  ASSERT_FALSE(state_where(instructor, is_live).is_null());
+  const HttpReply admitted = watch(gateway.at);
+  ASSERT_EQ(admitted.status, 303U) << admitted.body;
+  EXPECT_EQ(admitted.fields.at("location"), "/");
+  const std::string cookie = cookie_of(admitted);
+  ASSERT_FALSE(cookie.empty());
+  const std::size_t before = open_files(host);
+  std::vector<WebPage> pages;
+  for (std::size_t n = 0; n < kPages; ++n) {
+    pages.emplace_back(gateway.at, cookie);
+    ASSERT_EQ(pages.back().status(), 101U) << n;
+  }
+  for (std::size_t n = 0; n < kPages; ++n) ASSERT_FALSE(state_where(pages[n], is_live).is_null()) << n;
+  EXPECT_EQ(open_files(host), before) << "the server has a connection for the gateway, not for each page";
+  EXPECT_EQ(WebPage(gateway.at, cookie).status(), 503U) << "one page too many";
+  EXPECT_EQ(watch(gateway.at).status, 503U);
+  EXPECT_EQ(gateway.page().status(), 101U) << "the audience takes no place of other persons";
+
+  const Json refused = pages[0].order({{"order", "stop"}, {"why", "by a spectator"}});
+  EXPECT_EQ(refused["ok"], false) << refused;
+  pages[1].send(Json{{"type", "take"}, {"id", 8}, {"seat", "trainer"}});
+  EXPECT_EQ(pages[1].next("reply")["ok"], false);
+  pages[2].send(Json{{"type", "invite"}, {"id", 8}});
+  EXPECT_EQ(pages[2].next("reply")["ok"], false);
+  EXPECT_EQ(instructor.order({{"order", "stop"}, {"why", "look"}})["ok"], true);
+  EXPECT_FALSE(state_where(pages[3], [](const Json& s) { return s["stop"].is_object(); }).is_null());
+
+  const HttpReply kept = watch(gateway.at, {{"Cookie", gateway.cookie}});
+  EXPECT_EQ(kept.status, 303U);
+  EXPECT_EQ(cookie_of(kept), "") << "a person keeps their own rights";
+}
+
+TEST(GatewayAudience, WatchesWhereEachPersonSignsIn) {
+  const MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
+  const auto ticket = [&](const std::string& role) {
+    Process made(
+        {TANDEM_SERVER, "ticket", "--session", "a", "--workstation", "desk", "--role", role, "--state", fixture.state});
+    EXPECT_EQ(made.wait(), 0) << made.err();
+    fixture.folder.write(role + ".ticket", made.out());
+    return fixture.folder.file(role + ".ticket");
+  };
+  const auto refusal = [&](Words more, int code) {
+    Words words{TANDEM_CONSOLE, "--server", fixture.address, "--listen", "127.0.0.1:0", "--state", fixture.own};
+    words.insert(words.end(), more.begin(), more.end());
+    Process process(std::move(words));
+    EXPECT_EQ(process.wait(), code);
+    return process.err();
+  };
+  EXPECT_NE(refusal({"--sign-in", "--audience", "5"}, 2).find("give it with --audience-ticket FILE"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--sign-in", "--audience-ticket", ticket("observer")}, 2).find("--audience N"), std::string::npos);
+  EXPECT_NE(refusal({"--sign-in", "--audience", "5", "--audience-ticket", "none"}, 2).find("--audience-ticket: none"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--sign-in", "--audience", "5", "--audience-ticket", ticket("operator")}, 1)
+                .find("the audience may only"),
+            std::string::npos);
+
+  const WebGateway gateway(fixture.address, {"--sign-in", "--state", fixture.own, "--audience", "5",
+                                             "--audience-ticket", ticket("observer"), "--return-within", "1"});
+  WebPage page(gateway.at, cookie_of(watch(gateway.at)));
+  EXPECT_EQ(page.next("hello")["role"], "OBSERVER");
+  // Persons may stay away for 1 s. The audience stays longer.
+  unsigned seen = 0;
+  EXPECT_TRUE(is_live(state_where(page, [&](const Json& s) { return is_live(s) && ++seen == 200; })));
+}
+
+TEST(GatewayAudience, IsNoneUnlessItIsAllowed) {
+  const Process host = hosting("one_axis");
+  const WebGateway gateway(address_of(host));
+  const HttpReply reply = watch(gateway.at);
+  EXPECT_EQ(reply.status, 404U);
+  EXPECT_NE(reply.body.find("--audience N"), std::string::npos) << reply.body;
+  EXPECT_EQ(cookie_of(reply), "");
+}
+
+}  // namespace
+}  // namespace tandem::test
