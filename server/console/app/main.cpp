@@ -167,7 +167,7 @@ int main(int argc, char** argv) {
       .value_name("S")
       .check(io::number_in(1, 3600, "s"));
   root.add_option("--audience", arguments.audience,
-                  "so many further pages watch as observers, without a ticket: anybody who opens /watch; default 0")
+                  "so many further pages watch as observers, without a ticket, at the address /watch; default 0")
       .value_name("N")
       .check(io::whole_number_in(0, 500));
   root.add_option("--audience-ticket", arguments.audience_ticket,
