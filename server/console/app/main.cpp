@@ -86,7 +86,10 @@ int run(const Arguments& arguments) {
   std::optional<JoinedLink> own;
   if (!arguments.sign_in) {
     auto joined = join_link(options, true);
-    if (!joined) return complain(joined.error().reason);
+    if (!joined) {
+      const int trouble = complain(joined.error().reason);
+      return joined.error().interrupted ? io::kExitDone : trouble;
+    }
     own = std::move(*joined);
   }
   const bool local = !arguments.sign_in && options.ticket.empty();

@@ -17,7 +17,7 @@ export class RecordingListPanel {
     private readonly onOpen: (row: ListedRecording) => void,
     onReload: () => void,
   ) {
-    const heads = (['session', 'begin', 'duration', 'persons', 'state', 'action'] as const).map((key) =>
+    const heads = (['action', 'session', 'begin', 'duration', 'persons', 'state'] as const).map((key) =>
       el('th', { scope: 'col' }, t(`recordings.${key}`)),
     );
     this.node = panel(
@@ -52,7 +52,13 @@ export class RecordingListPanel {
     const name = row.session && row.session !== row.file ? `${row.session} (${row.file})` : row.file;
     if (row.problem !== null) {
       const why = t('recordings.skipped', { why: row.problem });
-      return el('tr', { class: 'damaged' }, el('th', { scope: 'row' }, row.file), el('td', { colspan: 5 }, why));
+      return el(
+        'tr',
+        { class: 'damaged' },
+        el('td', {}, ''),
+        el('th', { scope: 'row' }, row.file),
+        el('td', { class: 'why', colspan: 4 }, why),
+      );
     }
     const state = [
       row.complete ? '' : t('recordings.incomplete'),
@@ -62,16 +68,16 @@ export class RecordingListPanel {
     return el(
       'tr',
       {},
-      el('th', { scope: 'row' }, name),
-      el('td', {}, beginOf(row)),
-      el('td', {}, clock(row.duration_s)),
-      el('td', {}, row.persons.join(', ') || '–'),
-      el('td', {}, state.filter(Boolean).join(', ')),
       el(
         'td',
         {},
         button(t('recordings.open'), () => this.onOpen(row), { 'aria-label': t('recordings.open_of', { name }) }),
       ),
+      el('th', { scope: 'row' }, name),
+      el('td', {}, beginOf(row)),
+      el('td', {}, clock(row.duration_s)),
+      el('td', {}, row.persons.join(', ') || '–'),
+      el('td', {}, state.filter(Boolean).join(', ')),
     );
   }
 }
