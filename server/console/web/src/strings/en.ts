@@ -279,8 +279,8 @@ export const en = {
     'Session {name} is created. This page shows session {shown}; it can show {name} once the gateway lists it. A gateway with a ticket lists the session of its ticket only.',
   'desk.over': 'Session {name} is over. Its tickets are of no use any more.',
   'desk.created': 'Session {name}',
-  'desk.ends_after': 'ends by itself after {t}',
-  'desk.endless': 'lasts until it is ended',
+  'desk.ends_after': '{scene}: ends by itself after {t}',
+  'desk.endless': '{scene}: lasts until it is ended',
   'desk.name_rule':
     'Names of scene, session, people, seats and workstations have 1 to {max} characters of A-Z a-z 0-9 _ - (no spaces, no accents).',
   'desk.mistake_name': '{field}: “{value}” is no name. A name has 1 to {max} characters of A-Z a-z 0-9 _ -',

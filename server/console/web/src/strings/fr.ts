@@ -282,8 +282,8 @@ export const fr: Readonly<Record<StringKey, string>> = {
     'La session {name} est créée. Cette page affiche la session {shown} ; elle peut afficher {name} dès que la passerelle la cite. Une passerelle avec un billet ne cite que la session de son billet.',
   'desk.over': 'La session {name} est terminée. Ses billets ne servent plus.',
   'desk.created': 'Session {name}',
-  'desk.ends_after': 'se termine d’elle-même après {t}',
-  'desk.endless': 'dure jusqu’à ce qu’on la termine',
+  'desk.ends_after': '{scene} : se termine d’elle-même après {t}',
+  'desk.endless': '{scene} : dure jusqu’à ce qu’on la termine',
   'desk.name_rule':
     'Les noms de scène, session, personnes, postes et ordinateurs ont 1 à {max} caractères parmi A-Z a-z 0-9 _ - (ni espace ni accent).',
   'desk.mistake_name': '{field} : « {value} » n’est pas un nom. Un nom a 1 à {max} caractères parmi A-Z a-z 0-9 _ -',

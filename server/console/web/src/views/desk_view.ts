@@ -8,12 +8,6 @@ import { GivenPanels } from './given_panels';
 import { PersonRows } from './person_rows';
 import { endSession } from './session_end';
 
-/** Name of a scene with its end in words; empty: the page does not know the scene. */
-function endOf(duration: number | undefined, known: boolean): string {
-  if (duration !== undefined) return t('desk.ends_after', { t: clock(duration) });
-  return known ? t('desk.endless') : '';
-}
-
 /** The lesson desk: creates sessions with their people, ends them, and shows a card with ticket and steps per person. */
 export class DeskView implements View {
   readonly node: HTMLElement;
@@ -86,7 +80,9 @@ export class DeskView implements View {
     this.updateShown(may);
     if (model.revision !== this.revision) {
       this.revision = model.revision;
-      this.scenes.replaceChildren(...(model.hello?.scenes ?? []).map((scene) => this.offer(scene)));
+      this.scenes.replaceChildren(
+        ...(model.hello?.scenes ?? []).map((value) => el('option', { value, label: this.endOf(value) || value })),
+      );
       this.people.setWorkstation(model.hello?.workstation ?? '');
       this.onScene();
     }
@@ -121,19 +117,18 @@ export class DeskView implements View {
     return t('desk.denied', { role: word('role', model.hello.role) });
   }
 
-  private endOfScene(scene: string): string {
+  /** Name of a scene and when its sessions end; empty: the page does not know that. */
+  private endOf(scene: string): string {
     const { hello } = this.page.model;
-    return endOf(hello?.sceneDurations.get(scene), hello?.sceneSeats.has(scene) ?? false);
-  }
-
-  private offer(scene: string): HTMLOptionElement {
-    return el('option', { value: scene, label: [scene, this.endOfScene(scene)].filter(Boolean).join(': ') });
+    const duration = hello?.sceneDurations.get(scene);
+    if (duration !== undefined) return t('desk.ends_after', { scene, t: clock(duration) });
+    return hello?.sceneSeats.has(scene) ? t('desk.endless', { scene }) : '';
   }
 
   private onScene(): void {
     const scene = this.scene.value.trim();
     this.people.setSeats(this.page.model.hello?.sceneSeats.get(scene) ?? kNoSeats);
-    setText(this.duration, this.endOfScene(scene));
+    setText(this.duration, this.endOf(scene));
   }
 
   private endShown(): Promise<void> {

@@ -7,6 +7,11 @@ function beginOf(row: ListedRecording): string {
   return row.start_s === null ? '–' : new Date(row.start_s * 1000).toLocaleString(currentLanguage());
 }
 
+/** A cell; on narrow screens, where a row is a card, it begins with the title of its column. */
+function fact(column: 'begin' | 'duration' | 'persons' | 'state', value: string): HTMLElement {
+  return el('td', { 'data-label': t(`recordings.${column}`) }, value);
+}
+
 /** Recordings that the gateway may show, the newest first. */
 export class RecordingListPanel {
   readonly node: HTMLElement;
@@ -74,10 +79,10 @@ export class RecordingListPanel {
         button(t('recordings.open'), () => this.onOpen(row), { 'aria-label': t('recordings.open_of', { name }) }),
       ),
       el('th', { scope: 'row' }, name),
-      el('td', {}, beginOf(row)),
-      el('td', {}, clock(row.duration_s)),
-      el('td', {}, row.persons.join(', ') || '–'),
-      el('td', {}, state.filter(Boolean).join(', ')),
+      fact('begin', beginOf(row)),
+      fact('duration', clock(row.duration_s)),
+      fact('persons', row.persons.join(', ') || '–'),
+      fact('state', state.filter(Boolean).join(', ')),
     );
   }
 }

@@ -189,7 +189,7 @@ test('the desk says when a scene and the shown session end by themselves', async
   );
   await expect(page.locator('#scenes option[value=evaluation]')).toHaveAttribute('label', /lasts until it is ended/);
   await page.getByLabel('Scene').fill('contact');
-  await expect(page.locator('#scene-end')).toHaveText('ends by itself after 0:20.0');
+  await expect(page.locator('#scene-end')).toHaveText('contact: ends by itself after 0:20.0');
   await page.getByLabel('Scene').fill('unknown');
   await expect(page.locator('#scene-end')).toHaveText('');
   await expect(page.locator('#shown-session')).toHaveText(
