@@ -8,7 +8,7 @@ export interface GivenSession {
   readonly tickets: Tickets;
   /** Whether its cards are shown. They come once, so that a closed card is lost. */
   open: boolean;
-  /** Whether the gateway listed the session, so that the page can show it. */
+  /** Whether the gateway lists the session, so that the page can show it. */
   listed: boolean;
   over: boolean;
 }
@@ -16,7 +16,7 @@ export interface GivenSession {
 /** Sessions that this page created, the newest first, until their cards are closed and they are over. */
 export class GivenTickets {
   private given: GivenSession[] = [];
-  /** Increases with each change. */
+  /** Increases when cards come or are closed, and when a session is over. */
   revision = 0;
 
   list(): readonly GivenSession[] {
@@ -43,10 +43,10 @@ export class GivenTickets {
 
   /** Call with each list of the gateway: a session that it listed and lists no more is over. */
   update(sessions: readonly SessionName[]): void {
-    for (const { tickets, listed } of this.given) {
-      const here = sessions.some(({ id }) => id === tickets.session);
-      if (here && !listed) this.change(tickets.session, (given) => (given.listed = true));
-      else if (!here && listed) this.ended(tickets.session);
+    for (const given of this.given) {
+      const { tickets, listed, over } = given;
+      given.listed = sessions.some(({ id }) => id === tickets.session);
+      if (listed && !given.listed && !over) this.ended(tickets.session);
     }
   }
 

@@ -41,8 +41,8 @@ class GivenPanel {
     const { model } = this.page;
     const { given, session } = this;
     const shown = model.scene?.session === session;
-    const listed = model.hello?.sessions.some(({ id }) => id === session) ?? false;
-    const { name } = given.tickets;
+    const { listed, tickets } = given;
+    const { name } = tickets;
     this.show.hidden = shown || given.over;
     setDisabled(this.show, !listed || model.link !== 'open');
     // The button of the session that the page shows is above.
