@@ -17,7 +17,11 @@ using std::chrono::milliseconds;
 
 constexpr int kRetryMs = 100;  // pause between attempts, for a server that is about to start
 
-JoinError interrupted() { return {true, "ended by " + std::string(io::pending_signal()) + " before it had a seat"}; }
+/// Consoles and link tests have no seat.
+JoinError interrupted(const JoinOptions& options) {
+  return {true, "ended by " + std::string(io::pending_signal()) +
+                    (options.seat.empty() ? " before the server answered" : " before it had a seat")};
+}
 
 /// True if the server is not started yet, or too busy: it then closes the connection of an unknown client without a
 /// reply.
@@ -58,7 +62,7 @@ std::expected<void, JoinError> ServerConnection::connect() {
     if (!may_pass(client.error()) || io::monotonic_now() + milliseconds(kRetryMs) >= until)
       return std::unexpected(to_join_error(client.error()));
     pollfd signals{options_.signals, POLLIN, 0};
-    if (poll(&signals, 1, kRetryMs) > 0) return std::unexpected(interrupted());
+    if (poll(&signals, 1, kRetryMs) > 0) return std::unexpected(interrupted(options_));
   }
 }
 
@@ -103,7 +107,7 @@ std::string ServerConnection::start_command() const {
 }
 
 JoinError ServerConnection::to_join_error(const auth::ClientError& error) const {
-  if (error.kind == Kind::kInterrupted) return interrupted();
+  if (error.kind == Kind::kInterrupted) return interrupted(options_);
   const std::string server = io::to_text(options_.server), timeout = format("%g s", seconds(options_.timeout));
   if (error.kind == Kind::kUnreachable)
     return {false, "no server at " + server + ": nothing listens there (tried for " + timeout + "). Start " +

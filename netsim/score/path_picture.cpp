@@ -12,7 +12,9 @@
 namespace tandem::netsim::score {
 namespace {
 
-constexpr double kWidth = 640, kDrawing = 560, kMargin = 40, kLegendRow = 22;
+constexpr double kWidth = 640, kMargin = 40, kLegendRow = 22;
+constexpr double kLabelRoom = 112;  // left of the drawing, for the label of its upright edge
+constexpr double kDrawing = kWidth - kLabelRoom - kMargin;
 constexpr double kBoxMin = 0.010;                            // [m] shortest edge of the box
 constexpr std::size_t kPointsMax = 1500;                     // per piece
 constexpr double kCosine = 0.8660254037844386, kSine = 0.5;  // of 30 degrees
@@ -37,7 +39,7 @@ class Isometric {
     const LessonTriple size = minus(high_, low_);
     const double wide = (size[0] + size[1]) * kCosine, tall = size[2] + (size[0] + size[1]) * kSine;
     scale_ = std::min(kDrawing / wide, kDrawing * 0.8 / tall);
-    left_ = (kWidth - wide * scale_) / 2;
+    left_ = kLabelRoom + (kDrawing - wide * scale_) / 2;
     height_ = tall * scale_;
   }
 

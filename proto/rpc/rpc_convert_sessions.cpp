@@ -128,6 +128,9 @@ bool read(const pb::rpc::SceneList& in, SceneList& out) {
       return false;
   }
   if (!std::ranges::is_sorted(out.seats, {}, &SceneSeat::scene)) return false;
+  if (in.duration_s_size() != 0 && in.duration_s_size() != in.scene_size()) return false;
+  out.durations_s.assign(in.duration_s().begin(), in.duration_s().end());
+  if (!std::ranges::all_of(out.durations_s, [](double s) { return s >= 0 && s <= kTimeMax; })) return false;
   return out.scenes.size() <= kScenesMax && std::ranges::all_of(out.scenes, [](const auto& s) { return is_name(s); }) &&
          std::ranges::adjacent_find(out.scenes, std::greater_equal{}) == out.scenes.end();
 }
@@ -139,6 +142,7 @@ void write(const SceneList& in, pb::rpc::SceneList& out) {
     seat.set_name(s.name);
     seat.set_role(static_cast<std::uint32_t>(s.role));
   }
+  for (const double duration : in.durations_s) out.add_duration_s(duration);
   out.set_more(in.more);
 }
 

@@ -330,6 +330,9 @@ struct SceneList {
   bool more = false;
   /// Seats of the scenes in their order, at most kSceneSeatsMax. A scene without any is not known to the sender.
   std::vector<SceneSeat> seats{};
+  /// Session time after which a session of each scene ends by itself, in [0, kTimeMax] [s]. 0: no scheduled end, or the
+  /// sender could not read the scene. One per scene, or none: the sender gives no durations.
+  std::vector<double> durations_s{};
   friend bool operator==(const SceneList&, const SceneList&) = default;
 };
 

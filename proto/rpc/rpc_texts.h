@@ -11,6 +11,10 @@ namespace tandem::rpc {
 
 inline constexpr double kTimeMax = 1e9;  ///< of a session clock [s]
 
+/// The rule of `is_name` in words.
+inline constexpr std::string_view kNameRule = "1 to 32 characters of A-Z a-z 0-9 _ -";
+static_assert(kNameMax == 32);
+
 /// Whether text is a name: 1 to kNameMax of A-Z a-z 0-9 _ -.
 inline bool is_name(std::string_view text) noexcept {
   return !text.empty() && text.size() <= kNameMax && std::ranges::all_of(text, [](char c) {

@@ -10,6 +10,7 @@
 
 #include "common/auth/key_fingerprint.h"
 #include "common/base/sanitize.h"
+#include "proto/rpc/rpc_texts.h"
 #include "server/console/join_body.h"
 #include "server/policy/roles.h"
 
@@ -51,6 +52,12 @@ class Reader {
     fail("\"" + std::string(key) + "\" must be a text of at most " + std::to_string(max) +
          " bytes without control characters");
     return {};
+  }
+  /// A name by the rule of the server.
+  std::string name(const char* key) {
+    std::string value = text(key, rpc::kNameMax);
+    if (!rpc::is_name(value)) fail("\"" + std::string(key) + "\" must be " + std::string(rpc::kNameRule));
+    return value;
   }
   std::vector<double> authority(const char* key) {
     std::vector<double> values;
@@ -122,11 +129,15 @@ class Reader {
       Reader person(row);
       person.only({"name", "role", "seat", "workstation"});
       rpc::SeatHolder holder{
-          .seat = person.text("seat", rpc::kNameMax),
-          .workstation = person.text(row.contains("workstation") ? "workstation" : "name", rpc::kNameMax),
-          .person = person.text("name", rpc::kNameMax)};
+          .seat = person.text("seat", rpc::kNameMax), .workstation = {}, .person = person.name("name")};
+      holder.workstation = row.contains("workstation") ? person.name("workstation") : holder.person;
       const AccessRole role = person.role("role");
-      if (holder.seat.empty()) holder.role = role;
+      if (holder.seat.empty()) {
+        holder.role = role;
+      } else if (person.name("seat");
+                 std::ranges::find(holders, holder.seat, &rpc::SeatHolder::seat) != holders.end()) {
+        person.fail("seat \"" + holder.seat + "\" has two persons; each seat has one");
+      }
       if (!person.error().empty()) fail("in \"" + std::string(key) + "\": " + person.error());
       holders.push_back(std::move(holder));
     }
@@ -175,7 +186,7 @@ rpc::Body order_of(Reader& in, const std::string& order, const rpc::Id& session)
   }
   if (order == "remove") {
     in.only({"type", "id", "order", "seat", "why"});
-    const std::string seat = in.text("seat", rpc::kNameMax);
+    const std::string seat = in.name("seat");
     return rpc::RemoveParticipant{session, seat, in.text("why", rpc::kTextMax)};
   }
   if (order == "drain") {
@@ -184,7 +195,7 @@ rpc::Body order_of(Reader& in, const std::string& order, const rpc::Id& session)
   }
   if (order == "create") {
     in.only({"type", "id", "order", "scene", "name", "people"});
-    rpc::CreateSession create{.name = in.text("name", rpc::kNameMax), .scene = in.text("scene", rpc::kNameMax)};
+    rpc::CreateSession create{.name = in.name("name"), .scene = in.name("scene")};
     create.tickets_only = true;  // a code would let in more than the named persons
     create.holders = in.people("people");
     return create;

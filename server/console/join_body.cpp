@@ -81,7 +81,7 @@ std::expected<JoinBody, std::string> parse_join_body(std::string_view content_ty
   if (parsed.ticket.empty() || parsed.ticket.size() > kTicketTextMax)
     return std::unexpected("\"ticket\" must be the output of `tandem-server ticket`, at most 1024 characters");
   if (!parsed.name.empty() && !rpc::is_name(parsed.name))
-    return std::unexpected("\"name\" must be at most 32 characters of A-Z a-z 0-9 _ -");
+    return std::unexpected("\"name\" must be " + std::string(rpc::kNameRule));
   return parsed;
 }
 

@@ -49,6 +49,14 @@ json seats_of(const rpc::SceneList* list) {
   return seats;
 }
 
+/// Durations by the name of the scene [s], of scenes that end by themselves.
+json durations_of(const rpc::SceneList* list) {
+  json durations = json::object();
+  for (std::size_t i = 0; list != nullptr && i < list->durations_s.size(); ++i)
+    if (list->durations_s[i] > 0) durations[list->scenes[i]] = list->durations_s[i];
+  return durations;
+}
+
 }  // namespace
 
 std::string session_hex(const rpc::Id& session) { return to_hex(session); }
@@ -82,6 +90,7 @@ std::string hello_json(std::string_view person, AccessRole role, std::string_vie
                     {"proved", offers.proved},
                     {"scenes", offers.scenes != nullptr ? json(offers.scenes->scenes) : json::array()},
                     {"scene_seats", seats_of(offers.scenes)},
+                    {"scene_durations_s", durations_of(offers.scenes)},
                     {"workstation", offers.workstation.empty() ? json() : json(offers.workstation)},
                     {"role", upper(to_text(role))},
                     {"may", may_of(role, offers)},

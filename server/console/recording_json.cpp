@@ -46,6 +46,13 @@ json curves_of(const RecordingOutline& outline) {
   return {{"step_s", outline.time(curves.step_ticks())}, {"seats", std::move(seats)}, {"tools", std::move(tools)}};
 }
 
+/// Name of the person at a seat; empty: none is known.
+std::string person_at(const Lesson& head, const std::string& seat) {
+  for (std::size_t i = 0; i < head.scene.seats.size() && i < head.seats.size(); ++i)
+    if (head.scene.seats[i].name == seat) return head.seats[i].person;
+  return {};
+}
+
 }  // namespace
 
 std::string list_json(const RecordingList& list) {
@@ -84,7 +91,11 @@ std::string outline_json(const RecordingOutline& outline, const rpc::Id& id, con
   for (const RecordingGap& gap : outline.gaps())
     gaps.push_back(json::array({outline.time(gap.from), outline.time(gap.to)}));
   for (const LessonEvent& event : outline.events())
-    events.push_back({{"t", outline.time(event.tick)}, {"what", event.what}, {"text", event.text}});
+    events.push_back({{"t", outline.time(event.tick)},
+                      {"what", event.what},
+                      {"seat", event.seat},
+                      {"person", person_at(head, event.seat)},
+                      {"text", event.text}});
   for (const LessonMark& mark : outline.marks())
     marks.push_back({{"t", rounded(mark.t_s, kThousandths)}, {"person", mark.by}, {"text", mark.text}});
   return json_text({{"id", to_hex(id)},

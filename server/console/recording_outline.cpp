@@ -51,6 +51,11 @@ void RecordingCurves::add(const Lesson& lesson, std::size_t row) {
   }
 }
 
+void RecordingCurves::finish(std::uint32_t last) {
+  const std::uint64_t ticks = (last - first_) % step_ + std::uint64_t{1};  // of the last step
+  if (size() > 1 && 10 * ticks < step_) points_.resize((size() - 1) * width_);
+}
+
 /// Doubles the distance of points. Forces are the larger of two, other values those of the first of two.
 void RecordingCurves::halve() {
   const std::size_t before = size(), forces = seats_ + tools_;
@@ -102,6 +107,7 @@ void RecordingOutline::keep_longest_gaps() {
 void RecordingOutline::finish(bool complete) {
   keep_longest_gaps();
   std::ranges::stable_sort(marks_, {}, &LessonMark::t_s);
+  curves_.finish(last_);
   complete_ = complete;
 }
 

@@ -27,6 +27,10 @@ class RecordingCurves {
   explicit RecordingCurves(const SceneSpec& scene);
   /// Adds row `row` of a lesson of this scene. @pre rows come in the order of their ticks
   void add(const Lesson& lesson, std::size_t row);
+  /// Ends the curves. A last step of which the file has less than a tenth gives no point: the tick with which a session
+  /// ends has no authority, and is no value of that step.
+  /// @param last  tick of the last row
+  void finish(std::uint32_t last);
 
   [[nodiscard]] std::uint32_t step_ticks() const noexcept { return step_; }
   [[nodiscard]] std::size_t size() const noexcept { return points_.size() / (width_ == 0 ? 1 : width_); }

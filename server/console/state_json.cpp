@@ -192,6 +192,7 @@ void add_scene(const SceneSpec& scene, json& message) {
   message["tick_hz"] = scene.tick_hz;
   message["dof"] = scene.dof;
   message["law"] = law_text(scene.channel.law);
+  message["duration_s"] = number(scene.duration);
   for (const SeatSpec& seat : scene.seats)
     message["seats"].push_back({{"name", seat.name},
                                 {"kind", seat.kind == SeatKind::kMaster ? "MASTER" : "SLAVE"},
@@ -209,7 +210,7 @@ void add_scene(const SceneSpec& scene, json& message) {
 }
 
 void add_names(const rpc::Status& status, json& message) {
-  for (const char* key : {"tick_hz", "dof", "law"}) message[key] = nullptr;
+  for (const char* key : {"tick_hz", "dof", "law", "duration_s"}) message[key] = nullptr;
   for (const rpc::StatusSeat& seat : status.seats)
     message["seats"].push_back({{"name", seat.name},
                                 {"kind", seat.master ? "MASTER" : "SLAVE"},

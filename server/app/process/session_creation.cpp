@@ -35,12 +35,17 @@ std::expected<SceneSpec, InputErrors> named_scene(const std::string& name, const
   return std::unexpected(InputErrors{{name, 0, 0, "", "", "is no scene of this server; " + suggest(name, names)}});
 }
 
-/// Adds the seats of the scenes, as long as those of a whole scene fit. A scene with mistakes has none.
-void list_seats(const std::string& folder, rpc::SceneList& list) {
+/// Adds the durations of the scenes, and their seats as long as those of a whole scene fit. A scene with mistakes has
+/// neither.
+void describe_scenes(const std::string& folder, rpc::SceneList& list) {
+  list.durations_s.assign(list.scenes.size(), 0);
+  bool fits = true;
   for (std::size_t i = 0; i < list.scenes.size(); ++i) {
     const auto scene = named_scene(list.scenes[i], folder);
     if (!scene) continue;
-    if (list.seats.size() + scene->seats.size() > rpc::kSceneSeatsMax) return;
+    if (!scene->endless()) list.durations_s[i] = scene->duration;
+    fits = fits && list.seats.size() + scene->seats.size() <= rpc::kSceneSeatsMax;
+    if (!fits) continue;
     for (const SeatSpec& seat : scene->seats)
       list.seats.push_back({static_cast<std::uint32_t>(i), seat.name, access_role(seat.role)});
   }
@@ -111,7 +116,7 @@ rpc::SceneList list_scenes(const std::string& scenes) {
     }
     list.scenes.push_back(name);
   }
-  list_seats(scenes, list);
+  describe_scenes(scenes, list);
   return list;
 }
 

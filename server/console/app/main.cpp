@@ -61,22 +61,24 @@ void print_url(const std::string& url, const std::string& token) {
 }
 
 /// Joins for the gateway itself, and for its audience.
-std::expected<GatewayLinks, std::string> join_links(const Arguments& arguments, client::JoinOptions options,
-                                                    const std::string& audience_ticket) {
+std::expected<GatewayLinks, client::JoinError> join_links(const Arguments& arguments, client::JoinOptions options,
+                                                          const std::string& audience_ticket) {
   GatewayLinks links;
   if (!arguments.sign_in) {
     auto own = join_link(options, true);
-    if (!own) return std::unexpected(own.error().reason);
+    if (!own) return std::unexpected(own.error());
     links.own = std::move(*own);
   }
   if (arguments.audience > 0) {
     options.ticket = audience_ticket;
     options.console = AccessRole::kObserver;
     auto audience = join_link(options, arguments.sign_in);
-    if (!audience) return std::unexpected("--audience: " + audience.error().reason);
+    if (!audience)
+      return std::unexpected(client::JoinError{audience.error().interrupted, "--audience: " + audience.error().reason});
     if (const AccessRole role = audience->console.welcome.role; role != AccessRole::kObserver)
-      return std::unexpected("--audience-ticket: the ticket has the role " + std::string(to_text(role)) +
-                             "; the audience may only watch, so make one with `tandem-server ticket --role observer`");
+      return std::unexpected(client::JoinError{
+          false, "--audience-ticket: the ticket has the role " + std::string(to_text(role)) +
+                     "; the audience may only watch, so make one with `tandem-server ticket --role observer`"});
     links.audience = std::move(*audience);
   }
   return links;
@@ -119,7 +121,10 @@ int run(const Arguments& arguments) {
     seat = yours.name;
   }
   auto links = join_links(arguments, options, audience_ticket);
-  if (!links) return complain(links.error());
+  if (!links) {
+    const int trouble = complain(links.error().reason);
+    return links.error().interrupted ? io::kExitDone : trouble;
+  }
   const WebOptions web{.listen = page.listen,
                        .tls = std::move(page.tls),
                        .signals = signals.get(),

@@ -2,11 +2,14 @@
 #include "client/app/server_connection.h"
 
 #include <gtest/gtest.h>
+#include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 
 #include "common/io/clock.h"
+#include "common/io/signals.h"
 
 namespace tandem::client {
 namespace {
@@ -35,6 +38,22 @@ TEST_F(ServerConnectionTest, RetriesUntilTheTimeoutWhileNothingListens) {
             "no server at 127.0.0.1:1: nothing listens there (tried for 0.25 s). Start a server in another terminal "
             "first: `tandem-server run free_motion --listen 127.0.0.1:1`, and use the address it prints as `listening "
             "on`");
+}
+
+TEST_F(ServerConnectionTest, NamesTheSignalAndWhatWasMissingWhenItEnded) {
+  const io::Fd signals = io::make_signalfd();
+  options.signals = signals.get();
+  ::kill(::getpid(), SIGTERM);
+  const auto console = ServerConnection{options}.connect();
+  options.seat = "trainee";
+  const auto seat = ServerConnection{options}.connect();
+  signalfd_siginfo taken{};
+  ASSERT_EQ(::read(signals.get(), &taken, sizeof taken), static_cast<ssize_t>(sizeof taken));
+  ASSERT_FALSE(console);
+  EXPECT_TRUE(console.error().interrupted);
+  EXPECT_EQ(console.error().reason, "ended by SIGTERM before the server answered") << "a console has no seat";
+  ASSERT_FALSE(seat);
+  EXPECT_EQ(seat.error().reason, "ended by SIGTERM before it had a seat");
 }
 
 TEST_F(ServerConnectionTest, TriesOnceToReturnToTheServerOfASeat) {

@@ -172,6 +172,25 @@ TEST(PathPicture, PutsXToTheLowerRightYToTheUpperRightAndZUp) {
   EXPECT_LT(zy, 0);
 }
 
+TEST(PathPicture, HasRoomForTheLabelsOfTheEdges) {
+  constexpr double kCharacter = 7;  // [px] width of a character of the labels (11 px), at most
+  for (const LessonTriple& size : {LessonTriple{0, 0, 0}, {0.3, 0.3, 0.01}, {0.01, 0.01, 0.4}, {0.01, 0.5, 5}}) {
+    const std::string svg = isometric_picture({{"series0", "p", {{0, 0, 0}, size}}}, "d");
+    std::size_t labels = 0;
+    for (std::size_t at = svg.find("<text class=\"tick"); at != std::string::npos;
+         at = svg.find("<text class=\"tick", at + 1)) {
+      const std::size_t begin = svg.find('>', at) + 1;
+      const double length = kCharacter * static_cast<double>(svg.find('<', begin) - begin);
+      const double x = std::atof(svg.c_str() + svg.find("x=\"", at) + 3);
+      const bool ends = svg.compare(at, 21, "<text class=\"tick end") == 0;
+      EXPECT_GE(ends ? x - length : x, 0) << svg.substr(begin, 20);
+      EXPECT_LE(ends ? x : x + length, 640) << svg.substr(begin, 20);
+      ++labels;
+    }
+    EXPECT_EQ(labels, 3U);
+  }
+}
+
 TEST(PathPicture, SurvivesEmptyAndBrokenPaths) {
   EXPECT_NE(isometric_picture({}, "d").find("</svg>"), std::string::npos);
   EXPECT_EQ(isometric_picture({{"series0", "p", {kUnknownTriple, kUnknownTriple}}}, "d").find("nan"),

@@ -314,6 +314,8 @@ inline Frame frame(RandomStream& r, Kind kind) {
       for (std::uint64_t k = r.below(50), i = 0; i < k; ++i) m.scenes.push_back("s" + std::to_string(100 + i));
       for (std::uint32_t i = 0; i < m.scenes.size(); ++i)
         for (std::uint64_t k = r.below(4); k > 0; --k) m.seats.push_back({i, name(r), role(r)});
+      if (r.below(2) == 0)
+        for (std::size_t i = 0; i < m.scenes.size(); ++i) m.durations_s.push_back(static_cast<double>(r.below(1000)));
       break;
     }
     case Kind::kNotesRequest: {

@@ -1,11 +1,13 @@
 // Bounds of the messages that create, end and assess sessions, in both directions.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "proto/rpc/rpc_codec.h"
+#include "proto/rpc/rpc_texts.h"
 
 namespace tandem::rpc {
 namespace {
@@ -84,6 +86,13 @@ TEST(SessionMessages, ListScenesInOrderOnce) {
     wrong.seats.push_back(bad);
     EXPECT_FALSE(encodes(wrong)) << bad.scene << " " << bad.name;
   }
+  for (const std::vector<double>& bad : {std::vector<double>{1}, {1, 2, 3}, {1, -1}, {1, NAN}, {1, 2e9}}) {
+    SceneList wrong = list;
+    wrong.durations_s = bad;
+    EXPECT_FALSE(encodes(wrong)) << bad.size();
+  }
+  list.durations_s = {0, kTimeMax};
+  EXPECT_TRUE(encodes(list)) << "one duration per scene; 0: no scheduled end";
   list.seats.assign(kSceneSeatsMax, {1, std::string(kNameMax, 'x'), AccessRole::kTrainee});
   EXPECT_TRUE(encodes(list));
   list.seats.push_back(list.seats.front());

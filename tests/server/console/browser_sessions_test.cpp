@@ -137,7 +137,7 @@ TEST(JoinBody, MayHaveANameOfTheProtocol) {
   for (const std::string& name : {std::string("Ann+Lee"), std::string("J%C3%BCrgen"), std::string(33, 'x')}) {
     const auto body = parse_join_body(kForm, "ticket=a&name=" + name);
     ASSERT_FALSE(body) << name;
-    EXPECT_EQ(body.error(), "\"name\" must be at most 32 characters of A-Z a-z 0-9 _ -");
+    EXPECT_EQ(body.error(), "\"name\" must be 1 to 32 characters of A-Z a-z 0-9 _ -");
   }
 }
 

@@ -2,10 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include "proto/rpc/rpc_messages.h"
+#include "proto/rpc/rpc_texts.h"
 #include "server/console/acknowledgement_window.h"
 #include "server/console/browser_frame.h"
 #include "server/console/one_time_token.h"
@@ -143,6 +147,25 @@ TEST(AcknowledgementWindow, SendsThreeAndDropsUntilOneIsAcknowledged) {
   EXPECT_EQ(window.next(), 4U);
   EXPECT_EQ(window.next(), 5U);
   EXPECT_EQ(window.next(), 0U);
+}
+
+/// The page checks names before it sends them.
+TEST(Names, HaveOneRuleInServerAndPage) {
+  std::ifstream file(TANDEM_PAGE_NAMES);
+  const std::string source{std::istreambuf_iterator<char>(file), {}};
+  const std::regex line(R"(kNamePattern = '\[(.*)\]\{1,(\d+)\}';)");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(source, found, line)) << TANDEM_PAGE_NAMES;
+  const std::regex page("[" + std::regex_replace(found[1].str(), std::regex(R"(\\\\)"), "\\") + "]{1," +
+                        found[2].str() + "}");
+  for (int c = 1; c < 128; ++c) {
+    const std::string text(1, static_cast<char>(c));
+    EXPECT_EQ(std::regex_match(text, page), rpc::is_name(text)) << c;
+  }
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, rpc::kNameMax, rpc::kNameMax + 1}) {
+    const std::string text(size, 'x');
+    EXPECT_EQ(std::regex_match(text, page), rpc::is_name(text)) << size;
+  }
 }
 
 }  // namespace

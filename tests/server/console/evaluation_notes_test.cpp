@@ -162,6 +162,21 @@ TEST(DeskFrames, CreateAndEndSessionsForOperatorsOnly) {
   EXPECT_FALSE(parse(R"({"type":"order","id":1,"order":"create","scene":"c","name":"n",
       "people":[{"name":"eva","role":"JUDGE","seat":""}]})",
                      AccessRole::kOperator));
+  const auto refusal = [&parse](const std::string& name, const std::string& people) {
+    const std::string text =
+        R"({"type":"order","id":1,"order":"create","scene":"c","name":")" + name + R"(","people":[)" + people + "]}";
+    const auto parsed = parse(text.c_str(), AccessRole::kOperator);
+    return parsed ? std::string{} : parsed.error().text;
+  };
+  const std::string eva = R"({"name":"eva","role":"TRAINEE","seat":"a"})";
+  EXPECT_EQ(refusal("n", eva), "");
+  EXPECT_EQ(refusal("my exam", eva), "\"name\" must be 1 to 32 characters of A-Z a-z 0-9 _ -");
+  for (const char* person :
+       {R"({"name":"e v a","role":"TRAINEE","seat":""})", R"({"name":"","role":"TRAINEE","seat":""})",
+        R"({"name":"eva","role":"TRAINEE","seat":"","workstation":"desk.1"})",
+        R"({"name":"eva","role":"TRAINEE","seat":"a b"})"})
+    EXPECT_NE(refusal("n", person).find("must be 1 to 32 characters of A-Z a-z 0-9 _ -"), std::string::npos) << person;
+  EXPECT_EQ(refusal("n", eva + "," + eva), "in \"people\": seat \"a\" has two persons; each seat has one");
   const char* const end = R"({"type":"order","id":1,"order":"end","session":"000102030405060708090a0b0c0d0e0f"})";
   const auto ended = parse(end, AccessRole::kOperator);
   ASSERT_TRUE(ended);

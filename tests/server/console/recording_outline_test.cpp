@@ -108,6 +108,24 @@ TEST(RecordingCurves, HaveNoPointInAGap) {
   EXPECT_FLOAT_EQ(curves.tool_x(4, 0, 0), 0.4f);
 }
 
+TEST(RecordingCurves, EndWithTheLastWholeStep) {
+  std::vector<std::uint32_t> ticks;
+  for (std::uint32_t tick = 0; tick <= 200; ++tick) ticks.push_back(tick);
+  const auto points = [&ticks](std::size_t kept) {
+    Lesson part = rows({ticks.begin(), ticks.begin() + static_cast<std::ptrdiff_t>(kept)});
+    part.tools[0].alpha.back() = {};  // the tick with which a session ends
+    RecordingOutline outline(head());
+    EXPECT_TRUE(outline.add(part));
+    outline.finish(true);
+    EXPECT_FLOAT_EQ(outline.curves().alpha(outline.curves().size() - 1, 0, 1), kept == 1 ? 0.0f : 0.75f) << kept;
+    return outline.curves().size();
+  };
+  EXPECT_EQ(points(201), 2u) << "one tick of the third step gives no point";
+  EXPECT_EQ(points(109), 1u);
+  EXPECT_EQ(points(110), 2u) << "a tenth of the step gives one";
+  EXPECT_EQ(points(1), 1u) << "the only point stays";
+}
+
 TEST(RecordingCurves, DoubleTheirStepInsteadOfGrowing) {
   RecordingOutline outline(head());
   std::vector<std::uint32_t> ticks;
@@ -125,9 +143,10 @@ TEST(RecordingCurves, DoubleTheirStepInsteadOfGrowing) {
 TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
   Lesson start = head();
   start.session = "lab \xff";
+  start.seats[0].person = "ina";
   RecordingOutline outline(start);
   Lesson part = rows({0, 350});
-  part.events = {{350, 0, "stop", "trainer", "stop \x01 of trainer"}};
+  part.events = {{350, 0, "stop", "trainer", "stop \x01 of trainer"}, {350, 0, "authority", "", "timeline tick 350"}};
   part.marks = {{0.2, "eva", "now"}};
   EXPECT_TRUE(outline.add(part));
   outline.finish(false);
@@ -140,6 +159,10 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
   EXPECT_EQ(message["complete"], false);
   EXPECT_TRUE(message["start_s"].is_null());
   EXPECT_EQ(message["events"][0]["t"], 0.35);
+  EXPECT_EQ(message["events"][0]["seat"], "trainer");
+  EXPECT_EQ(message["events"][0]["person"], "ina");
+  EXPECT_EQ(message["events"][1]["seat"], "") << "no seat gave this event";
+  EXPECT_EQ(message["events"][1]["person"], "");
   EXPECT_EQ(message["marks"][0]["person"], "eva");
   const json& curve = message["curves"]["seats"][0]["force"];
   EXPECT_EQ(curve[0], 5);

@@ -209,6 +209,12 @@ TEST(SceneJson, HasSeatsToolsAndSurfaces) {
   EXPECT_EQ(scene["session"], "ab000000000000000000000000000000");
   EXPECT_EQ(scene["tick_hz"], 1000);
   EXPECT_EQ(scene["law"], "REPLICA");
+  EXPECT_TRUE(scene["duration_s"].is_null()) << "no scheduled end";
+  LivePicture ends = live_picture();
+  auto spec = *ends.scene;
+  spec.duration = 20;
+  ends.scene = std::make_shared<const SceneSpec>(spec);
+  EXPECT_EQ(json::parse(scene_json(ends))["duration_s"], 20);
   EXPECT_EQ(scene["seats"][0]["role"], "INSTRUCTOR");
   EXPECT_EQ(scene["seats"][1]["required"], false);
   EXPECT_EQ(scene["tools"][0]["mass_kg"], 0.25);
@@ -227,14 +233,17 @@ TEST(LiveJson, HelloHasTheRightsOfTheRole) {
   EXPECT_EQ(hello["proved"], false);
   EXPECT_EQ(hello["scenes"], json::array());
   EXPECT_EQ(hello["scene_seats"], json::object());
+  EXPECT_EQ(hello["scene_durations_s"], json::object());
   EXPECT_TRUE(hello["workstation"].is_null());
   const rpc::SceneList scenes{.scenes = {"contact", "lesson"},
-                              .seats = {{0, "trainer", AccessRole::kInstructor}, {0, "trainee", AccessRole::kTrainee}}};
+                              .seats = {{0, "trainer", AccessRole::kInstructor}, {0, "trainee", AccessRole::kTrainee}},
+                              .durations_s = {60, 0}};
   const json desk = json::parse(hello_json("ann", AccessRole::kOperator, "1", listed,
                                            {.proved = true, .scenes = &scenes, .workstation = "local"}));
   EXPECT_EQ(
       desk["scene_seats"],
       json({{"contact", {{{"name", "trainer"}, {"role", "INSTRUCTOR"}}, {{"name", "trainee"}, {"role", "TRAINEE"}}}}}));
+  EXPECT_EQ(desk["scene_durations_s"], json({{"contact", 60}})) << "lesson has no scheduled end";
   EXPECT_EQ(desk["workstation"], "local");
   EXPECT_EQ(desk["proved"], true);
   EXPECT_EQ(desk["scenes"], json({"contact", "lesson"}));

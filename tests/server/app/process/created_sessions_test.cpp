@@ -1,4 +1,5 @@
 // Sessions that an operator creates and ends at run time, with their shards and a control server but without clients.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -61,6 +62,13 @@ TEST(SceneList, HasTheSeatsOfWholeScenesAsLongAsTheyFit) {
   EXPECT_EQ(list.seats.front().role, AccessRole::kTrainee);
   EXPECT_EQ(list.seats.back().scene, 64U);
   EXPECT_EQ(list.scenes.size(), 71U + shipped_scenes().size());
+  ASSERT_EQ(list.durations_s.size(), list.scenes.size());
+  EXPECT_EQ(list.durations_s.front(), 0) << "a file with mistakes has no duration";
+  const auto duration_of = [&](std::string_view name) {
+    return list.durations_s[static_cast<std::size_t>(std::ranges::find(list.scenes, name) - list.scenes.begin())];
+  };
+  EXPECT_EQ(duration_of("contact"), 20) << "also beyond the seats that fit";
+  EXPECT_EQ(duration_of("lesson"), 0) << "no scheduled end";
   std::filesystem::remove_all(folder);
 }
 

@@ -51,6 +51,10 @@ export class ConsolePage implements Page {
     this.host = new PictureHost(model, this.settings.marks);
     connection.onChange = () => this.onChange();
     this.dark.addEventListener('change', () => this.paint());
+    // Tickets come once: the browser asks before it leaves a page whose cards are still shown.
+    window.addEventListener('beforeunload', (event) => {
+      if (model.given.open) event.preventDefault();
+    });
     document.addEventListener('keydown', (event) => this.onKey(event));
     this.build();
     requestAnimationFrame((now) => this.onFrame(now));

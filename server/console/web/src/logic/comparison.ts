@@ -73,10 +73,16 @@ export function differenceCurve(a: Outline, b: Outline, tool: number, offset: nu
   return times(a.from_s, a.curves).map((t) => distance(placeAt(a, tool, t), placeAt(b, tool, t + offset)));
 }
 
+const pointsOf = (curves: Curves): number => curves.seats[0]?.length ?? curves.tools[0]?.force.length ?? 0;
+
 /** Returns the session time of each point of the curves [s]. */
 export function times(from_s: number, curves: Curves): number[] {
-  const n = curves.seats[0]?.length ?? curves.tools[0]?.force.length ?? 0;
-  return Array.from({ length: n }, (_, i) => from_s + i * curves.step_s);
+  return Array.from({ length: pointsOf(curves) }, (_, i) => from_s + i * curves.step_s);
+}
+
+/** Returns the point of the curves whose step has a session time. The values of the last one hold until the end. */
+export function pointAt({ from_s, curves }: Outline, t: number): number {
+  return Math.min(Math.max(0, pointsOf(curves) - 1), Math.max(0, Math.floor((t - from_s) / curves.step_s + 1e-6)));
 }
 
 /** Returns what an overlay shows of two moments: a side without data shows nothing, and both wait for each other. */

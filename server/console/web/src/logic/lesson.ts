@@ -1,7 +1,7 @@
 import { kSeatsMax, type SeatOffer, type Ticket } from '../protocol/messages';
+import { isName } from '../protocol/names';
 
-/** Names of sessions, persons and seats: the rule of the server. */
-const kName = /^[A-Za-z0-9_-]{1,32}$/;
+export const kPeopleMax = 2 * kSeatsMax;
 export const kRoles = ['INSTRUCTOR', 'TRAINEE', 'EVALUATOR', 'OBSERVER', 'RECORDER'] as const;
 
 export interface LessonPerson {
@@ -23,26 +23,29 @@ export interface LessonMistake {
   /** Field of the lesson, or of person number `index`. */
   field: 'scene' | 'name' | 'person' | 'seat' | 'workstation' | 'people';
   index: number | null;
-}
-
-export function isName(text: string): boolean {
-  return kName.test(text);
+  /** `name`: the text is none; `twice`: another person before has it; `many`: the session has too many people. */
+  why: 'name' | 'twice' | 'many';
 }
 
 /** Returns all mistakes of a lesson before it is sent; the server checks again. */
 export function lessonMistakes(lesson: Lesson): LessonMistake[] {
   const mistakes: LessonMistake[] = [];
-  if (!isName(lesson.scene)) mistakes.push({ field: 'scene', index: null });
-  if (!isName(lesson.name)) mistakes.push({ field: 'name', index: null });
-  if (lesson.people.length > 2 * kSeatsMax) mistakes.push({ field: 'people', index: null });
+  const add = (field: LessonMistake['field'], index: number | null, why: LessonMistake['why']): void => {
+    mistakes.push({ field, index, why });
+  };
+  if (!isName(lesson.scene)) add('scene', null, 'name');
+  if (!isName(lesson.name)) add('name', null, 'name');
+  if (lesson.people.length > kPeopleMax) add('people', null, 'many');
   const names = new Set<string>();
   const seats = new Set<string>();
-  lesson.people.forEach((person, index) => {
-    if (!isName(person.name) || names.has(person.name)) mistakes.push({ field: 'person', index });
-    if (person.seat !== '' && (!isName(person.seat) || seats.has(person.seat))) mistakes.push({ field: 'seat', index });
-    if (person.workstation !== undefined && !isName(person.workstation)) mistakes.push({ field: 'workstation', index });
-    names.add(person.name);
-    if (person.seat !== '') seats.add(person.seat);
+  lesson.people.forEach(({ name, seat, workstation }, index) => {
+    if (!isName(name)) add('person', index, 'name');
+    else if (names.has(name)) add('person', index, 'twice');
+    if (seat !== '' && !isName(seat)) add('seat', index, 'name');
+    else if (seats.has(seat)) add('seat', index, 'twice');
+    if (workstation !== undefined && !isName(workstation)) add('workstation', index, 'name');
+    names.add(name);
+    if (seat !== '') seats.add(seat);
   });
   return mistakes;
 }

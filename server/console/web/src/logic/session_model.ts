@@ -9,10 +9,10 @@ import type {
   Scene,
   SessionEvent,
   State,
-  Tickets,
 } from '../protocol/messages';
 import { Acknowledgements } from './acknowledgements';
 import { AlarmLog } from './alarms';
+import { GivenTickets } from './given_tickets';
 import { SeatHistory } from './history';
 import { Ring } from './ring';
 import { StateWindow } from './state_window';
@@ -29,19 +29,26 @@ export class SessionModel {
   scene: Scene | null = null;
   notes: Notes | null = null;
   ownSeat: OwnSeat | null = null;
-  tickets: Tickets | null = null;
   scores: LiveScores | null = null;
   readonly states = new StateWindow();
   readonly acknowledgements = new Acknowledgements();
   readonly alarms = new AlarmLog();
   readonly history = new SeatHistory();
+  readonly given = new GivenTickets();
   readonly events = new Ring<SessionEvent>(kEventsKept);
   readonly notices = new Ring<Notice>(kNoticesKept);
-  /** Increases when hello, scene, notes or tickets change: panels build their controls again. */
+  /** Increases when hello, scene or notes change: panels build their controls again. */
   revision = 0;
 
   get state(): State | null {
     return this.states.newest;
+  }
+
+  /** Session time until the session ends by itself [s]; null: it does not, it is over, or that is not known. */
+  get left(): number | null {
+    const duration = this.scene?.duration_s ?? null;
+    const { state } = this;
+    return duration === null || !state || state.phase === 'OVER' ? null : Math.max(0, duration - state.t);
   }
 
   may(right: Right): boolean {
@@ -58,6 +65,7 @@ export class SessionModel {
     switch (message.type) {
       case 'hello':
         this.hello = message;
+        this.given.update(message.sessions);
         this.revision += 1;
         break;
       case 'scene':
@@ -89,8 +97,8 @@ export class SessionModel {
         this.revision += 1;
         break;
       case 'tickets':
-        this.tickets = message;
-        this.revision += 1;
+        this.given.add(message);
+        this.given.update(this.hello?.sessions ?? []);
         break;
       case 'scores':
         this.scores = message;
@@ -110,7 +118,8 @@ export class SessionModel {
   disconnected(link: 'lost' | 'refused', detail: string): void {
     this.link = link;
     this.ownSeat = null;
-    this.alarms.connection(true, this.state?.t ?? null, detail);
+    // A gateway that asks for a ticket answers: nothing is lost.
+    if (link === 'lost') this.alarms.connection(true, this.state?.t ?? null, detail);
   }
 
   /** The gateway has no session and plays recordings only. */

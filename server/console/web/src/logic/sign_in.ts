@@ -3,6 +3,5 @@
  * (server/console/app/sign_in_page.h), and a test compares both.
  */
 export const kTicketLength = 1024;
-export const kNameLength = 32;
 /** A name is for display; it may be empty. */
 export const kOptionalNamePattern = '[A-Za-z0-9_\\-]*';

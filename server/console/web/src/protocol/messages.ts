@@ -43,6 +43,8 @@ export interface Hello {
   scenes: readonly string[];
   /** Seats of those scenes that the server could read, by the name of the scene. */
   sceneSeats: ReadonlyMap<string, readonly SeatOffer[]>;
+  /** Session time after which a session of a scene ends by itself [s], of scenes that do. */
+  sceneDurations: ReadonlyMap<string, number>;
   /** Name of the gateway's workstation; null: only the server knows it. */
   workstation: string | null;
   /** Seat that the page takes at once; null: none. */
@@ -86,6 +88,8 @@ export interface Scene {
   tick_hz: number | null;
   dof: number | null;
   law: string | null;
+  /** Session time after which the session ends by itself [s]; null: it does not, or that is not known. */
+  duration_s: number | null;
   seats: readonly SceneSeat[];
   tools: readonly SceneTool[];
 }

@@ -181,6 +181,15 @@ function sceneSeats(value: unknown): Map<string, SeatOffer[]> {
   );
 }
 
+function sceneDurations(value: unknown): Map<string, number> {
+  const found = new Map<string, number>();
+  for (const [scene, entry] of Object.entries(object(value)).slice(0, kListMax)) {
+    const duration = number(entry);
+    if (duration !== null && duration > 0) found.set(text(scene), duration);
+  }
+  return found;
+}
+
 const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
   state,
   hello: (from) => ({
@@ -195,6 +204,7 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
       .map((session) => ({ id: text(session.id), name: text(session.name), state: text(session.state) })),
     scenes: texts(from.scenes),
     sceneSeats: sceneSeats(from.scene_seats),
+    sceneDurations: sceneDurations(from.scene_durations_s),
     workstation: textOrNull(from.workstation),
     play: textOrNull(from.play),
   }),
@@ -205,6 +215,7 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
     tick_hz: number(from.tick_hz),
     dof: number(from.dof),
     law: textOrNull(from.law),
+    duration_s: number(from.duration_s),
     seats: list(from.seats, kSeatsMax).map(sceneSeat),
     tools: list(from.tools, kToolsMax).map(sceneTool),
   }),

@@ -40,6 +40,10 @@ export interface Note {
   kind: 'mark' | 'event';
   /** Session time [s]. */
   t: number;
+  /** Word of the audit log; empty: a mark. */
+  what: string;
+  /** Seat of the event; empty: none. */
+  seat: string;
   text: string;
   person: string;
 }
@@ -106,7 +110,9 @@ function notes(value: unknown, kind: Note['kind']): Note[] {
     .map(object)
     .flatMap((row) => {
       const t = number(row.t);
-      return t === null ? [] : [{ kind, t, text: text(row.text) || text(row.what), person: text(row.person) }];
+      return t === null
+        ? []
+        : [{ kind, t, what: text(row.what), seat: text(row.seat), text: text(row.text), person: text(row.person) }];
     });
 }
 

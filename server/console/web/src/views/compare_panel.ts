@@ -3,6 +3,7 @@ import { clock, fixed } from '../logic/format';
 import type { ListedRecording, Note, Outline } from '../protocol/recordings';
 import { t } from '../strings/strings';
 import { el, fillSelect, labelled, panel, select } from './dom';
+import { noteText } from './note_text';
 import { PlayerChart } from './player_chart';
 
 export type Layout = 'side' | 'overlay';
@@ -15,7 +16,7 @@ function anchorTime(outline: Outline, anchor: string): number {
 }
 
 function anchorsOf(outline: Outline): (readonly [string, string])[] {
-  const words = ({ t: time, text }: Note): string => `${clock(time)} ${text}`;
+  const words = (note: Note): string => `${clock(note.t)} ${noteText(note)}`;
   return [
     ['start', t('compare.start')] as const,
     ...outline.notes.slice(0, kOffered).map((note, i) => [String(i), words(note)] as const),
@@ -104,7 +105,8 @@ export class ComparePanel {
     if (a && b) {
       this.curve = differenceCurve(a, b, 0, this.offset);
       const millimetres = this.curve.map((d) => (d === null ? null : d * 1000));
-      this.chart.setData(times(a.from_s, a.curves), [{ label: 'mm', colour: '#d55e00', values: millimetres }]);
+      const series = { label: 'mm', colour: '#d55e00', values: millimetres };
+      this.chart.setData(times(a.from_s, a.curves), [series], a.to_s);
     }
     this.onChange();
   }

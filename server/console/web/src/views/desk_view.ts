@@ -1,36 +1,34 @@
 import type { Page, View } from '../app/page';
-import { lessonMistakes, type Lesson } from '../logic/lesson';
-import type { Tickets } from '../protocol/messages';
+import { clock } from '../logic/format';
+import { kPeopleMax, lessonMistakes, type Lesson, type LessonMistake } from '../logic/lesson';
+import { kNameMax } from '../protocol/names';
 import { t, word } from '../strings/strings';
-import { button, confirmOrder, el, labelled, panel, setDisabled, setText } from './dom';
+import { button, el, labelled, nameField, panel, setAttribute, setDisabled, setText } from './dom';
+import { GivenPanels } from './given_panels';
 import { PersonRows } from './person_rows';
-import { ticketCards } from './ticket_cards';
+import { endSession } from './session_end';
 
-const kNamePattern = '[A-Za-z0-9_\\-]{1,32}';
-
-/** The lesson desk: creates a session with its people and shows a page with ticket and steps per person. */
+/** The lesson desk: creates sessions with their people, ends them, and shows a card with ticket and steps per person. */
 export class DeskView implements View {
   readonly node: HTMLElement;
-  private readonly scene = el('input', {
-    type: 'text',
-    maxlength: 32,
-    list: 'scenes',
-    pattern: kNamePattern,
-    required: true,
-    oninput: () => this.offerSeats(),
-  });
+  private readonly rule = el('p', { class: 'note', id: 'name-rule' }, t('desk.name_rule', { max: kNameMax }));
+  private readonly scene = nameField(this.rule, { list: 'scenes', required: true, oninput: () => this.onScene() });
   private readonly scenes = el('datalist', { id: 'scenes' });
-  private readonly name = el('input', { type: 'text', maxlength: 32, pattern: kNamePattern, required: true });
-  private readonly people = new PersonRows(2);
+  private readonly duration = el('p', { class: 'note', id: 'scene-end', role: 'status' });
+  private readonly name = nameField(this.rule, { required: true });
+  private readonly people = new PersonRows(2, this.rule);
+  private readonly problem = el('p', { class: 'problem', id: 'desk-problem' });
   private readonly fields = el('fieldset', { class: 'plain' });
   private readonly denied = el('p', { class: 'note', id: 'desk-denied', role: 'status' });
+  private readonly shownSession = el('p', { id: 'shown-session' });
   private readonly end: HTMLButtonElement;
-  private readonly tickets = el('div', { class: 'tickets' });
-  private known: Tickets | null = null;
+  private readonly given: GivenPanels;
+  private invalid: HTMLInputElement | undefined;
   private revision = -1;
 
   constructor(private readonly page: Page) {
-    this.end = button(t('desk.end'), () => void this.endSession(), { class: 'danger' });
+    this.given = new GivenPanels(page);
+    this.end = button('', () => void this.endShown(), { class: 'danger' });
     this.fields.setAttribute('aria-describedby', this.denied.id);
     this.fields.append(
       el(
@@ -40,9 +38,12 @@ export class DeskView implements View {
         this.scenes,
         labelled(t('desk.name'), this.name),
       ),
+      this.duration,
+      this.rule,
       el('h3', {}, t('desk.people')),
       el('p', { class: 'note' }, t('desk.proposed')),
       this.people.node,
+      this.problem,
       el(
         'div',
         { class: 'row' },
@@ -53,6 +54,7 @@ export class DeskView implements View {
     const form = el(
       'form',
       {
+        novalidate: true, // the page says the rule in words of its own
         onsubmit: (event) => {
           event.preventDefault();
           this.send();
@@ -63,15 +65,9 @@ export class DeskView implements View {
     this.node = el(
       'div',
       { class: 'view desk-view' },
-      panel(
-        t('desk.title'),
-        'desk-panel',
-        this.denied,
-        form,
-        el('p', { class: 'note' }, t('desk.begins')),
-        el('div', { class: 'row' }, this.end),
-      ),
-      this.tickets,
+      panel(t('desk.title'), 'desk-panel', this.denied, form, el('p', { class: 'note' }, t('desk.begins'))),
+      panel(t('desk.shown_title'), 'shown-panel', this.shownSession, el('div', { class: 'row' }, this.end)),
+      this.given.node,
     );
   }
 
@@ -79,19 +75,38 @@ export class DeskView implements View {
     const { model } = this.page;
     const may = model.may('create');
     if (this.fields.disabled === may) this.fields.disabled = !may;
-    setDisabled(this.end, !may || !this.session());
     setText(this.denied, this.reason());
     this.denied.hidden = may;
+    this.updateShown(may);
     if (model.revision !== this.revision) {
       this.revision = model.revision;
-      this.scenes.replaceChildren(...(model.hello?.scenes ?? []).map((value) => el('option', { value })));
+      this.scenes.replaceChildren(
+        ...(model.hello?.scenes ?? []).map((value) => el('option', { value, label: this.endOf(value) || value })),
+      );
       this.people.setWorkstation(model.hello?.workstation ?? '');
-      this.offerSeats();
+      this.onScene();
     }
-    if (model.tickets !== this.known) {
-      this.known = model.tickets;
-      this.tickets.replaceChildren(...(this.known ? [ticketCards(this.known)] : []));
-    }
+    this.given.update();
+  }
+
+  private updateShown(may: boolean): void {
+    const { scene, state, left } = this.page.model;
+    const name = scene?.name ?? '';
+    setText(
+      this.shownSession,
+      scene === null
+        ? t('desk.none_shown')
+        : [
+            t('desk.shown', { name }),
+            state ? word('phase', state.phase) : '',
+            left === null ? '' : t('bar.left', { t: clock(left) }),
+          ]
+            .filter(Boolean)
+            .join(', '),
+    );
+    setText(this.end, t('desk.end_of', { name }));
+    this.end.hidden = scene === null;
+    setDisabled(this.end, !may || state?.phase === 'OVER');
   }
 
   /** Why the fields are disabled; empty: they are not. */
@@ -102,23 +117,23 @@ export class DeskView implements View {
     return t('desk.denied', { role: word('role', model.hello.role) });
   }
 
-  private offerSeats(): void {
-    this.people.setSeats(this.page.model.hello?.sceneSeats.get(this.scene.value.trim()) ?? kNoSeats);
+  /** Name of a scene and when its sessions end; empty: the page does not know that. */
+  private endOf(scene: string): string {
+    const { hello } = this.page.model;
+    const duration = hello?.sceneDurations.get(scene);
+    if (duration !== undefined) return t('desk.ends_after', { scene, t: clock(duration) });
+    return hello?.sceneSeats.has(scene) ? t('desk.endless', { scene }) : '';
   }
 
-  private session(): { id: string; name: string } | undefined {
-    const { tickets, scene } = this.page.model;
-    if (tickets) return { id: tickets.session, name: tickets.name };
-    return scene ? { id: scene.session, name: scene.name } : undefined;
+  private onScene(): void {
+    const scene = this.scene.value.trim();
+    this.people.setSeats(this.page.model.hello?.sceneSeats.get(scene) ?? kNoSeats);
+    setText(this.duration, this.endOf(scene));
   }
 
-  private async endSession(): Promise<void> {
-    const session = this.session();
-    if (!session) return;
-    const what = t('desk.end');
-    const explain = t('desk.end_explain', { name: session.name });
-    if (await confirmOrder(what, explain, what, t('who.cancel')))
-      void this.page.order(what, { order: 'end', session: session.id });
+  private endShown(): Promise<void> {
+    const { scene } = this.page.model;
+    return scene ? endSession(this.page, scene.session, scene.name) : Promise.resolve();
   }
 
   private send(): void {
@@ -128,20 +143,30 @@ export class DeskView implements View {
       people: this.people.people(),
     };
     const mistake = lessonMistakes(lesson)[0];
-    if (mistake) {
-      const { field: kind, index } = mistake;
-      const field =
-        kind === 'scene'
-          ? this.scene
-          : index === null
-            ? this.name
-            : this.people.field(index, kind === 'seat' || kind === 'workstation' ? kind : 'name');
-      field?.focus();
-      const label = field?.closest('label')?.textContent ?? t('desk.people');
-      this.page.report('error', `${label}: A-Z a-z 0-9 _ -, 1…32`);
-      return;
-    }
-    void this.page.order(t('desk.create'), { order: 'create', ...lesson });
+    this.mark(mistake);
+    if (!mistake) void this.page.order(t('desk.create'), { order: 'create', ...lesson });
+  }
+
+  private fieldOf({ field, index }: LessonMistake): HTMLInputElement | undefined {
+    if (field === 'scene') return this.scene;
+    if (index === null) return field === 'name' ? this.name : undefined;
+    return this.people.field(index, field === 'seat' || field === 'workstation' ? field : 'name');
+  }
+
+  /** Says a mistake beside the field and as a message; undefined: there is none. */
+  private mark(mistake: LessonMistake | undefined): void {
+    if (this.invalid) setAttribute(this.invalid, 'aria-invalid', null);
+    this.invalid = mistake && this.fieldOf(mistake);
+    setText(this.problem, '');
+    if (!mistake) return;
+    const { invalid } = this;
+    const field = invalid?.closest('label')?.firstElementChild?.textContent ?? t('desk.people');
+    const words = { field, value: invalid?.value ?? '', max: mistake.why === 'many' ? kPeopleMax : kNameMax };
+    setText(this.problem, t(`desk.mistake_${mistake.why}`, words));
+    this.page.report('error', this.problem.textContent ?? '');
+    if (!invalid) return;
+    setAttribute(invalid, 'aria-invalid', 'true');
+    invalid.focus();
   }
 }
 

@@ -1,3 +1,5 @@
+import { kNameMax, kNamePattern } from '../protocol/names';
+
 /** Helpers that build the page. They set texts as text nodes only: nothing of the gateway becomes markup. */
 
 type Child = Node | string | null;
@@ -56,6 +58,18 @@ export function setDisabled(
 /** Returns a label around its control. */
 export function labelled(text: string, control: HTMLElement): HTMLLabelElement {
   return el('label', { class: 'field' }, el('span', {}, text), control);
+}
+
+/** Returns a field for a name. @param rule  words about names, which stand beside it */
+export function nameField(rule: HTMLElement, attributes: Attributes = {}): HTMLInputElement {
+  return el('input', {
+    type: 'text',
+    maxlength: kNameMax,
+    pattern: kNamePattern,
+    autocomplete: 'off',
+    'aria-describedby': rule.id,
+    ...attributes,
+  });
 }
 
 /** Returns a select with options of value and text. */

@@ -1,4 +1,5 @@
-import { kNameLength, kOptionalNamePattern, kTicketLength } from '../logic/sign_in';
+import { kOptionalNamePattern, kTicketLength } from '../logic/sign_in';
+import { kNameMax } from '../protocol/names';
 import { t } from '../strings/strings';
 import { el, labelled, panel, setDisabled, setText } from './dom';
 
@@ -14,7 +15,7 @@ export class JoinView {
   private readonly name = el('input', {
     type: 'text',
     autocomplete: 'nickname',
-    maxlength: kNameLength,
+    maxlength: kNameMax,
     pattern: kOptionalNamePattern,
   });
   private readonly go = el('button', { type: 'submit', class: 'primary' }, t('join.go'));

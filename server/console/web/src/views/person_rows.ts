@@ -1,9 +1,7 @@
 import { kRoles, proposeSeats, type LessonPerson, type RowWish } from '../logic/lesson';
 import type { SeatOffer } from '../protocol/messages';
 import { t, word } from '../strings/strings';
-import { button, el, labelled, select, setText } from './dom';
-
-const kNamePattern = '[A-Za-z0-9_\\-]';
+import { button, el, labelled, nameField, select, setText } from './dom';
 
 interface Row {
   node: HTMLElement;
@@ -26,7 +24,11 @@ export class PersonRows {
   private offers: readonly SeatOffer[] = [];
   private workstation = '';
 
-  constructor(count: number) {
+  /** @param rule  words about names, beside the rows */
+  constructor(
+    count: number,
+    private readonly rule: HTMLElement,
+  ) {
     this.node.append(this.seatList);
     for (let i = 0; i < count; i += 1) this.add();
   }
@@ -48,14 +50,9 @@ export class PersonRows {
   }
 
   add(): HTMLInputElement {
-    const field = (
-      max: '{0,32}' | '{1,32}',
-      attributes: Readonly<Record<string, string | boolean>> = {},
-    ): HTMLInputElement =>
-      el('input', { type: 'text', maxlength: 32, pattern: kNamePattern + max, autocomplete: 'off', ...attributes });
-    const name = field('{1,32}', { required: true });
-    const seat = field('{0,32}', { list: 'scene-seats' });
-    const workstation = field('{0,32}');
+    const name = nameField(this.rule, { required: true });
+    const seat = nameField(this.rule, { list: 'scene-seats' });
+    const workstation = nameField(this.rule);
     workstation.value = this.workstation;
     const role = select(
       kRoles.map((known) => [known, word('role', known)] as const),

@@ -38,9 +38,14 @@ export class PlayerChart {
     this.node = el('figure', { class: 'player-chart' }, el('figcaption', {}, title), this.area, this.legend);
   }
 
-  setData(times: readonly number[], series: readonly ChartSeries[]): void {
-    this.times = times;
-    this.series = series;
+  /** @param end  end of the recording: the values of the last point hold until then [s] */
+  setData(times: readonly number[], series: readonly ChartSeries[], end: number): void {
+    const last = times[times.length - 1];
+    const holds = last !== undefined && end > last;
+    this.times = holds ? [...times, end] : times;
+    this.series = holds
+      ? series.map((s) => ({ ...s, values: [...s.values, s.values[times.length - 1] ?? null] }))
+      : series;
     this.built = '';
   }
 

@@ -58,6 +58,11 @@ export class PlayerControls {
     this.slider.max = String(clock.to);
   }
 
+  /** Gives the keyboard to the button that plays, so that space plays what was opened. */
+  focus(): void {
+    this.play.focus({ preventScroll: true });
+  }
+
   /** Handles a key. @return whether it had a meaning */
   key(event: KeyboardEvent): boolean {
     const { clock } = this;

@@ -2,6 +2,7 @@ import { clock, fixed } from '../logic/format';
 import type { Note, Outline } from '../protocol/recordings';
 import { t } from '../strings/strings';
 import { button, el, panel, setAttribute, svg } from './dom';
+import { noteText } from './note_text';
 
 const kWidth = 1000;
 /** Buttons that are listed; all notes are on the line. */
@@ -58,7 +59,7 @@ export class PlayerTimeline {
             height: 12,
             class: note.kind,
           },
-          svg('title', {}, `${clock(note.t)} ${note.text}`),
+          svg('title', {}, `${clock(note.t)} ${noteText(note)}`),
         ),
       ),
       this.now,
@@ -83,9 +84,12 @@ export class PlayerTimeline {
   }
 
   private row(note: Note): HTMLLIElement {
+    const text = noteText(note);
     const jump = button(clock(note.t), () => this.onSeek(note.t), {
-      'aria-label': t('player.jump', { t: clock(note.t), text: note.text }),
+      'aria-label': t('player.jump', { t: clock(note.t), text }),
     });
-    return el('li', { class: note.kind }, jump, el('span', {}, note.text || '–'), el('small', {}, note.person));
+    // The words of an event name its person.
+    const by = note.kind === 'mark' ? note.person : '';
+    return el('li', { class: note.kind }, jump, el('span', {}, text || '–'), el('small', {}, by));
   }
 }

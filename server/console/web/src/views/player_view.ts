@@ -1,6 +1,6 @@
 import type { LoadedRecording } from '../app/loaded_recording';
 import { fetchScores } from '../app/recording_client';
-import { distance, overlaidMoment, overlaidScene, times } from '../logic/comparison';
+import { distance, overlaidMoment, overlaidScene, pointAt, times } from '../logic/comparison';
 import { clock, fixed, percent } from '../logic/format';
 import { PlayerClock } from '../logic/player_clock';
 import type { Moment } from '../logic/recorded_states';
@@ -56,7 +56,7 @@ export class PlayerView {
   private readonly force: PlayerChart;
   private readonly authority: PlayerChart;
   private readonly values = new ValueTable();
-  private readonly scores = el('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': t('scores.title') });
+  private readonly scores = el('div', { class: 'score-tables' });
   private readonly pictures: [RecordingPicture | null, RecordingPicture | null] = [null, null];
   private clock = new PlayerClock(0, 1);
   private a: LoadedRecording | null = null;
@@ -100,8 +100,8 @@ export class PlayerView {
     this.controls.setClock(this.clock, outline.rate_hz);
     this.timeline.setOutline(outline);
     const at = times(outline.from_s, outline.curves);
-    this.force.setData(at, forceSeries(outline));
-    this.authority.setData(at, authoritySeries(outline));
+    this.force.setData(at, forceSeries(outline), outline.to_s);
+    this.authority.setData(at, authoritySeries(outline), outline.to_s);
     setText(this.title, outline.scene.name === '' ? outline.file : `${outline.scene.name} · ${outline.file}`);
     setText(
       this.facts,
@@ -114,6 +114,10 @@ export class PlayerView {
     this.node.hidden = false;
     this.compare.setOutlines(outline, null);
     void this.loadScores(outline);
+  }
+
+  focus(): void {
+    this.controls.focus();
   }
 
   /** @param b null: no comparison */
@@ -140,8 +144,8 @@ export class PlayerView {
     if (!a) return;
     this.controls.update();
     this.timeline.update(this.clock.t);
-    const { scene, curves, from_s } = a.outline;
-    const point = Math.floor((this.clock.t - from_s) / curves.step_s);
+    const { scene, curves } = a.outline;
+    const point = pointAt(a.outline, this.clock.t);
     const masters = scene.seats.flatMap(({ name, kind }, i) => (kind === 'MASTER' ? [{ name, i }] : []));
     const forces = masters.map(({ name, i }) => `${name} ${fixed(curves.seats[i]?.[point], 2, 'N')}`);
     this.force.update(this.clock.t, forces.join(', '));

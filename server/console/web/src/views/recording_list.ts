@@ -7,6 +7,11 @@ function beginOf(row: ListedRecording): string {
   return row.start_s === null ? '–' : new Date(row.start_s * 1000).toLocaleString(currentLanguage());
 }
 
+/** A cell; on narrow screens, where a row is a card, it begins with the title of its column. */
+function fact(column: 'begin' | 'duration' | 'persons' | 'state', value: string): HTMLElement {
+  return el('td', { 'data-label': t(`recordings.${column}`) }, value);
+}
+
 /** Recordings that the gateway may show, the newest first. */
 export class RecordingListPanel {
   readonly node: HTMLElement;
@@ -17,7 +22,7 @@ export class RecordingListPanel {
     private readonly onOpen: (row: ListedRecording) => void,
     onReload: () => void,
   ) {
-    const heads = (['session', 'begin', 'duration', 'persons', 'state', 'action'] as const).map((key) =>
+    const heads = (['action', 'session', 'begin', 'duration', 'persons', 'state'] as const).map((key) =>
       el('th', { scope: 'col' }, t(`recordings.${key}`)),
     );
     this.node = panel(
@@ -52,7 +57,13 @@ export class RecordingListPanel {
     const name = row.session && row.session !== row.file ? `${row.session} (${row.file})` : row.file;
     if (row.problem !== null) {
       const why = t('recordings.skipped', { why: row.problem });
-      return el('tr', { class: 'damaged' }, el('th', { scope: 'row' }, row.file), el('td', { colspan: 5 }, why));
+      return el(
+        'tr',
+        { class: 'damaged' },
+        el('td', {}, ''),
+        el('th', { scope: 'row' }, row.file),
+        el('td', { class: 'why', colspan: 4 }, why),
+      );
     }
     const state = [
       row.complete ? '' : t('recordings.incomplete'),
@@ -62,16 +73,16 @@ export class RecordingListPanel {
     return el(
       'tr',
       {},
-      el('th', { scope: 'row' }, name),
-      el('td', {}, beginOf(row)),
-      el('td', {}, clock(row.duration_s)),
-      el('td', {}, row.persons.join(', ') || '–'),
-      el('td', {}, state.filter(Boolean).join(', ')),
       el(
         'td',
         {},
         button(t('recordings.open'), () => this.onOpen(row), { 'aria-label': t('recordings.open_of', { name }) }),
       ),
+      el('th', { scope: 'row' }, name),
+      fact('begin', beginOf(row)),
+      fact('duration', clock(row.duration_s)),
+      fact('persons', row.persons.join(', ') || '–'),
+      fact('state', state.filter(Boolean).join(', ')),
     );
   }
 }

@@ -71,6 +71,7 @@ export class RecordingsView implements View {
     if (!recording) return;
     this.player.open(recording);
     this.player.node.scrollIntoView({ block: 'start' });
+    this.player.focus();
   }
 
   private async compare(id: string): Promise<void> {

@@ -7,7 +7,7 @@ import { scoreTables } from './score_table';
 /** Scores of the running session so far, for roles that may score. */
 export class ScorePanel implements View {
   readonly node: HTMLElement;
-  private readonly tables = el('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': t('scores.live') });
+  private readonly tables = el('div', { class: 'score-tables' });
   private known: LiveScores | null | undefined;
 
   constructor(private readonly page: Page) {

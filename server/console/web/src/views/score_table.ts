@@ -23,14 +23,20 @@ function reasonsOf(scores: Scores): string[] {
   return [...found];
 }
 
+/** A wide table scrolls in a frame of its own, also by the keyboard. */
+function frame(title: string, table: HTMLElement): HTMLElement {
+  return el('div', { class: 'scroll table-frame', tabindex: 0, role: 'group', 'aria-label': title }, table);
+}
+
 /** Returns tables of main scores, one per seat, with a column per part; flags have their reasons below. */
 export function scoreTables(scores: Scores): HTMLElement[] {
   const head = (text: string): HTMLElement => el('th', { scope: 'col' }, text);
-  const tables = scores.seats.map(({ seat, person, parts }) =>
-    el(
+  const tables = scores.seats.map(({ seat, person, parts }) => {
+    const title = person ? `${seat} (${person})` : seat;
+    const table = el(
       'table',
       { class: 'scores' },
-      el('caption', {}, person ? `${seat} (${person})` : seat),
+      el('caption', {}, title),
       el(
         'thead',
         {},
@@ -49,8 +55,9 @@ export function scoreTables(scores: Scores): HTMLElement[] {
           );
         }),
       ),
-    ),
-  );
+    );
+    return frame(title, table);
+  });
   const reasons = reasonsOf(scores);
   return [
     el(

@@ -1,7 +1,7 @@
 import { isForBrowser, isLoopback, serverAddress, stepsOf, ticketLink } from '../logic/lesson';
 import type { Ticket, Tickets } from '../protocol/messages';
 import { t, word } from '../strings/strings';
-import { button, el, panel } from './dom';
+import { el } from './dom';
 import { qrCode } from './qr_code';
 
 /** Workstation that a server with ephemeral keys has for all clients of its user. */
@@ -67,17 +67,7 @@ function card(ticket: Ticket, server: string): HTMLElement {
 }
 
 /** Returns a page per person: the ticket, and three steps with which the person joins. */
-export function ticketCards(tickets: Tickets): HTMLElement {
-  const server = serverAddress(tickets.server, location.hostname);
-  return panel(
-    t('desk.tickets', { name: tickets.name }),
-    'tickets-panel',
-    el('p', { class: 'note' }, t('desk.single_use')),
-    el(
-      'div',
-      { class: 'row no-print' },
-      button(t('desk.print'), () => window.print()),
-    ),
-    el('div', { class: 'ticket-grid' }, ...tickets.tickets.map((ticket) => card(ticket, server))),
-  );
+export function ticketCards({ server, tickets }: Tickets): HTMLElement {
+  const address = serverAddress(server, location.hostname);
+  return el('div', { class: 'ticket-grid' }, ...tickets.map((ticket) => card(ticket, address)));
 }

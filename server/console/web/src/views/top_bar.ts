@@ -27,6 +27,7 @@ export class TopBar implements View {
   private readonly session: HTMLSelectElement;
   private readonly phase = el('span', { class: 'badge' });
   private readonly time = el('span', { class: 'time' });
+  private readonly left = el('span', { class: 'left note' });
   private readonly link = el('span', { class: 'link', role: 'status' });
   private readonly person = el('span', { class: 'person' });
   private readonly tabs: readonly HTMLButtonElement[];
@@ -84,6 +85,7 @@ export class TopBar implements View {
         labelled(t('bar.session'), this.session),
         this.phase,
         this.time,
+        this.left,
         this.recording.node,
         this.link,
         this.person,
@@ -125,6 +127,7 @@ export class TopBar implements View {
     setText(this.phase, state ? word('phase', state.phase) : '');
     setAttribute(this.phase, 'data-phase', state?.phase ?? null);
     setText(this.time, state ? clock(state.t) : '');
+    setText(this.left, model.left === null ? '' : t('bar.left', { t: clock(model.left) }));
     this.recording.update();
     setText(this.link, t(`link.${model.link}`));
     setAttribute(this.link, 'data-link', model.link);

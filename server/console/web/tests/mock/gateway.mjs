@@ -54,20 +54,32 @@ class PageSocket {
     this.may = gateway.may[role] ?? [];
     socket.on('message', (data, binary) => this.onFrame(binary ? '' : data.toString()));
     socket.on('close', () => gateway.left(this));
+    this.watched = { id: kSession, name: 'contact' };
+    this.greet();
+    this.sendScene();
+    this.send(gateway.session.notes(person));
+  }
+
+  greet() {
+    const { gateway, person, role, may } = this;
     this.send({
       type: 'hello',
       protocol: 1,
       release: '0.0.0',
       person,
       role,
-      may: this.may,
-      sessions: [{ id: kSession, name: 'contact', state: gateway.session.phase }],
+      may,
+      sessions: gateway.sessions.map((session) => ({ ...session, state: gateway.session.phase })),
       scenes: ['contact', 'two_by_two', 'evaluation'],
-      scene_seats: this.may.includes('create') ? kSceneSeats : {},
+      scene_seats: may.includes('create') ? kSceneSeats : {},
+      scene_durations_s: may.includes('create') ? { contact: 20 } : {},
       workstation: gateway.workstation,
     });
-    this.send(gateway.session.scene());
-    this.send(gateway.session.notes(person));
+  }
+
+  /** All sessions of the mock gateway have the same hands; a created one has its own id and name. */
+  sendScene() {
+    this.send({ ...this.gateway.session.scene(), session: this.watched.id, name: this.watched.name });
   }
 
   send(message) {
@@ -116,6 +128,9 @@ class PageSocket {
 export class MockGateway {
   constructor(options) {
     this.session = new MockSession(options);
+    this.sessions = [{ id: kSession, name: 'contact' }];
+    // A gateway with a ticket of its own lists the session of this ticket only.
+    this.listsAll = options.listsAll ?? true;
     this.may = options.may ?? kMay;
     this.role = options.role ?? 'INSTRUCTOR';
     this.person = options.person ?? 'ina';
@@ -186,6 +201,11 @@ export class MockGateway {
     Object.assign(seat, { owner: null, taken: false, person: null, pressed: false });
   }
 
+  list(sessions) {
+    this.sessions = sessions;
+    for (const page of this.pages) page.greet();
+  }
+
   tellNotes() {
     for (const page of this.pages) page.send(this.session.notes(page.person));
   }
@@ -198,9 +218,12 @@ export class MockGateway {
         if (frame.n > page.n) return page.reply(null, '"n" names a state that was never sent');
         page.acknowledged = Math.max(page.acknowledged, frame.n);
         return undefined;
-      case 'watch':
-        page.reply(frame.id, frame.session === kSession ? '' : 'unknown session');
-        return page.send(session.scene());
+      case 'watch': {
+        const wanted = this.sessions.find(({ id }) => id === frame.session);
+        page.reply(frame.id, wanted ? '' : 'unknown session');
+        page.watched = wanted ?? page.watched;
+        return page.sendScene();
+      }
       case 'order':
         return this.onOrder(page, frame);
       case 'mark':
@@ -246,9 +269,15 @@ export class MockGateway {
         return { person: name, workstation, role, seat, here: workstation === (this.workstation ?? 'page'), ticket };
       });
       const server = '127.0.0.1:7000';
-      return page.send({ type: 'tickets', session: kSession, name: frame.name, server, tickets });
+      const id = randomBytes(16).toString('hex');
+      page.send({ type: 'tickets', session: id, name: frame.name, server, tickets });
+      if (this.listsAll) this.list([...this.sessions, { id, name: frame.name }]);
+      return undefined;
     }
-    if (frame.order === 'end') return page.reply(frame.id, '');
+    if (frame.order === 'end') {
+      page.reply(frame.id, '');
+      return this.list(this.sessions.filter(({ id }) => id !== frame.session || id === kSession));
+    }
     return page.reply(frame.id, this.session.order(frame, page.person, page.role));
   }
 

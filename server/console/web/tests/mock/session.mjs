@@ -11,8 +11,9 @@ const clamp = (value, low, high) => Math.min(high, Math.max(low, value));
 
 /** Moves in steps of one state; the gateway of the tests calls `step` 60 times per second, or as fast as a test likes. */
 export class MockSession {
-  constructor({ seats = 2, evaluators = ['eva'], freeSeat = false } = {}) {
+  constructor({ seats = 2, evaluators = ['eva'], freeSeat = false, duration = null } = {}) {
     this.t = 0;
+    this.duration = duration;
     this.version = 1;
     this.stop = null;
     this.stops = 0;
@@ -129,6 +130,7 @@ export class MockSession {
       tick_hz: kTickHz,
       dof: 3,
       law: 'REPLICA',
+      duration_s: this.duration,
       seats: this.seats.map(({ name, role, device }) => ({
         name,
         kind: 'MASTER',

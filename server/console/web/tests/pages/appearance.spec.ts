@@ -37,7 +37,7 @@ for (const scheme of ['light', 'dark'] as const) {
     await page.getByLabel('Workstation of person 3').fill('page');
     await page.getByRole('button', { name: 'Create session' }).click();
     await expect(page.locator('.ticket')).toHaveCount(3);
-    await page.getByRole('button', { name: 'End session' }).click();
+    await page.getByRole('button', { name: 'End session contact' }).click();
     await expect(page.getByRole('dialog')).toBeVisible();
     expect(['dialog', await violations()]).toEqual(['dialog', []]);
     await page.keyboard.press('Escape');

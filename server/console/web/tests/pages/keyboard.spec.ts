@@ -111,9 +111,13 @@ test('an operator creates and ends a lesson by the keyboard alone', async ({ sta
   await expect(page.locator('.ticket')).toHaveCount(3);
   await tabTo(page, page.locator('.ticket').nth(2).getByRole('link'));
   await page.keyboard.press('Control+Home');
-  await press(page, button(page, 'End session'));
-  await press(page, page.getByRole('dialog').getByRole('button', { name: 'End session' }));
-  await expect(page.locator('.messages')).toContainText('End session: done');
+  await press(page, button(page, 'Show session monday'));
+  await press(page, button(page, 'End session monday'));
+  await press(page, page.getByRole('dialog').getByRole('button', { name: 'End session monday' }));
+  await expect(page.locator('.messages')).toContainText('End session monday: done');
+  await press(page, button(page, 'Close the cards of monday'));
+  await press(page, page.getByRole('dialog').getByRole('button', { name: 'Close the cards of monday' }));
+  await expect(page.locator('.ticket')).toHaveCount(0);
 });
 
 test('cameras and switches of the picture follow the keyboard', async ({ start, open }) => {

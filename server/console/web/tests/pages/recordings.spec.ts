@@ -56,6 +56,14 @@ test('a recording of a server is played, scrubbed, stepped by keys, and jumped i
   await expect(page.locator('.moment-banner')).toBeHidden();
   expect(await time(page)).toBeLessThan(1);
 
+  // The keyboard is at Play: space plays at once, and does not press Open again.
+  await expect(page.getByRole('button', { name: 'Play' })).toBeFocused();
+  await page.keyboard.press('Space');
+  await expect.poll(() => time(page)).toBeGreaterThan(0.2);
+  await page.keyboard.press('Space');
+  await expect(page.getByRole('button', { name: 'Play' })).toBeVisible();
+  await page.keyboard.press('Home');
+
   // Space plays in the time of the session, and pauses.
   await page.locator('.player-values-panel .scroll').focus();
   await page.keyboard.press('Space');
@@ -86,7 +94,9 @@ test('a recording of a server is played, scrubbed, stepped by keys, and jumped i
   expect(Number.isFinite(start)).toBe(true);
   expect(Number.isFinite(await position(page, 'tool'))).toBe(true);
 
-  // An event of the timeline jumps.
+  // An event of the timeline says what happened in plain words, and jumps.
+  await expect(page.locator('.jumps li', { hasText: /^\d+:[\d.]+\S+ \(trainer\) joins/ })).toHaveCount(1);
+  await expect(page.locator('.jumps')).not.toContainText('tick');
   const jump = page.locator('.jumps button').first();
   const at = /(\d+):([\d.]+)/.exec((await jump.textContent()) ?? '');
   await jump.click();
@@ -176,5 +186,79 @@ test('scores of the running session come to the instructor, with their flags', a
     await expect(scores.locator('table.scores').first()).toContainText('Path length', { timeout: 20_000 });
     await expect(scores).toContainText('jerk needs every tick');
     await expect(scores).toContainText('59 Hz');
+  }
+});
+
+/** Whether a box lies in the window, with its full width. */
+async function inSight(page: Page, node: Locator): Promise<boolean> {
+  const box = await node.boundingBox();
+  const width = page.viewportSize()?.width ?? 0;
+  return box !== null && box.width > 0 && box.x >= 0 && box.x + box.width <= width;
+}
+
+test('the list shows whole rows, more of them in a taller window, and its buttons at each width', async ({
+  page,
+  run,
+  place,
+}) => {
+  await simulate(run, join(place, 'lesson-00.mcap'), '1');
+  const copies = Array.from({ length: 30 }, (_, i) => join(place, `lesson-${String(i + 1).padStart(2, '0')}.mcap`));
+  for (const copy of copies) copyFileSync(join(place, 'lesson-00.mcap'), copy);
+  await page.goto(await urlOf(run('tandem-console', 'play', ...copies, '--listen', '127.0.0.1:0')));
+  const rows = page.locator('table.recordings tbody tr');
+  await expect(rows).toHaveCount(copies.length);
+  const shown: number[] = [];
+  for (const height of [500, 720, 1000, 1400]) {
+    await page.setViewportSize({ width: 1440, height });
+    const [frame, head, row] = await page.evaluate(() =>
+      ['.recordings-panel .scroll', 'table.recordings thead', 'table.recordings tbody tr'].map((name) => {
+        const node = document.querySelector(name);
+        return name.endsWith('.scroll') ? (node?.clientHeight ?? 0) : (node?.getBoundingClientRect().height ?? 0);
+      }),
+    );
+    const whole = ((frame ?? 0) - (head ?? 0)) / (row ?? 1);
+    expect(Math.abs(whole - Math.round(whole)) * (row ?? 1)).toBeLessThan(3);
+    shown.push(Math.round(whole));
+  }
+  expect(shown[0]).toBeGreaterThanOrEqual(3);
+  expect(shown[3]).toBeGreaterThan((shown[0] ?? 0) + 5);
+  for (const width of [1440, 768, 390, 320]) {
+    await page.setViewportSize({ width, height: 900 });
+    expect([width, await inSight(page, rows.first().getByRole('button', { name: /^Open/ }))]).toEqual([width, true]);
+    expect([width, await page.evaluate(() => document.documentElement.scrollWidth)]).toEqual([width, width]);
+    await page.screenshot({ path: `screenshots/recordings-list-${width}.png` });
+  }
+});
+
+test('curves end with their last value, and all columns of the scores can be reached', async ({ page, run, place }) => {
+  const file = join(place, 'a.mcap');
+  await simulate(run, file, '1');
+  await page.goto(await urlOf(run('tandem-console', 'play', file, '--listen', '127.0.0.1:0')));
+  await page.getByRole('button', { name: /^Open/ }).click();
+  await expect(page.getByRole('button', { name: 'Play' })).toBeFocused();
+  // The tick with which the session ends has no authority; the last step has.
+  await page.keyboard.press('End');
+  await expect(page.locator('.player-chart', { hasText: 'Authority' }).locator('.chart-legend')).toContainText(
+    'trainer 100',
+  );
+  await expect(page.locator('.player-chart', { hasText: 'Force' }).locator('.chart-legend')).toContainText(
+    'trainer 2.6',
+  );
+  await expect(page.locator('table.scores').first()).toContainText('Path length');
+  for (const width of [1440, 768, 390]) {
+    await page.setViewportSize({ width, height: 900 });
+    await page.waitForTimeout(200);
+    await page.locator('.scores-panel').screenshot({ path: `screenshots/scores-${width}.png` });
+    await page.screenshot({ path: `screenshots/player-${width}.png`, fullPage: true });
+    // The keyboard scrolls the frame of each table to its last column.
+    for (const frame of await page.locator('.scores-panel .table-frame').all()) {
+      await frame.focus();
+      for (let i = 0; i < 40; i += 1) await page.keyboard.press('ArrowRight');
+      await expect
+        .poll(() => frame.evaluate((node) => node.scrollLeft + node.clientWidth - node.scrollWidth))
+        .toBeGreaterThan(-2);
+      expect(await inSight(page, frame.locator('thead th').last())).toBe(true);
+    }
+    expect(await time(page)).toBeGreaterThan(7.9);
   }
 });

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { clock, fixed, kUnknown, percent } from '../../src/logic/format';
 import {
   isForBrowser,
-  isName,
+  kPeopleMax,
   lessonMistakes,
   proposeSeats,
   serverAddress,
@@ -15,6 +15,7 @@ import {
 } from '../../src/logic/lesson';
 import { kKeyStep, kReach, kStickSpeed, PointerDevice } from '../../src/logic/pointer_device';
 import { spread } from '../../src/picture/label';
+import { isName } from '../../src/protocol/names';
 import { en } from '../../src/strings/en';
 import { fr } from '../../src/strings/fr';
 import { preferredLanguage, setLanguage, t, word } from '../../src/strings/strings';
@@ -88,10 +89,14 @@ describe('lesson', () => {
   it('names all mistakes', () => {
     const lesson = { scene: '', name: 'a b', people: [...people, { name: 'ina', role: 'TRAINEE', seat: 'trainee' }] };
     expect(lessonMistakes(lesson)).toEqual([
-      { field: 'scene', index: null },
-      { field: 'name', index: null },
-      { field: 'person', index: 2 },
-      { field: 'seat', index: 2 },
+      { field: 'scene', index: null, why: 'name' },
+      { field: 'name', index: null, why: 'name' },
+      { field: 'person', index: 2, why: 'twice' },
+      { field: 'seat', index: 2, why: 'twice' },
+    ]);
+    const crowd = Array.from({ length: kPeopleMax + 1 }, (_, i) => ({ name: `p${i}`, role: 'OBSERVER', seat: '' }));
+    expect(lessonMistakes({ scene: 'contact', name: 'm', people: crowd })).toEqual([
+      { field: 'people', index: null, why: 'many' },
     ]);
     expect(isName('x'.repeat(33))).toBe(false);
   });
@@ -100,7 +105,7 @@ describe('lesson', () => {
     const lesson = (workstation: string): LessonMistake[] =>
       lessonMistakes({ scene: 'contact', name: 'm', people: ina ? [{ ...ina, workstation }] : [] });
     expect(lesson('desk-1')).toEqual([]);
-    expect(lesson('desk 1')).toEqual([{ field: 'workstation', index: 0 }]);
+    expect(lesson('desk 1')).toEqual([{ field: 'workstation', index: 0, why: 'name' }]);
   });
   it('has three steps for each ticket, by seat, role and workstation', () => {
     const ticket = { person: 'ann', workstation: 'w', role: '', seat: '', here: false, ticket: 'ticket:1' };

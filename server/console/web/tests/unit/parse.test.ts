@@ -99,6 +99,13 @@ describe('parseMessage', () => {
     ]);
     expect(hello.sceneSeats.get('bad')).toEqual([]);
     expect(hello.workstation).toBe('local');
+    const durations = parseMessage(
+      '{"type":"hello","scene_durations_s":{"contact":20,"lesson":0,"bad":"9","worse":-1,"__proto__":5}}',
+    ) as Hello;
+    expect([...durations.sceneDurations]).toEqual([
+      ['contact', 20],
+      ['__proto__', 5],
+    ]);
     expect((parseMessage('{"type":"hello"}') as Hello).sceneSeats.size).toBe(0);
     const tickets = parseMessage(
       '{"type":"tickets","server":"lab:7000","tickets":[{"here":true},{"here":"yes"}]}',

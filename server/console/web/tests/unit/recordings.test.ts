@@ -7,12 +7,42 @@ import {
   overlaidScene,
   overlaidState,
   placeAt,
+  pointAt,
 } from '../../src/logic/comparison';
 import { PlayerClock } from '../../src/logic/player_clock';
 import { emptyState, kPiecesKept, RecordedStates } from '../../src/logic/recorded_states';
 import type { Scene, State } from '../../src/protocol/messages';
 import { readList, readOutline, readPiece, type Outline } from '../../src/protocol/recordings';
 import { readScores } from '../../src/protocol/scores';
+import { noteText } from '../../src/views/note_text';
+
+/** Words of server/report/audit_event.h. */
+const kAuditWords = [
+  'join',
+  'leave',
+  'loss',
+  'back',
+  'quarantined',
+  'cleared',
+  'forbidden',
+  'authority',
+  'stop',
+  'pause',
+  'resume',
+  'local-stop',
+  'local-resume',
+  'fault',
+  'instructor-away',
+  'restored',
+  'all-back',
+  'flood',
+  'removed',
+  'overload',
+  'overload-cleared',
+  'authority-refused',
+  'authority-canceled',
+  'authority-deferred',
+];
 
 const kScene: Scene = {
   type: 'scene',
@@ -21,6 +51,7 @@ const kScene: Scene = {
   tick_hz: 1000,
   dof: 3,
   law: 'REPLICA',
+  duration_s: null,
   seats: ['trainer', 'trainee'].map((name) => ({
     name,
     kind: 'MASTER',
@@ -204,10 +235,16 @@ describe('replies about recordings', () => {
         { t: null, text: 'no time' },
       ],
     });
-    expect(found?.notes.map(({ kind, t, text }) => [kind, t, text])).toEqual([
-      ['event', 7, 'stop'],
-      ['mark', 9, 'late'],
+    expect(found?.notes.map(({ kind, t, what, text }) => [kind, t, what, text])).toEqual([
+      ['event', 7, 'stop', ''],
+      ['mark', 9, '', 'late'],
     ]);
+  });
+
+  it('hold the values of the last point until the end', () => {
+    const point = (t: number): number => pointAt(outline(), t);
+    expect([5, 5.05, 5.1, 24.9, 25, 99].map(point)).toEqual([0, 0, 1, 199, 199, 199]);
+    expect(pointAt(outline({ curves: { step_s: 0.1, seats: [], tools: [] } }), 9)).toBe(0);
   });
 
   it('keep flags and reasons of scores', () => {
@@ -217,5 +254,38 @@ describe('replies about recordings', () => {
       seats: [{ seat: 's', parts: [{ part: 'whole', cells: [{ text: null, trust: 'withheld', reason: 'gap' }] }] }],
     });
     expect(scores?.seats[0]?.parts[0]?.cells[0]).toEqual({ text: null, trust: 'withheld', reason: 'gap' });
+  });
+});
+
+describe('events of a recording', () => {
+  const words = (what: string, text: string, seat = '', person = ''): string =>
+    noteText({ kind: 'event', t: 0, what, seat, person, text });
+  // The lines are those of tests/server/session/stop_latch_test.cpp.
+  it('say who did what in plain words', () => {
+    expect(words('join', 'trainer tick 0', 'trainer')).toBe('trainer joins');
+    expect(words('stop', 'trainee tick 7', 'trainee', 'ted')).toBe('ted (trainee) stops the session');
+    expect(words('resume', 'console version 3 tick 900')).toBe('a console resumes the session');
+    expect(words('overload', 'session tick 900')).toBe('The server is too slow, so all hands are released');
+  });
+  it('name the shares that change, and a stale link', () => {
+    const shares =
+      'timeline tool version 3 tick 500: trainer 1.000 to 0.250, trainee 0.000 to 0.750, eva 0.000 to 0.000';
+    expect(words('authority', shares)).toBe(
+      'the plan of the scene changes the authority over tool: trainer from 100\u202f% to 25\u202f%, trainee from 0\u202f% to 75\u202f%',
+    );
+    expect(words('authority-refused', `${shares}; the link of trainee is stale`)).toMatch(
+      /^A change of the authority over tool by the plan of the scene is rejected: .*\. The connection of trainee is lost\.$/,
+    );
+  });
+  it('keep words of a newer server, and marks as they were written', () => {
+    expect(words('teleported', 'trainer tick 3', 'trainer')).toBe('teleported: trainer tick 3');
+    expect(words('stop', 'by hand')).toBe('stop: by hand');
+    expect(words('stop', '')).toBe('stop');
+    expect(noteText({ kind: 'mark', t: 0, what: '', seat: '', person: 'eva', text: 'good $& tick 3' })).toBe(
+      'good $& tick 3',
+    );
+  });
+  it('have words for all events of the audit log', () => {
+    for (const what of kAuditWords) expect(words(what, 'trainer tick 0', 'trainer')).not.toContain('tick');
   });
 });

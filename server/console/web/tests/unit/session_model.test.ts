@@ -18,6 +18,7 @@ const hello: Hello = {
   sessions: [],
   scenes: [],
   sceneSeats: new Map(),
+  sceneDurations: new Map(),
   workstation: null,
   play: null,
 };
@@ -42,6 +43,31 @@ describe('SessionModel', () => {
     expect(model.alarms.current()).toMatchObject([{ kind: 'connection' }]);
     model.connected();
     expect(model.alarms.current()).toEqual([]);
+  });
+
+  it('raises no alarm when the gateway asks for a ticket', () => {
+    const model = new SessionModel();
+    model.disconnected('refused', 'sign in');
+    expect(model.link).toBe('refused');
+    model.connected();
+    expect(model.alarms.list()).toEqual([]);
+    // A loss that began before lasts until the page is connected again.
+    model.disconnected('lost', 'WebSocket 1006');
+    model.disconnected('refused', 'sign in');
+    expect(model.alarms.current()).toMatchObject([{ kind: 'connection', over: false }]);
+  });
+
+  it('knows the time left of a session that ends by itself', () => {
+    const model = new SessionModel();
+    const left = (duration_s: number | null, t: number, phase: 'RUNNING' | 'OVER' = 'RUNNING'): number | null => {
+      model.apply({ ...makeScene(), duration_s }, 0);
+      model.apply(makeState({ t, phase }), 0);
+      return model.left;
+    };
+    expect(left(20, 12.5)).toBe(7.5);
+    expect(left(20, 20.1)).toBe(0);
+    expect(left(20, 20, 'OVER')).toBeNull();
+    expect(left(null, 3)).toBeNull();
   });
 
   it('takes events once, though a gateway sends them again after a reconnect', () => {
