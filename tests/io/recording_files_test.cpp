@@ -6,11 +6,14 @@
 #include <sys/file.h>
 
 #include <chrono>
+#include <cstring>
 #include <functional>
 #include <thread>
 
 #include "common/base/rng.h"
 #include "common/io/clock.h"
+#include "common/mcap/mcap_reader.h"
+#include "proto/recording/recording_format.h"
 #include "server/recording/io/recording_repair.h"
 #include "tests/common/base/counts.h"
 #include "tests/io/programs.h"
@@ -54,6 +57,11 @@ class Recording {
       files_->step(now_);
     }
   }
+  /// A quarter of a second in which the session does not run.
+  void run_nothing() {
+    now_ += 250ms;
+    files_->step(now_);
+  }
   /// Steps without ticks until the disk has followed.
   void settle(const std::function<bool()>& so) {
     EXPECT_TRUE(comes_true([&] {
@@ -76,6 +84,14 @@ class Recording {
   std::unique_ptr<RecordingFiles> files_;
   std::uint32_t tick_ = 0;
 };
+
+/// Size of a file without ticks [bytes].
+std::size_t head_bytes() {
+  const SceneSpec scene = test::scene_named("contact");
+  RecordingWriter empty{scene, info_of(scene)};
+  empty.finish();
+  return empty.take().size();
+}
 
 Lesson read(const Folder& folder, const std::string& name) {
   auto lesson = lesson_of(folder.read(name));
@@ -115,6 +131,99 @@ TEST(RecordingFiles, GoOnInAnotherFileAtTheirLimits) {
   }
   EXPECT_EQ(next, 2501u);
   EXPECT_EQ(folder.read("a-2.mcap"), "of another recording");
+}
+
+/// Value of a key of the metadata record `session`.
+std::string fact(const Lesson& lesson, const char* key) {
+  const auto found = lesson.metadata.find(key);
+  return found == lesson.metadata.end() ? "" : found->second;
+}
+
+TEST(RecordingFiles, SayWhichPartOfWhichRecordingTheyAre) {
+  const Folder folder;
+  Recording recording(folder, {.file_s = 1});
+  recording.run(10);
+  ASSERT_EQ(recording.close().size(), 3u);
+  const std::string names[] = {"a.mcap", "a-2.mcap", "a-3.mcap"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Lesson lesson = read(folder, names[k]);
+    EXPECT_EQ(fact(lesson, rec::kRecordingKey), "a");
+    EXPECT_EQ(fact(lesson, rec::kPartKey), std::to_string(k + 1));
+    EXPECT_EQ(fact(lesson, rec::kPreviousKey), k == 0 ? "" : names[k - 1]);
+    const std::string bytes = folder.read(names[k]);
+    const auto reader = mcap::Reader::open(std::as_bytes(std::span(bytes)));
+    ASSERT_TRUE(reader && reader->metadata(rec::kPartRecord) != nullptr);
+    EXPECT_EQ(reader->metadata(rec::kPartRecord)->at(rec::kLastKey), k == 2 ? "true" : "false");
+  }
+}
+
+TEST(RecordingFiles, BeginNoFileWhileTheSessionWaits) {
+  const Folder folder;
+  Recording recording(folder, {.file_s = 1});
+  constexpr std::size_t kTick = 1 + 8 + 4 + 4;  // of the journal, without a client [bytes]
+  std::vector<std::byte> piece(8 + kTick);      // with its position
+  piece[8] = std::byte{11};                     // InputRecord::kTick
+  piece[9] = std::byte{100};
+  std::uint64_t position = 0;
+  const auto wait = [&](int quarters) {
+    for (int q = 0; q < quarters; ++q) {
+      for (int k = 0; k < 250; ++k, position += kTick) {
+        std::memcpy(piece.data(), &position, sizeof position);
+        recording.files().add_inputs(piece);
+      }
+      recording.run_nothing();
+    }
+  };
+  wait(4 * 60);
+  const std::uint64_t before = recording.files().bytes();
+  wait(4 * 600);
+  const auto waited = static_cast<double>(recording.files().bytes() - before);
+  std::printf("[  figures ] a session that waits takes %.2f MB per day\n", waited * 144 / 1e6);
+  EXPECT_LT(waited, 20'000) << "ten minutes of waiting";
+  recording.run(6);
+  wait(400);
+  recording.run(2);
+  EXPECT_EQ(recording.close(),
+            (std::vector<std::string>{folder.file("a.mcap"), folder.file("a-2.mcap"), folder.file("a-3.mcap")}));
+  EXPECT_EQ(read(folder, "a.mcap").rows(), 1000u);
+  EXPECT_EQ(read(folder, "a-2.mcap").rows(), 500u) << "and the wait";
+  EXPECT_EQ(read(folder, "a-3.mcap").rows(), 500u);
+}
+
+TEST(RecordingFiles, LeaveNoFileOfASessionThatNeverRan) {
+  const Folder folder;
+  {
+    Recording never(folder);
+    never.run_nothing();
+    EXPECT_TRUE(never.close().empty());
+    EXPECT_EQ(never.files().take_removed(), std::vector<std::string>{folder.file("a.mcap")});
+    EXPECT_TRUE(never.files().take_problems().empty());
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.mcap")));
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.mcap.part")));
+  }
+  Recording noted(folder);
+  noted.files().writer().add_mark({.t_s = 0, .by = "Ada", .text = "before the lesson"});
+  EXPECT_EQ(noted.close().size(), 1u) << "a mark is content";
+  EXPECT_EQ(read(folder, "a.mcap").marks.size(), 1u);
+}
+
+TEST(RecordingFiles, GoOnInTheSameFileWhileTheNextOneCannotBeMade) {
+  const Folder folder;
+  Recording recording(folder, {.file_s = 1});
+  recording.run(4);
+  recording.settle([&] { return std::filesystem::file_size(folder.file("a.mcap.part")) >= recording.files().bytes(); });
+  tandem::test::inject(folder.file("a-2.mcap.part"), {.kind = FileFault::Kind::kNoSpace, .lasting = true});
+  recording.run(4);
+  const auto problems = recording.files().take_problems();
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_NE(problems[0].find("no further file can be made, so this one goes on"), std::string::npos) << problems[0];
+  tandem::test::no_faults();
+  recording.run(4 * 12);  // the next attempt comes after 10 s
+  EXPECT_GT(recording.close().size(), 1u);
+  const Lesson first = read(folder, "a.mcap"), second = read(folder, "a-2.mcap");
+  EXPECT_GE(first.rows(), 2000u);
+  EXPECT_EQ(second.tick.front(), first.tick.back() + 1) << "no tick is lost";
+  EXPECT_EQ(account_problem(first) + account_problem(second), "");
 }
 
 TEST(RecordingFiles, EndAtTheLimitOfAllFiles) {
@@ -225,10 +334,7 @@ TEST(RecordingRepair, KeepsEveryWholeChunkOfACutFile) {
   recording.run(8);
   recording.close();
   const std::string whole = folder.read("a.mcap");
-  Folder other;
-  Recording empty(other);
-  empty.close();
-  const std::size_t head = std::filesystem::file_size(other.file("a.mcap"));  // with definitions and scene, no tick
+  const std::size_t head = head_bytes();  // with definitions and scene, no tick
   RandomStream random(17);
   std::size_t rows = 0;
   const std::size_t cuts = tandem::test::draws(60, 400, 2000);
