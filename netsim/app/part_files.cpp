@@ -1,10 +1,17 @@
 #include "netsim/app/part_files.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
-#include "server/archive/app/recording_file.h"
+#include "common/io/fd.h"
+#include "server/archive/recording_parts.h"
 
 namespace tandem::netsim {
 namespace {
@@ -14,9 +21,25 @@ namespace fs = std::filesystem;
 constexpr std::size_t kFolderMax = 100'000;  // files of a folder that are read
 
 std::expected<RecordedPart, std::string> part_of(const std::string& path) {
-  const auto file = server::RecordingFile::open(path);
-  if (!file) return std::unexpected(file.error());
-  return read_part(file->parts().piece(file->read(), 0, 0), path);
+  const io::Fd file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};  // a pipe must not block
+  struct stat facts{};
+  if (!file.open() || ::fstat(file.get(), &facts) != 0) return std::unexpected(std::strerror(errno));
+  if (!S_ISREG(facts.st_mode)) return std::unexpected("is no file");
+  const server::ReadAt read = [&file](std::uint64_t offset, std::span<std::byte> into) {
+    std::size_t filled = 0;
+    while (filled < into.size()) {
+      const ssize_t got =
+          ::pread(file.get(), into.data() + filled, into.size() - filled, static_cast<off_t>(offset + filled));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) break;
+      filled += static_cast<std::size_t>(got);
+    }
+    return filled;
+  };
+  const auto size = static_cast<std::uint64_t>(facts.st_size);
+  const auto found = server::RecordingParts::find(read, size);
+  if (!found) return std::unexpected(found.error());
+  return read_part(found->piece(read, 0, 0), path);
 }
 
 /// Returns the paths of the complete recordings in a folder, sorted.

@@ -10,7 +10,7 @@
 
 namespace tandem::netsim {
 
-/// What a file says about its place in a recording of several files (server/recording/io/recording_files.h).
+/// Place of a file in a recording of several files, as its metadata state it (server/recording/io/recording_files.h).
 struct RecordedPart {
   static constexpr unsigned kNumberMax = 9999;
 
@@ -21,7 +21,7 @@ struct RecordedPart {
   std::string previous_file;                 ///< name of the file before, without its folder; empty: not stated
 };
 
-/// Reads what a recording says about its parts.
+/// Reads the place of a file in its recording.
 /// @param bytes  of an MCAP file, or its definitions without messages; any bytes are safe
 /// @param file   its name
 /// @return why it is no recording with a valid number, without the name of the file

@@ -1,4 +1,4 @@
-// Files of recordings: limits, full and failing disks, cuts and repairs. Counts stay true in all of them.
+// Files of recordings: limits, parts, full and failing disks. Counts stay true in all of them.
 #include "server/recording/io/recording_files.h"
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@
 #include "server/recording/io/recording_repair.h"
 #include "tests/common/base/counts.h"
 #include "tests/io/programs.h"
-#include "tests/io/recording_samples.h"
+#include "tests/io/recorded_ticks.h"
 #include "tests/support/file_faults.h"
 
 namespace tandem::server {
@@ -27,77 +27,12 @@ using namespace std::chrono_literals;
 using tandem::test::FileFault;
 using tandem::test::Folder;
 using test::account_problem;
+using test::head_bytes;
 using test::info_of;
 using test::lesson_of;
+using test::read;
 using test::record_at;
-
-constexpr auto kLimit = 30s;  // against hanging
-
-bool comes_true(const std::function<bool()>& so) {
-  for (const auto until = std::chrono::steady_clock::now() + kLimit; std::chrono::steady_clock::now() < until;) {
-    if (so()) return true;
-    std::this_thread::sleep_for(5ms);
-  }
-  return false;
-}
-
-/// A recording of virtual time: 250 ticks, then a step, as the thread of a server does.
-class Recording {
- public:
-  explicit Recording(const Folder& folder, const RecordingLimits& limits = {}, const std::string& scene = "contact")
-      : scene_(test::scene_named(scene)),
-        files_(std::move(*RecordingFiles::open(folder.file("a.mcap"), scene_, info_of(scene_), limits, now_))) {
-    files_->begin(1'700'000'000'000'000'000);
-  }
-  /// Adds ticks of `s` quarters of a second.
-  void run(int quarters) {
-    for (int q = 0; q < quarters; ++q) {
-      for (int k = 0; k < 250; ++k) files_->add(record_at(scene_, ++tick_));
-      now_ += 250ms;
-      files_->step(now_);
-    }
-  }
-  /// A quarter of a second in which the session does not run.
-  void run_nothing() {
-    now_ += 250ms;
-    files_->step(now_);
-  }
-  /// Steps without ticks until the disk has followed.
-  void settle(const std::function<bool()>& so) {
-    EXPECT_TRUE(comes_true([&] {
-      files_->step(now_);
-      return so();
-    }));
-  }
-  std::vector<std::string> close() {
-    files_->begin_close();
-    EXPECT_TRUE(comes_true([&] { return files_->closed(); }));
-    return files_->take_completed();
-  }
-  RecordingFiles& files() { return *files_; }
-  [[nodiscard]] std::uint32_t tick() const { return tick_; }
-  void skip(std::uint32_t ticks) { tick_ += ticks; }
-
- private:
-  Time now_{};
-  SceneSpec scene_;
-  std::unique_ptr<RecordingFiles> files_;
-  std::uint32_t tick_ = 0;
-};
-
-/// Size of a file without ticks [bytes].
-std::size_t head_bytes() {
-  const SceneSpec scene = test::scene_named("contact");
-  RecordingWriter empty{scene, info_of(scene)};
-  empty.finish();
-  return empty.take().size();
-}
-
-Lesson read(const Folder& folder, const std::string& name) {
-  auto lesson = lesson_of(folder.read(name));
-  EXPECT_TRUE(lesson) << name << ": " << lesson.error();
-  return lesson ? std::move(*lesson) : Lesson{};
-}
+using test::Recording;
 
 TEST(RecordingFiles, HoldEveryTick) {
   const Folder folder;
@@ -324,104 +259,6 @@ TEST(RecordingFiles, StayReadableWhenTheDiskIsFullToTheEnd) {
   EXPECT_GE(lesson.rows(), 500u) << "only the chunk that was open is missing";
   EXPECT_EQ(account_problem(lesson), "");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.mcap.part")));
-}
-
-// ---- Repair ----
-
-TEST(RecordingRepair, KeepsEveryWholeChunkOfACutFile) {
-  const Folder folder;
-  Recording recording(folder);
-  recording.run(8);
-  recording.close();
-  const std::string whole = folder.read("a.mcap");
-  const std::size_t head = head_bytes();  // with definitions and scene, no tick
-  RandomStream random(17);
-  std::size_t rows = 0;
-  const std::size_t cuts = tandem::test::draws(60, 400, 2000);
-  for (std::size_t k = 0; k < cuts; ++k) {
-    SCOPED_TRACE(k);
-    const std::size_t size = random.below(whole.size() + 1);
-    folder.write("b.mcap.part", whole.substr(0, size));
-    const RecordingRepair repair = repair_recording(folder.file("b.mcap.part"));
-    if (repair.kind == RecordingRepair::Kind::kFailed) {
-      EXPECT_LT(size, head) << repair.text << ": only a file without its begin cannot be repaired";
-      EXPECT_EQ(folder.read("b.mcap.part").size(), size) << "the original stays";
-      continue;
-    }
-    EXPECT_FALSE(std::filesystem::exists(folder.file("b.mcap.part")));
-    EXPECT_FALSE(std::filesystem::exists(folder.file("b.mcap.repair")));
-    const auto lesson = lesson_of(folder.read("b.mcap"));
-    if (lesson) {
-      EXPECT_EQ(account_problem(*lesson), "") << size;
-      rows = std::max(rows, lesson->rows());
-    } else {
-      EXPECT_LT(size, head) << lesson.error();
-    }
-    const RecordingRepair again = repair_recording(folder.file("b.mcap"));
-    EXPECT_EQ(again.kind, RecordingRepair::Kind::kComplete) << again.text;
-    std::filesystem::remove(folder.file("b.mcap"));
-  }
-  EXPECT_GT(rows, 1000u);
-}
-
-TEST(RecordingRepair, LeavesTheOriginalUntilTheRepairedFileIsComplete) {
-  const Folder folder;
-  Recording recording(folder);
-  recording.run(4);
-  recording.close();
-  const std::string cut = folder.read("a.mcap").substr(0, std::filesystem::file_size(folder.file("a.mcap")) * 3 / 4);
-  tandem::test::inject(folder.file(""), {});
-  folder.write("count.mcap.part", cut);
-  EXPECT_EQ(repair_recording(folder.file("count.mcap.part")).kind, RecordingRepair::Kind::kRepaired);
-  const std::size_t calls = tandem::test::file_calls();
-  tandem::test::no_faults();
-  ASSERT_GT(calls, 4u);
-  for (std::size_t at = 0; at < calls; ++at) {
-    SCOPED_TRACE(at);
-    folder.write("b.mcap.part", cut);
-    tandem::test::inject(folder.file(""), {.kind = FileFault::Kind::kNoSpace, .at = at, .lasting = true});
-    const RecordingRepair repair = repair_recording(folder.file("b.mcap.part"));
-    tandem::test::no_faults();
-    const bool done = repair.kind == RecordingRepair::Kind::kRepaired;
-    if (!done) {
-      EXPECT_EQ(folder.read("b.mcap.part"), cut);
-    }
-    EXPECT_EQ(std::filesystem::exists(folder.file("b.mcap")), done) << repair.text;
-    std::filesystem::remove(folder.file("b.mcap"));
-    std::filesystem::remove(folder.file("b.mcap.part"));
-    std::filesystem::remove(folder.file("b.mcap.repair"));
-  }
-}
-
-TEST(RecordingRepair, TouchesNoFileThatIsWritten) {
-  const Folder folder;
-  Recording recording(folder);
-  recording.run(4);
-  recording.settle([&] { return std::filesystem::file_size(folder.file("a.mcap.part")) > 0; });
-  const RecordingRepair repair = repair_recording(folder.file("a.mcap.part"));
-  EXPECT_EQ(repair.kind, RecordingRepair::Kind::kInUse) << repair.text;
-  EXPECT_EQ(recording_leftovers(folder.file("")).size(), 1u);
-  EXPECT_EQ(recording.close().size(), 1u);
-}
-
-TEST(RecordingRepair, NamesForeignFilesAndReplacesNone) {
-  const Folder folder;
-  folder.write("f.mcap.part", "no recording");
-  const RecordingRepair foreign = repair_recording(folder.file("f.mcap.part"));
-  EXPECT_EQ(foreign.kind, RecordingRepair::Kind::kFailed);
-  EXPECT_NE(foreign.text.find("f.mcap.part"), std::string::npos);
-  EXPECT_EQ(repair_recording(folder.file("absent.mcap")).kind, RecordingRepair::Kind::kFailed);
-  EXPECT_EQ(repair_recording(folder.file("")).kind, RecordingRepair::Kind::kFailed);
-  Recording recording(folder);
-  recording.run(4);
-  recording.close();
-  const std::string whole = folder.read("a.mcap");
-  folder.write("c.mcap", "there already");
-  folder.write("c.mcap.part", whole.substr(0, whole.size() / 2));
-  const RecordingRepair repair = repair_recording(folder.file("c.mcap.part"));
-  EXPECT_EQ(repair.kind, RecordingRepair::Kind::kRepaired);
-  EXPECT_EQ(repair.path, folder.file("c-2.mcap"));
-  EXPECT_EQ(folder.read("c.mcap"), "there already");
 }
 
 }  // namespace

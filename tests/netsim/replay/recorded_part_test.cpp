@@ -86,6 +86,25 @@ TEST(RecordedParts, ShowADifferenceInTheRowsOfEveryPart) {
   }
 }
 
+// 1e-12 m are far below the rounding of a server's recording, so that only the digest of the chunk shows them.
+TEST(RecordedParts, ShowADifferenceBelowTheRoundingOfTools) {
+  for (const std::uint32_t tick : {300U, 1003U, 2222U}) {
+    SCOPED_TRACE(tick);
+    for (const bool rounded : {true, false}) {
+      const auto files = PartsRecorder{
+          .round_tools = rounded, .change = [&](server::TickRecord& record) {
+            if (record.running && record.tick == tick) record.tools[0].x[1] += 1e-12;
+          }}.record(lossy("contact", 1), 5);
+      const auto result = replay(files);
+      ASSERT_TRUE(result) << result.error();
+      ASSERT_TRUE(result->difference) << result->error;
+      EXPECT_EQ(result->difference->channel, rounded ? "/tools/digest" : "/tool/measured_cp");
+      EXPECT_GE(result->difference->session_tick, tick);
+      EXPECT_LT(result->difference->session_tick, tick + (rounded ? 500 : 1)) << "the chunk's last tick";
+    }
+  }
+}
+
 TEST(RecordedParts, AreRefusedInAnotherOrderOrWithAForeignOne) {
   const auto files = PartsRecorder{}.record(lossy("contact", 1), 5);
   ASSERT_GE(files.size(), 4u);
