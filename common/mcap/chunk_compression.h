@@ -18,7 +18,7 @@ inline constexpr std::string_view kZstd = "zstd";
 /// those of sessions with few seats, in which a seat's share of a file is largest.
 class Compressor {
  public:
-  /// Largest chunk with more effort [bytes]; it takes 16 ms on a core of 2024.
+  /// Largest chunk with more effort [bytes]; it takes 24 ms on a core of 2024.
   static constexpr std::size_t kSmallChunk = std::size_t{512} << 10;
 
   /// @param level  of zstd for chunks that are not small, 1 (fast) to 19

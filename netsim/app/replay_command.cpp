@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include "common/io/whole_file.h"
 #include "netsim/app/exit_status.h"
 #include "netsim/app/netsim_commands.h"
+#include "netsim/app/part_files.h"
 #include "netsim/app/what_if.h"
 #include "netsim/replay/recording_replay.h"
 #include "proto/recording/lesson_reader.h"
@@ -21,7 +23,8 @@ namespace {
 constexpr std::uintmax_t kReplayedMax = std::uintmax_t{1} << 32;  // [bytes]
 
 struct ReplayArguments {
-  std::string recording, json, what_if;
+  std::vector<std::string> recordings;
+  std::string json, what_if;
 };
 
 int replay_usage_error(const std::string& mistake) { return io::report_usage_error("tandem-netsim replay", mistake); }
@@ -39,15 +42,16 @@ std::vector<std::string> replay_notes(const RecordingReplay& replay) {
     notes.push_back("recorded by another build, which may compute other values: " + build + "; this program is " +
                     std::string(server::build_text()));
   if (replay.other_scene) notes.emplace_back("the inputs were recorded with another scene than the one in the file");
-  if (!replay.complete) notes.emplace_back("the file has no undamaged end; its whole chunks were replayed");
+  if (!replay.complete) notes.emplace_back("a file has no undamaged end; its whole chunks were replayed");
   if (!replay.seats_compared)
     notes.emplace_back(
         "values of seats were not compared: the file has those of the hands themselves, before the network");
   return notes;
 }
 
-std::string replay_json(const RecordingReplay& replay, const std::vector<std::string>& notes) {
+std::string replay_json(const RecordingReplay& replay, std::size_t files, const std::vector<std::string>& notes) {
   nlohmann::ordered_json json{{"session", replay.session},
+                              {"files", files},
                               {"length_s", replay.length_s},
                               {"equal", replay.equal()},
                               {"error", replay.error},
@@ -94,35 +98,56 @@ int write_results(const std::string& text, const std::string& json_text, io::Out
   return exit_status("replay", {json.close()}, good);
 }
 
-int what_if(const ReplayArguments& arguments, const std::string& bytes) {
+int what_if(const ReplayArguments& arguments) {
   const auto other = parse_what_if(arguments.what_if);
   if (!other) return replay_usage_error("--what-if " + other.error());
-  const auto lesson = read_lesson(bytes_of(bytes));
-  if (!lesson) return replay_usage_error(arguments.recording + ": " + lesson.error());
+  if (arguments.recordings.size() > 1)
+    return replay_usage_error("--what-if plays one file, not " + std::to_string(arguments.recordings.size()) +
+                              "; name one part of the session");
+  const std::string& file = arguments.recordings[0];
+  const auto bytes = io::read_whole_file(file, kReplayedMax);
+  if (!bytes) return replay_usage_error(bytes.error());
+  const auto lesson = read_lesson(bytes_of(*bytes));
+  if (!lesson) return replay_usage_error(file + ": " + lesson.error());
   io::OutputFile json;
   if (const auto problem = json.open(arguments.json, true); !problem.empty())
     return replay_usage_error("--json: " + problem);
   const auto result = play_what_if(*lesson, *other);
-  if (!result) return replay_usage_error(arguments.recording + ": " + result.error());
-  return write_results(arguments.recording + ": hands played under " + what_if_text(*result), what_if_json(*result),
-                       json, true);
+  if (!result) return replay_usage_error(file + ": " + result.error());
+  return write_results(file + ": hands played under " + what_if_text(*result), what_if_json(*result), json, true);
+}
+
+/// Replays the files of a recording, one after the other. @return why one cannot be replayed, with its name
+std::expected<RecordingReplay, std::string> replay_parts(const std::vector<RecordedPart>& parts) {
+  RecordingReplayer replayer;
+  for (const RecordedPart& part : parts) {
+    const auto bytes = io::read_whole_file(part.file, kReplayedMax);
+    if (!bytes) return std::unexpected(bytes.error());
+    if (const auto added = replayer.add(bytes_of(*bytes)); !added)
+      return std::unexpected(part.file + ": " + added.error());
+    if (replayer.ended()) break;
+  }
+  return replayer.finish();
 }
 
 int replay_command(const ReplayArguments& arguments) {
   if (const auto problem = arguments.json == "-" ? std::string() : io::OutputFile::problem(arguments.json);
       !arguments.json.empty() && !problem.empty())
     return replay_usage_error("--json: " + problem);
-  if (arguments.json == arguments.recording) return replay_usage_error("--json: is the recording itself");
-  const auto bytes = io::read_whole_file(arguments.recording, kReplayedMax);
-  if (!bytes) return replay_usage_error(bytes.error());
-  if (!arguments.what_if.empty()) return what_if(arguments, *bytes);
-  const auto replay = replay_recording(bytes_of(*bytes));
-  if (!replay) return replay_usage_error(arguments.recording + ": " + replay.error());
+  if (std::ranges::find(arguments.recordings, arguments.json) != arguments.recordings.end())
+    return replay_usage_error("--json: is the recording itself");
+  if (!arguments.what_if.empty()) return what_if(arguments);
+  const auto parts = find_parts(arguments.recordings);
+  if (!parts) return replay_usage_error(parts.error());
+  const auto replay = replay_parts(*parts);
+  if (!replay) return replay_usage_error(replay.error());
   io::OutputFile json;
   if (const auto problem = json.open(arguments.json, true); !problem.empty())
     return replay_usage_error("--json: " + problem);
   const auto notes = replay_notes(*replay);
-  std::string text = arguments.recording + ": " + replay->session + format(", %.1f s: ", replay->length_s);
+  std::string text = parts->front().file + ": " + replay->session;
+  if (parts->size() > 1) text += format(", %zu parts", parts->size());
+  text += format(", %.1f s: ", replay->length_s);
   if (replay->difference)
     text += "differs first at " + difference_text(*replay->difference) + "\n";
   else
@@ -133,7 +158,7 @@ int replay_command(const ReplayArguments& arguments) {
                static_cast<unsigned long long>(replay->counts.datagrams),
                static_cast<unsigned long long>(replay->counts.outputs), static_cast<unsigned long long>(replay->rows));
   for (const std::string& note : notes) text += "note: " + note + "\n";
-  return write_results(text, replay_json(*replay, notes), json, replay->equal());
+  return write_results(text, replay_json(*replay, parts->size(), notes), json, replay->equal());
 }
 
 }  // namespace
@@ -142,20 +167,25 @@ void add_replay_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
       "replay", "Feeds the inputs of a recording into the server's core again: the outputs must be equal, bit for bit.",
       replay_command);
-  command.add_option("FILE.mcap", arguments.recording, "a recording with inputs, of run --record or of a server")
-      .value_name(" ")
+  command
+      .add_option("FILE.mcap", arguments.recordings,
+                  "a recording with inputs, of run --record or of a server: all its parts, one part, or their folder")
+      .value_name("...")
       .required();
   command.add_option("--json", arguments.json, "writes the result; `-`: to standard output").value_name("FILE|-");
   command.add_option("--what-if", arguments.what_if, what_if_help()).value_name("KEY=VALUE,...");
   command.footer(
       "Compares hashes of everything that each seat was sent, and the recorded values of each tick.\n"
       "The first difference is given with tick, channel and both values. A recording of another build may differ, and\n"
-      "a note says so. A cut recording is replayed as far as it is whole.\n"
+      "a note says so. A cut recording is replayed as far as it is whole. A long session has parts, NAME.mcap, "
+      "NAME-2.mcap\n"
+      "and so on: of one part, the others are looked for in its folder. A missing part is an error that names it.\n"
       "--what-if compares nothing: simulated hands of usual impedance follow the recorded motions in virtual time.\n\n"
       "Exit: 0 equal, 1 different or inputs that were lost, 2 wrong arguments, or a file without inputs.\n\n"
       "Examples\n"
       "  tandem-netsim run contact --delay 20 --record lesson.mcap\n"
       "  tandem-netsim replay lesson.mcap\n"
+      "  tandem-netsim replay lab-20261126T134500Z-0f3a9c11.mcap lab-20261126T134500Z-0f3a9c11-2.mcap\n"
       "  tandem-netsim replay lesson.mcap --what-if law=set_position,delay=100");
 }
 

@@ -74,7 +74,7 @@ struct JournalTick {
   std::uint32_t missed = 0;
   server::InputJournal::Settings settings;
   std::uint32_t sent = 0;                          ///< bit i: something was sent to seat i
-  std::array<std::uint32_t, kSeatsMax> outputs{};  ///< OutputDigest::value, of the seats in `sent`
+  std::array<std::uint16_t, kSeatsMax> outputs{};  ///< low bits of OutputDigest::value, of the seats in `sent`
 };
 
 /// The journal lost records after this number of ticks; there is nothing about the session behind it.

@@ -279,7 +279,7 @@ std::optional<JournalEvent> JournalReader::read_tick(Fields& fields) {
   tick.settings = settings_;
   tick.sent = fields.get<std::uint32_t>();
   for (std::size_t i = 0; i < kSeatsMax; ++i)
-    if ((tick.sent >> i & 1) != 0) tick.outputs[i] = fields.get<std::uint32_t>();
+    if ((tick.sent >> i & 1) != 0) tick.outputs[i] = fields.get<std::uint16_t>();
   if (!fields.whole()) return std::nullopt;
   if (tick.sent >> kSeatsMax != 0) {
     fail("outputs of a seat that no scene has");

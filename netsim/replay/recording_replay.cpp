@@ -2,55 +2,17 @@
 
 #include <charconv>
 #include <string>
+#include <utility>
 
 #include "common/mcap/mcap_reader.h"
 #include "common/mcap/message_cursor.h"
-#include "netsim/replay/journal_reader.h"
-#include "netsim/replay/record_values.h"
 #include "proto/recording/event_messages.h"
 #include "proto/recording/lesson_reader.h"
 #include "proto/recording/recording_format.h"
 #include "server/recording/input_unpacker.h"
-#include "server/recording/lesson_record.h"
 
 namespace tandem::netsim {
 namespace {
-
-/// Compares the records of a replay with the rows of a lesson.
-class RowComparison {
- public:
-  /// @param lesson  must outlive this  @param seats  rows have the values of seats as the server knew them
-  RowComparison(const Lesson& lesson, bool seats) : lesson_(&lesson), values_(lesson.scene), seats_(seats) {}
-
-  std::optional<ReplayDifference> operator()(const server::Session& session) {
-    const server::TickRecord& record = session.record();
-    if (!session.recorded() || (last_ ? record.tick <= *last_ : !record.running)) return std::nullopt;
-    last_ = record.tick;
-    while (row_ < lesson_->rows() && lesson_->tick[row_] < record.tick) ++row_;
-    if (row_ >= lesson_->rows() || lesson_->tick[row_] != record.tick) return std::nullopt;  // it was dropped
-    server::fill_record(*lesson_, row_, recorded_);
-    if (!seats_) {
-      recorded_.seats = record.seats;
-      for (std::size_t j = 0; j < lesson_->scene.tools.size(); ++j)
-        if (lesson_->scene.tools[j].remote) recorded_.tools[j] = record.tools[j];
-    }
-    ++rows_;
-    RecordValues::read(lesson_->scene, recorded_, before_);
-    RecordValues::read(lesson_->scene, record, now_);
-    return values_.difference(before_, now_);
-  }
-  [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
-
- private:
-  const Lesson* lesson_;
-  RecordValues values_;
-  bool seats_;
-  std::size_t row_ = 0;
-  std::optional<std::uint32_t> last_;  ///< tick of the newest row, as RecordingWriter decides
-  std::uint64_t rows_ = 0;
-  server::TickRecord recorded_{};
-  std::vector<double> before_, now_;
-};
 
 /// Hash of a scene from 64 hexadecimal digits; nullopt: it is none.
 std::optional<server::Checkpoint::Hash> scene_hash_of(const std::string& hex) {
@@ -63,32 +25,6 @@ std::optional<server::Checkpoint::Hash> scene_hash_of(const std::string& hex) {
     hash[i] = std::byte{byte};
   }
   return hash;
-}
-
-/// Feeds all messages of the inputs. @return whether there are any
-/// @param damage  set if a message is no block of inputs
-bool feed(const mcap::Reader& reader, const Lesson& lesson, SessionReplay& replay, JournalReader& journal,
-          std::string& damage) {
-  mcap::MessageCursor cursor{reader};
-  server::InputUnpacker unpacker{lesson};
-  bool any = false, more = true;
-  const auto apply = [&] {
-    while (auto event = journal.next())
-      if (!replay.apply(*event)) return false;
-    return journal.error().empty();
-  };
-  while (const auto message = more ? cursor.next() : std::nullopt) {
-    const mcap::Channel* const channel = cursor.channel(message->channel);
-    if (channel == nullptr || channel->topic != rec::kInputsTopic) continue;
-    any = true;
-    const auto inputs = rec::decode_inputs(message->data);
-    const auto piece = inputs ? unpacker.unpack(inputs->data) : std::nullopt;
-    if (!piece)
-      damage = "a message of " + std::string(rec::kInputsTopic) + " at tick " + std::to_string(message->sequence) +
-               " is damaged";
-    more = piece && journal.add(*piece) && apply();
-  }
-  return any;
 }
 
 /// Returns why a recording without inputs has none, and what can be replayed instead.
@@ -107,31 +43,91 @@ std::string missing_inputs_text(const Lesson& lesson) {
 
 }  // namespace
 
-std::expected<RecordingReplay, std::string> replay_recording(std::span<const std::byte> file) {
-  const auto lesson = read_lesson(file);
-  if (!lesson) return std::unexpected(lesson.error());
+void RecordingReplayer::begin(const Lesson& lesson) {
+  facts_ = std::make_unique<Lesson>();
+  facts_->scene = lesson.scene;
+  facts_->scene_text = lesson.scene_text;
+  out_.session = lesson.session;
+  out_.complete = true;
+  out_.seats_compared = !lesson.metadata.contains("seats");
+  replay_.emplace(facts_->scene);
+  if (const auto hash = lesson.metadata.find("scene_hash"); hash != lesson.metadata.end())
+    if (const auto bytes = scene_hash_of(hash->second)) replay_->expect_scene(*bytes);
+  const auto tools = lesson.metadata.find(rec::kToolsKey);
+  rows_.emplace(facts_->scene, out_.seats_compared,
+                tools != lesson.metadata.end() && tools->second == rec::kRoundedTools);
+  replay_->compare = [this](const server::Session& session) {
+    return rows_->compare(session, replay_->counts().ticks);
+  };
+}
+
+std::expected<void, std::string> RecordingReplayer::add(std::span<const std::byte> file) {
+  auto read = read_lesson(file);
+  if (!read) return std::unexpected(std::move(read.error()));
+  const auto lesson = std::make_shared<const Lesson>(std::move(*read));
   const auto reader = mcap::Reader::open(file);
   if (!reader) return std::unexpected(reader.error().message);
-  RecordingReplay out;
-  out.session = lesson->session;
-  out.complete = lesson->complete;
-  out.seats_compared = !lesson->metadata.contains("seats");
-  if (lesson->rows() > 0) out.length_s = lesson->tick.back() / lesson->scene.tick_hz;
-  SessionReplay replay{lesson->scene};
-  if (const auto hash = lesson->metadata.find("scene_hash"); hash != lesson->metadata.end())
-    if (const auto bytes = scene_hash_of(hash->second)) replay.expect_scene(*bytes);
-  RowComparison rows{*lesson, out.seats_compared};
-  replay.compare = [&](const server::Session& session) { return rows(session); };
-  JournalReader journal;
-  std::string damage;
-  if (!feed(*reader, *lesson, replay, journal, damage)) return std::unexpected(missing_inputs_text(*lesson));
-  out.difference = replay.difference();
-  out.error = !replay.error().empty() ? replay.error() : !journal.error().empty() ? journal.error() : damage;
-  out.other_builds = replay.other_builds();
-  out.other_scene = !replay.same_scene();
-  out.counts = replay.counts();
-  out.rows = rows.rows();
-  return out;
+  const bool first = facts_ == nullptr;
+  if (first) begin(*lesson);
+  if (lesson->scene_text != facts_->scene_text) return std::unexpected("has another scene than the part before");
+  if (lesson->rows() > 0 && last_row_ && lesson->tick.front() <= *last_row_)
+    return std::unexpected("begins at tick " + std::to_string(lesson->tick.front()) +
+                           ", but the part before ends at tick " + std::to_string(*last_row_));
+  out_.complete &= lesson->complete;
+  if (lesson->rows() > 0) {
+    last_row_ = lesson->tick.back();
+    out_.length_s = *last_row_ / lesson->scene.tick_hz;
+  }
+  if (ended()) return {};
+  out_.difference = rows_->add(lesson);
+  if (!out_.difference && !feed(*reader, *lesson) && first) return std::unexpected(missing_inputs_text(*lesson));
+  return {};
+}
+
+/// Replays all messages of the inputs. @return whether there are any
+bool RecordingReplayer::feed(const mcap::Reader& reader, const Lesson& lesson) {
+  mcap::MessageCursor cursor{reader};
+  server::InputUnpacker unpacker{lesson};
+  bool any = false;
+  const auto apply = [&] {
+    while (auto event = journal_.next())
+      if (!replay_->apply(*event)) return;
+  };
+  while (const auto message = ended() ? std::nullopt : cursor.next()) {
+    const mcap::Channel* const channel = cursor.channel(message->channel);
+    if (channel == nullptr || channel->topic != rec::kInputsTopic) continue;
+    any = true;
+    const auto inputs = rec::decode_inputs(message->data);
+    const auto piece = inputs ? unpacker.unpack(inputs->data) : std::nullopt;
+    if (piece && journal_.add(*piece)) apply();
+    out_.difference = replay_->difference();
+    out_.error = rows_->overflowed() ? "the rows of the recording do not follow its inputs: more than " +
+                                           std::to_string(RowComparison::kWaitingMax) + " ticks have none"
+                 : !replay_->error().empty() ? replay_->error()
+                 : !journal_.error().empty() ? journal_.error()
+                 : !piece                    ? "a message of " + std::string(rec::kInputsTopic) + " at tick " +
+                                std::to_string(message->sequence) + " is damaged"
+                          : "";
+  }
+  return any;
+}
+
+RecordingReplay RecordingReplayer::finish() {
+  out_.other_builds = replay_->other_builds();
+  out_.other_scene = !replay_->same_scene();
+  out_.counts = replay_->counts();
+  out_.rows = rows_->rows();
+  // A cut file may lack the inputs of its last rows.
+  if (!ended() && out_.complete && last_row_ && rows_->last_tick().value_or(0) < *last_row_)
+    out_.error = "the inputs end at tick " + std::to_string(rows_->last_tick().value_or(0)) +
+                 " of the session, but the recording goes on to tick " + std::to_string(*last_row_);
+  return std::move(out_);
+}
+
+std::expected<RecordingReplay, std::string> replay_recording(std::span<const std::byte> file) {
+  RecordingReplayer replayer;
+  if (auto added = replayer.add(file); !added) return std::unexpected(std::move(added.error()));
+  return replayer.finish();
 }
 
 }  // namespace tandem::netsim

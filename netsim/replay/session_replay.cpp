@@ -49,7 +49,8 @@ void SessionReplay::apply_event(const JournalBegin& begin) {
                   : std::make_unique<server::Session>(*scene_, std::move(*slaves), begin.scale);
   session_->attach_journal(digests_, begin.start, server::build_text());
   for (Seat& seat : seats_) seat = {};
-  for (std::size_t i = 0; i < scene_->seats.size(); ++i) seats_[i].output = digests_.outputs(i).value();
+  for (std::size_t i = 0; i < scene_->seats.size(); ++i)
+    seats_[i].output = static_cast<std::uint16_t>(digests_.outputs(i).value());
 }
 
 void SessionReplay::apply_event(const JournalAdmit& admit) {
@@ -135,11 +136,11 @@ void SessionReplay::compare_outputs(const JournalTick& tick) {
     const bool sent = (tick.sent >> i & 1) != 0;
     if (sent) seat.output = tick.outputs[i];
     counts_.outputs += sent ? 1 : 0;
-    const std::uint32_t own = digests_.outputs(i).value();
+    const auto own = static_cast<std::uint16_t>(digests_.outputs(i).value());
     if (own == seat.output) continue;
     differ({.channel = "/" + seat_name(i) + "/outputs",
-            .recorded = format("hash %08x", static_cast<unsigned>(seat.output)),
-            .replayed = format("hash %08x", static_cast<unsigned>(own))});
+            .recorded = format("hash %04x", static_cast<unsigned>(seat.output)),
+            .replayed = format("hash %04x", static_cast<unsigned>(own))});
     return;
   }
 }

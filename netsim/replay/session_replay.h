@@ -55,7 +55,7 @@ class SessionReplay {
  private:
   struct Seat {
     std::optional<ReplayKeys> keys;
-    std::uint32_t output = 0;  ///< newest hash of the recording
+    std::uint16_t output = 0;  ///< newest hash of the recording
   };
 
   void apply_event(const JournalBegin& begin);

@@ -72,6 +72,7 @@ std::string encode_link(const LessonLink& link, const std::string& seat) {
 std::string encode_counts(const CountsMessage& counts) {
   recording::Counts out;
   out.set_ticks(counts.ticks);
+  out.set_tools_digest(counts.tools_digest);
   for (const auto& [topic, count] : counts.channels) {
     recording::Count& row = *out.add_channels();
     row.set_topic(topic);
@@ -130,6 +131,7 @@ std::optional<CountsMessage> decode_counts(std::span<const std::byte> bytes) {
   if (!in) return std::nullopt;
   CountsMessage counts;
   counts.ticks = in->ticks();
+  counts.tools_digest = in->tools_digest();
   for (const recording::Count& row : in->channels()) {
     if (!fit(row.topic())) return std::nullopt;
     counts.channels.push_back({row.topic(), {row.recorded(), row.dropped(), row.never_received()}});

@@ -22,6 +22,7 @@ struct CountsMessage {
   };
   std::uint64_t ticks = 0;
   std::vector<Channel> channels;
+  std::uint64_t tools_digest = 0;  ///< 0: none
 };
 
 [[nodiscard]] std::string encode_event(const LessonEvent& event);

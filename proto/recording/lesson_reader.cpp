@@ -151,6 +151,10 @@ class LessonBuilder {
   bool add_counts(const mcap::Message& message) {
     const auto counts = decode_counts(message.data);
     if (!counts) return false;
+    if (counts->tools_digest != 0) {
+      if (lesson_->digests.size() >= kNotesMax) return false;
+      lesson_->digests.push_back({message.sequence, counts->tools_digest});
+    }
     for (const CountsMessage::Channel& channel : counts->channels) {
       if (lesson_->counts.size() > mcap::kDefinitionsMax) return false;
       lesson_->counts[channel.topic] = channel.count;

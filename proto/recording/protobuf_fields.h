@@ -31,6 +31,14 @@ enum class FieldType : std::uint8_t { kVarint = 0, kFixed64 = 1, kBytes = 2, kFi
   return std::bit_cast<std::uint64_t>(static_cast<double>(to_single(value))) == std::bit_cast<std::uint64_t>(value);
 }
 
+/// Nearest number in single precision whose last 8 bits are 0: 16 significant bits. Infinity and NaN stay.
+[[nodiscard]] inline float to_short(double value) noexcept {
+  const float single = to_single(value);
+  if (!std::isfinite(single)) return single;
+  const auto bits = std::bit_cast<std::uint32_t>(single);
+  return std::bit_cast<float>((bits + 0x7f + (bits >> 8 & 1)) & 0xffffff00);
+}
+
 /// Appends the fields of a message. Numbers of fields are below 16, so a tag has one byte.
 class FieldWriter {
  public:
@@ -53,19 +61,17 @@ class FieldWriter {
   void numbers(unsigned field, std::span<const double> values) {
     bool exact = true;
     for (const double value : values) exact &= is_single(value);
-    const std::size_t singles = 2 + 4 * values.size(), doubles = exact ? 0 : 2 + 8 * values.size();
+    const std::size_t size = 2 + 4 * values.size() + (exact ? 0 : 2 + 8 * values.size());
     tag(field, FieldType::kBytes);
-    put_varint(singles + doubles);
-    tag(1, FieldType::kBytes);
-    put_varint(4 * values.size());
-    for (const double value : values) raw(to_single(value));
+    put_varint(size);
+    singles(1, values);
     if (!exact) packed(2, values);
   }
-  /// Appends a message tandem.recording.Vector3Double.
-  void doubles(unsigned field, const std::array<double, 3>& values) {
+  /// Appends packed values in single precision.
+  void singles(unsigned field, std::span<const double> values) {
     tag(field, FieldType::kBytes);
-    put_varint(2 + sizeof values);
-    packed(1, std::span<const double>(values));
+    put_varint(4 * values.size());
+    for (const double value : values) raw(to_single(value));
   }
   /// Appends packed values of eight bytes each.
   template <class Value>
@@ -121,6 +127,10 @@ struct Field {
   /// Value of a double; 0 for a field of another type.
   [[nodiscard]] double number_value() const noexcept {
     return type == FieldType::kFixed64 ? std::bit_cast<double>(value) : 0;
+  }
+  /// Value of a float; 0 for a field of another type.
+  [[nodiscard]] double single_value() const noexcept {
+    return type == FieldType::kFixed32 ? std::bit_cast<float>(static_cast<std::uint32_t>(value)) : 0;
   }
 };
 

@@ -7,7 +7,7 @@
 namespace tandem::rec {
 
 inline constexpr std::string_view kProfile = "x-tandem";   ///< of the MCAP header
-inline constexpr std::string_view kFormat = "2";           ///< value of `format` in the metadata record `session`
+inline constexpr std::string_view kFormat = "3";           ///< value of `format` in the metadata record `session`
 inline constexpr std::string_view kEncoding = "protobuf";  ///< of schemas and messages
 
 /// Metadata records.
@@ -16,6 +16,18 @@ inline constexpr const char* kSceneRecord = "scene";
 inline constexpr const char* kParticipantsRecord = "participants";
 inline constexpr const char* kRolesRecord = "roles";
 inline constexpr const char* kCountsRecord = "counts";
+inline constexpr const char* kPartRecord = "part";  ///< at the end of a file
+
+/// Keys of the files of one recording: its name and the number of a file from 1 in the record `session`, and in the
+/// record `part` whether no file follows.
+inline constexpr const char* kRecordingKey = "recording";
+inline constexpr const char* kPartKey = "part";
+inline constexpr const char* kPreviousKey = "previous_file";
+inline constexpr const char* kLastKey = "last";
+
+/// Key of the record `session`: the values of tools are rounded.
+inline constexpr const char* kToolsKey = "tools";
+inline constexpr const char* kRoundedTools = "16 significant bits";
 
 /// Keys of the metadata of a channel: its kind, and the seat or tool that it shows.
 inline constexpr const char* kKindKey = "kind";

@@ -1,5 +1,6 @@
 #include "proto/recording/tick_messages.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -66,18 +67,6 @@ bool read_numbers(std::span<const std::byte> bytes, std::array<double, kSize>& o
   return ok && scanner.ok();
 }
 
-/// Reads a message Vector3Double.
-bool read_doubles(std::span<const std::byte> bytes, Triple& out) noexcept {
-  out = {};
-  FieldScanner scanner{bytes};
-  Field field;
-  std::size_t count = 0;
-  bool ok = true;
-  while (scanner.next(field))
-    if (field.number == 1) ok &= read_values(field, out, count);
-  return ok && scanner.ok();
-}
-
 void write_seat_energy(FieldWriter& fields, const SeatEnergySample& sample) {
   fields.packed(1, without_zeros(sample.e_in));
   fields.packed(2, without_zeros(sample.e_out));
@@ -92,13 +81,21 @@ void write_seat_energy(FieldWriter& fields, const SeatEnergySample& sample) {
 
 /// The sum as the server computes it, and as a reader does if the message has no e_p_j.
 double sum_of(const Triple& axes) noexcept { return 0 + axes[0] + axes[1] + axes[2]; }
+/// False for NaN, which may have other bits in another program's sum.
+bool is_sum(double all, const Triple& axes) noexcept {
+  return !std::isnan(all) && std::bit_cast<std::uint64_t>(all) == std::bit_cast<std::uint64_t>(sum_of(axes));
+}
 
 void write_tool_energy(FieldWriter& fields, const ToolEnergySample& sample) {
-  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-  if (bits(sample.mfs_j) != 0) fields.number(1, sample.mfs_j);
-  // A NaN may have other bits in another program's sum.
-  if (std::isnan(sample.e_p_j) || bits(sample.e_p_j) != bits(sum_of(sample.e_p_axis_j))) fields.number(2, sample.e_p_j);
-  fields.packed(3, without_zeros(sample.e_p_axis_j));
+  const bool sum = is_sum(sample.e_p_j, sample.e_p_axis_j);
+  fields.fixed32(1, std::bit_cast<std::uint32_t>(to_single(sample.mfs_j)));
+  if (!sum) fields.fixed32(2, std::bit_cast<std::uint32_t>(to_single(sample.e_p_j)));
+  fields.singles(3, sample.e_p_axis_j);
+  if (is_single(sample.mfs_j) && (sum || is_single(sample.e_p_j)) && std::ranges::all_of(sample.e_p_axis_j, is_single))
+    return;
+  const Triple& axes = sample.e_p_axis_j;
+  const std::array<double, 5> exact{sample.mfs_j, sample.e_p_j, axes[0], axes[1], axes[2]};
+  fields.packed(4, std::span<const double>(exact));
 }
 
 bool read_seat_energy(std::span<const std::byte> bytes, SeatEnergySample& out) noexcept {
@@ -140,19 +137,34 @@ bool read_tool_energy(std::span<const std::byte> bytes, ToolEnergySample& out) n
   out = {};
   FieldScanner scanner{bytes};
   Field field;
-  std::size_t axes = 0;
+  std::size_t axes = 0, doubles = 0;
   std::optional<double> all;
+  std::array<double, 5> exact{};
   bool ok = true;
   while (scanner.next(field)) {
-    if (field.number == 1) out.mfs_j = field.number_value();
-    if (field.number == 2) all = field.number_value();
-    if (field.number == 3) ok &= read_values(field, out.e_p_axis_j, axes);
+    if (field.number == 1) out.mfs_j = field.single_value();
+    if (field.number == 2) all = field.single_value();
+    if (field.number == 3) ok &= read_singles(field, out.e_p_axis_j, axes);
+    if (field.number == 4) ok &= read_values(field, exact, doubles);
   }
   out.e_p_j = all ? *all : sum_of(out.e_p_axis_j);
+  if (doubles > 0) out = {exact[0], exact[1], {exact[2], exact[3], exact[4]}};
   return ok && scanner.ok();
 }
 
 }  // namespace
+
+void round_tool(ToolSample& sample) noexcept {
+  ToolEnergySample& energy = sample.energy;
+  const bool sum = is_sum(energy.e_p_j, energy.e_p_axis_j);
+  for (Triple* values : {&sample.measured_cp, &sample.setpoint_cp, &sample.measured_cf, &sample.servo_cf})
+    for (double& value : *values) value = to_short(value);
+  for (double& value : sample.measured_jp) value = to_short(value);
+  sample.penetration = to_short(sample.penetration);
+  energy.mfs_j = to_single(energy.mfs_j);
+  for (double& value : energy.e_p_axis_j) value = to_single(value);
+  energy.e_p_j = sum ? sum_of(energy.e_p_axis_j) : to_single(energy.e_p_j);
+}
 
 void encode(const SeatSample& sample, std::string& out) {
   out.clear();
@@ -174,15 +186,16 @@ void encode(const SeatSample& sample, std::string& out) {
 void encode(const ToolSample& sample, std::string& out) {
   out.clear();
   FieldWriter fields{out};
-  fields.doubles(1, sample.measured_cp);
-  fields.doubles(2, sample.setpoint_cp);
-  fields.doubles(3, sample.measured_cf);
-  fields.doubles(4, sample.servo_cf);
-  fields.packed(5, without_zeros(sample.measured_jp));
+  fields.numbers(1, sample.measured_cp);
+  fields.numbers(2, sample.setpoint_cp);
+  fields.numbers(3, sample.measured_cf);
+  fields.numbers(4, sample.servo_cf);
+  if (const auto joints = without_zeros(sample.measured_jp); !joints.empty()) fields.numbers(5, joints);
   fields.fixed32(6, sample.sample_tick);
-  fields.number(7, sample.penetration);
+  fields.fixed32(7, std::bit_cast<std::uint32_t>(to_single(sample.penetration)));
   fields.varint(8, sample.braked ? 1 : 0);
   fields.message(9, [&](FieldWriter& energy) { write_tool_energy(energy, sample.energy); });
+  if (!is_single(sample.penetration)) fields.number(10, sample.penetration);
 }
 
 void encode(const AuthoritySample& sample, std::string& out) {
@@ -250,31 +263,31 @@ bool decode(std::span<const std::byte> bytes, SeatSample& out) noexcept {
 
 bool decode(std::span<const std::byte> bytes, ToolSample& out) noexcept {
   out = {};
+  std::optional<double> exact_penetration;
   FieldScanner scanner{bytes};
   Field field;
-  std::size_t joints = 0;
   bool ok = true;
   while (scanner.next(field)) switch (field.number) {
       case 1:
-        ok &= read_doubles(field.bytes, out.measured_cp);
+        ok &= read_numbers(field.bytes, out.measured_cp);
         break;
       case 2:
-        ok &= read_doubles(field.bytes, out.setpoint_cp);
+        ok &= read_numbers(field.bytes, out.setpoint_cp);
         break;
       case 3:
-        ok &= read_doubles(field.bytes, out.measured_cf);
+        ok &= read_numbers(field.bytes, out.measured_cf);
         break;
       case 4:
-        ok &= read_doubles(field.bytes, out.servo_cf);
+        ok &= read_numbers(field.bytes, out.servo_cf);
         break;
       case 5:
-        ok &= read_values(field, out.measured_jp, joints);
+        ok &= read_numbers(field.bytes, out.measured_jp);
         break;
       case 6:
         out.sample_tick = static_cast<std::uint32_t>(field.value);
         break;
       case 7:
-        out.penetration = field.number_value();
+        out.penetration = field.single_value();
         break;
       case 8:
         out.braked = field.value != 0;
@@ -282,9 +295,13 @@ bool decode(std::span<const std::byte> bytes, ToolSample& out) noexcept {
       case 9:
         ok &= read_tool_energy(field.bytes, out.energy);
         break;
+      case 10:
+        exact_penetration = field.number_value();
+        break;
       default:
         break;
     }
+  if (exact_penetration) out.penetration = *exact_penetration;
   return ok && scanner.ok();
 }
 

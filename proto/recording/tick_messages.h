@@ -61,6 +61,10 @@ struct SessionSample {
   friend bool operator==(const SessionSample&, const SessionSample&) = default;
 };
 
+/// Rounds the numbers of a tool: energies to single precision, others to the nearest of 16 significant bits, with a
+/// relative error of at most 2^-17 (0.8 um at 100 mm), far below the steps of encoders. E_p stays the sum of its axes.
+void round_tool(ToolSample& sample) noexcept;
+
 /// Replace `out` by the message. Axes behind the last one that is not 0 are omitted.
 void encode(const SeatSample& sample, std::string& out);
 void encode(const ToolSample& sample, std::string& out);

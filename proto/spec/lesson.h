@@ -94,6 +94,12 @@ struct LessonCount {
   std::uint64_t recorded = 0, dropped = 0, never_received = 0;
 };
 
+/// Digest of the values of tools in the rows of a chunk, before they were rounded.
+struct LessonDigest {
+  std::uint32_t tick = 0;  ///< last row of the chunk
+  std::uint64_t tools = 0;
+};
+
 struct Lesson {
   std::string session;     ///< name of the session
   std::string scene_text;  ///< effective scene in text format, from which `scene` was read
@@ -111,6 +117,7 @@ struct Lesson {
   std::vector<LessonMark> marks;
   std::vector<LessonSheet> sheets;
   std::map<std::string, LessonCount> counts;  ///< by channel topic
+  std::vector<LessonDigest> digests;          ///< in the order of ticks
   bool complete = true;                       ///< false: the file has no end, or was repaired
 
   /// Number of rows.

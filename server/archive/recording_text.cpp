@@ -72,7 +72,10 @@ std::string recordings_text(const std::vector<RecordingRow>& rows) {
     bytes += row.bytes;
     text += format("%-*s  %16s  %9.1f s  %10s  %-*s  %s%s\n", w, file.c_str(), time_text(row.begun_ns()).c_str(),
                    row.summary.duration_s, size_text(row.bytes).c_str(), n, sanitize(row.summary.session, 32).c_str(),
-                   persons_text(row.summary).c_str(), row.summary.complete ? "" : "  (cut, damaged or repaired)");
+                   persons_text(row.summary).c_str(),
+                   row.summary.rows == 0  ? "  (no tick: the session did not run)"
+                   : row.summary.complete ? ""
+                                          : "  (cut, damaged or repaired)");
   }
   if (readable > 0)
     text.insert(0, format("%-*s  %16s  %11s  %10s  %-*s  %s\n", w, "file", "begin (UTC)", "duration", "size", n,

@@ -75,7 +75,7 @@ std::optional<std::size_t> record_size(std::span<const std::byte> bytes) {
     case InputRecord::kTick: {
       constexpr std::size_t kMask = 1 + 8 + 4;
       if (bytes.size() < kMask + 4) return std::nullopt;
-      size = kMask + 4 + 4 * static_cast<std::size_t>(std::popcount(load(&bytes[kMask], 4)));
+      size = kMask + 4 + 2 * static_cast<std::size_t>(std::popcount(load(&bytes[kMask], 4)));
       break;
     }
     case InputRecord::kSettings:

@@ -14,7 +14,8 @@ struct RecordingInfo {
   /// Version, commit, seed, hash of the scene, law, clock and others, by name. The names `session`, `format` and
   /// `start_unix_ns` are the writer's.
   std::map<std::string, std::string> metadata;
-  std::int64_t start_unix_ns = 0;    ///< wall clock at TickRecord::time_ns = 0, not negative; 0: not known
+  std::int64_t start_unix_ns = 0;  ///< wall clock at TickRecord::time_ns = 0, not negative; 0: not known
+  bool round_tools = false;        ///< values of tools (rec::round_tool), with a digest of the exact ones for a replay
   std::vector<std::string> persons;  ///< participant of each seat, in the order of the scene; empty: not known
 };
 

@@ -9,6 +9,7 @@
 #include "proto/recording/event_messages.h"
 #include "proto/recording/recording_format.h"
 #include "server/recording/build_identity.h"
+#include "server/recording/tool_sample.h"
 
 namespace tandem::server {
 namespace {
@@ -31,6 +32,7 @@ mcap::TextMap session_metadata(const SceneSpec& scene, const RecordingInfo& info
   values["start_unix_ns"] = std::to_string(info.start_unix_ns);
   values["clock"] = kClock;
   values["tick_hz"] = std::to_string(scene.tick_hz);
+  if (info.round_tools) values[rec::kToolsKey] = rec::kRoundedTools;
   return values;
 }
 
@@ -72,18 +74,6 @@ rec::SeatSample sample_of(const SeatRecord& r) {
           .energy = {r.e_in, r.e_out, r.dissipated_j, r.refused_j, r.margin_min_j, r.delivered_j}};
 }
 
-rec::ToolSample sample_of(const ToolRecord& r) {
-  return {.measured_cp = r.x,
-          .setpoint_cp = r.x_tool,
-          .measured_cf = r.f_env,
-          .servo_cf = r.f_cmd,
-          .measured_jp = r.q,
-          .sample_tick = r.sample_tick,
-          .penetration = r.penetration,
-          .braked = r.held,
-          .energy = {r.mfs_j, r.e_p_j, r.e_p_axis_j}};
-}
-
 }  // namespace
 
 RecordingWriter::RecordingWriter(const SceneSpec& scene, const RecordingInfo& info)
@@ -94,7 +84,8 @@ RecordingWriter::RecordingWriter(const SceneSpec& scene, const RecordingInfo& in
       channels_(scene, file_),
       notes_(add_note_channels(file_)),
       view_(scene, file_),
-      inputs_(scene) {
+      inputs_(scene),
+      round_tools_(info.round_tools) {
   file_.add_metadata({rec::kSessionRecord, session_metadata(scene, info)});
   file_.add_metadata({rec::kSceneRecord, scene_metadata(scene, info)});
   mcap::TextMap roles;
@@ -125,6 +116,7 @@ void RecordingWriter::add(const TickRecord& record) {
   if (account_.begun() ? record.tick <= account_.last_tick() : !record.running) return;
   if (record.time_ns < time_ns_) flush();  // another session of this server: chunks are in the order of time
   begin_message(record.time_ns);
+  content_ = true;
   time_ns_ = record.time_ns;
   account_.add(record.tick);
   inputs_.add_row(record);
@@ -145,9 +137,12 @@ void RecordingWriter::add(const TickRecord& record) {
     add_if_new(channels_.seat(i));
   }
   for (std::size_t j = 0; j < scene_->tools.size(); ++j) {
-    encode(sample_of(record.tools[j]), message_);
+    rec::ToolSample sample = sample_of(record.tools[j]);
+    if (round_tools_) round_tool(sample);
+    encode(sample, message_);
     add_always(channels_.tool(j));
   }
+  if (round_tools_) digest_.add(record, scene_->tools.size());
   view_.add(record, log_time(time_ns_), file_);
 }
 
@@ -190,12 +185,14 @@ void RecordingWriter::add_event(const LessonEvent& event) {
 
 void RecordingWriter::add_mark(const LessonMark& mark) {
   begin_message(time_ns_);
+  content_ = true;
   note(notes_.marks, rec::encode_mark(mark));
   view_.log(rec::LogLevel::kInfo, mark.by, "mark: " + mark.text, account_.last_tick(), log_time(time_ns_), file_);
 }
 
 void RecordingWriter::add_sheet(const LessonSheet& sheet) {
   begin_message(time_ns_);
+  content_ = true;
   note(notes_.sheets, rec::encode_sheet(sheet));
 }
 
@@ -209,6 +206,7 @@ void RecordingWriter::flush() {
   write_inputs(false);
   rec::CountsMessage counts;
   counts.ticks = account_.ticks();
+  counts.tools_digest = digest_.take();
   for (const TickChannels::Channel& channel : channels_.all())
     counts.channels.push_back({channel.topic, account_.of(channel.recorded)});
   note(notes_.counts, rec::encode_counts(counts));
@@ -218,7 +216,7 @@ void RecordingWriter::flush() {
   view_.begin_chunk();
 }
 
-void RecordingWriter::finish() {
+void RecordingWriter::finish(bool last) {
   account_.finish();
   if (inputs_.size() > 0) begin_message(time_ns_);
   write_inputs(true);
@@ -230,6 +228,7 @@ void RecordingWriter::finish() {
                             " never_received " + std::to_string(count.never_received);
   }
   file_.add_metadata({rec::kCountsRecord, std::move(counts)});
+  file_.add_metadata({rec::kPartRecord, {{rec::kLastKey, last ? "true" : "false"}}});
   file_.finish();
 }
 

@@ -12,6 +12,7 @@
 #include "server/recording/input_packer.h"
 #include "server/recording/recording_channels.h"
 #include "server/recording/recording_info.h"
+#include "server/recording/tool_digest.h"
 #include "server/recording/view_channels.h"
 #include "server/report/tick_record.h"
 
@@ -53,7 +54,13 @@ class RecordingWriter {
   /// Ends the open chunk now, so that `take` returns everything so far.
   void flush();
   /// Ends the file: last chunk, counts, summary, footer. Nothing may follow but `take`.
-  void finish();
+  /// @param last  no other file continues the recording
+  void finish(bool last = true);
+
+  /// The file has a tick, a mark or a sheet; without, it has only how the session waited.
+  [[nodiscard]] bool has_content() const noexcept { return content_; }
+  /// The open chunk has messages; inputs alone, which wait to be packed, are none.
+  [[nodiscard]] bool has_open_messages() const noexcept { return file_.open_bytes() > 0; }
 
   /// Size of the file without the open chunk [bytes].
   [[nodiscard]] std::uint64_t size() const noexcept { return file_.size(); }
@@ -78,7 +85,10 @@ class RecordingWriter {
   ViewChannels view_;
   InputPacker inputs_;
   TickAccount account_;
+  bool round_tools_;
+  ToolDigest digest_;
   std::int64_t time_ns_ = 0;  ///< of the last record
+  bool content_ = false;
   std::optional<std::int64_t> chunk_begin_;
   std::optional<rec::SessionSample> session_;
   std::string message_;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -16,9 +17,10 @@ namespace tandem::server {
 
 /// Bits of the numbers of a seat's record that a datagram of the seat may repeat, as datagrams carry them.
 struct SeatValues {
-  static constexpr std::size_t kWords = 32, kLongs = 2 * kAxesMax;
+  static constexpr std::size_t kWords = 32, kLongs = std::size_t{4} * 3 + 3 * kAxesMax;
   std::array<std::uint32_t, kWords> words{};  ///< numbers in single precision
-  std::array<std::uint64_t, kLongs> longs{};  ///< energies e_in, then e_out [nJ]
+  /// Energies e_in, e_out [nJ]; then numbers in double precision: x, v, f_cmd, f_out, q. NaN is 0.
+  std::array<std::uint64_t, kLongs> longs{};
 };
 
 /// @param scale  motion scale of the seat: datagrams have the device's own motion and forces too
@@ -38,6 +40,13 @@ struct SeatValues {
     out.longs[a] = r.e_in[a];
     out.longs[kAxesMax + a] = r.e_out[a];
   }
+  at = 2 * kAxesMax;
+  const auto put_long = [&](double value) {
+    out.longs[at++] = std::isnan(value) ? 0 : std::bit_cast<std::uint64_t>(value);
+  };
+  for (const Triple* triple : {&r.x, &r.v, &r.f_cmd, &r.f_out})
+    for (const double value : *triple) put_long(value);
+  for (const double value : r.q) put_long(value);
   return out;
 }
 

@@ -16,7 +16,7 @@ namespace tandem::server {
 /// /view/scene, /tf and a pose of every seat and tool at 60 Hz, and /log.
 class ViewChannels {
  public:
-  static constexpr double kHz = 60;
+  static constexpr double kHz = 30;
 
   /// Adds schemas and channels to the file. @param scene  outlives this object
   ViewChannels(const SceneSpec& scene, mcap::Writer& file);

@@ -248,7 +248,7 @@ void InputJournal::end_tick() noexcept {
   if (!in_tick_) return;
   in_tick_ = false;
   constexpr std::size_t kHead = 1 + sizeof(std::int64_t) + 2 * sizeof(std::uint32_t);
-  std::byte* const memory = open(kHead + seats_n_ * sizeof(std::uint32_t));
+  std::byte* const memory = open(kHead + seats_n_ * sizeof(std::uint16_t));
   if (memory == nullptr) [[unlikely]]
     return write_overflow();
   Cursor record{memory, InputRecord::kTick};
@@ -262,7 +262,7 @@ void InputJournal::end_tick() noexcept {
     if (!digest.sent()) continue;
     digest.clear_sent();
     sent |= 1U << i;
-    record.put(digest.value());
+    record.put(static_cast<std::uint16_t>(digest.value()));
   }
   std::memcpy(mask, &sent, sizeof sent);
   ring_.commit(static_cast<std::size_t>(record.at() - memory));

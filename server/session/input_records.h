@@ -23,17 +23,18 @@
 ///   kRemove         u8 seat, u8 wire::CloseReason
 ///   kEnd            u8 wire::CloseReason
 ///   kContacts       u8 tool whose surfaces come from a source outside of the scene
-///   kTick           i64 dt, u32 missed ticks, u32 n, bit i for each seat to which this tick sent, u32 hash for each of
+///   kTick           i64 dt, u32 missed ticks, u32 n, bit i for each seat to which this tick sent, u16 hash for each of
 ///                   them in order
 ///   kSettings       u8 ShedLevel, u8 flags (1: overloaded, 2: telemetry at every tick), u32 record interval [ticks];
 ///                   of the next kTick
 ///   kOverflow       u64 number of kTick records before the journal lost one
 ///
 /// dt is the time since the last record with a dt, since the time in kBegin for the first [ns]. Addresses are keyed
-/// hashes. A hash of outputs covers everything that the seat was sent since kBegin (OutputDigest).
+/// hashes. A hash of outputs covers everything that the seat was sent since kBegin (the low 16 bits of
+/// OutputDigest::value): outputs that differ once differ in the hashes of all later ticks, but for one in 2^16.
 namespace tandem::server {
 
-inline constexpr std::uint8_t kInputJournalVersion = 1;
+inline constexpr std::uint8_t kInputJournalVersion = 2;
 
 enum class InputRecord : std::uint8_t {
   kBegin = 1,

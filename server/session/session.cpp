@@ -71,6 +71,10 @@ bool Session::attach_journal(InputJournal& journal, Time start, std::string_view
   return true;
 }
 
+bool Session::idle() const noexcept {
+  return std::ranges::none_of(seats_, &SeatEndpoint::taken) && !watchers_.any() && !link_test_peers_.any();
+}
+
 void Session::end(wire::CloseReason why) noexcept {
   if (journal_ != nullptr && !participants_.closing().session.begun()) journal_->end(why);
   participants_.end(why);

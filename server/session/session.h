@@ -105,6 +105,8 @@ class Session {
   /// Writes the next datagram into `buffer`. @return its destination and size; nullopt when nothing is due
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::span<std::byte> buffer) noexcept;
 
+  /// No client has a seat, watches, or tests its link.
+  [[nodiscard]] bool idle() const noexcept;
   /// All clients have received CLOSE: no tick does anything any more.
   [[nodiscard]] bool over() const noexcept { return participants_.closing().session.over(); }
   [[nodiscard]] wire::SessionState state() const noexcept { return lifecycle_.state(); }

@@ -70,6 +70,7 @@ int measure() {
   server::RecordingInfo info;
   info.session = "bench";
   info.scene_text = scene_file_text(setup);
+  info.round_tools = true;
   Time now{std::chrono::hours(1)};
   auto files = server::RecordingFiles::open(folder + "/a.mcap", setup, info, {}, now);
   if (!files) return 1;

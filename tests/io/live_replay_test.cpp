@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <thread>
 
@@ -131,6 +132,69 @@ TEST(LiveReplay, GivesStopPauseHandoverAndARejoinedSeatBitForBit) {
     EXPECT_GE(events_of(lesson, what), least) << what;
   const Json result = expect_equal(folder.file("a.mcap"));
   EXPECT_GT(result.value("rows", 0), 7000);
+}
+
+// A session that waits, runs, waits for its participants again, and goes on: in several files, replayed together.
+TEST(LiveReplay, GivesTheFilesOfALongSessionBitForBit) {
+  const Folder folder, films, others;
+  const std::string config = folder.write(
+      "s.textproto", "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + films.file("") +
+                         "\" recording { file_minutes: 0.1 }\n"
+                         "session { name: \"lab\" scene: \"free_motion\" duration_s: 15 restart: false }\n"
+                         "session { name: \"unused\" scene: \"one_axis\" duration_s: 15 restart: false }\n");
+  Process host({TANDEM_SERVER, "serve", config});
+  ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
+  std::this_thread::sleep_for(7s);  // it waits for longer than a file is
+  Process proxy = lossy(address_of(host), 3);
+  const std::string address = address_of(proxy);
+  Process trainer = client(address, "trainer", {"--session", "lab"});
+  {
+    Process trainee = client(address, "trainee", {"--session", "lab"});
+    ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+    std::this_thread::sleep_for(2s);
+    trainee.signal(SIGINT);
+    EXPECT_TRUE(trainee.wait()) << trainee.err();
+  }
+  Process again = client(address, "trainee", {"--session", "lab"});
+  EXPECT_TRUE(trainer.wait()) << trainer.err();
+  EXPECT_TRUE(again.wait()) << again.err();
+  host.signal(SIGINT);
+  EXPECT_TRUE(host.wait()) << host.err();
+  std::vector<std::string> files;
+  std::uint64_t rows = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(films.file(""))) {
+    files.push_back(entry.path().string());
+    rows += lesson_in(films, entry.path().filename().string()).rows();
+  }
+  std::ranges::sort(files);
+  ASSERT_GE(files.size(), 3u) << "15 s in files of 6 s";
+  for (const std::string& file : files) EXPECT_NE(file.find("/lab-"), std::string::npos) << "never ran: " << file;
+  Json result = expect_equal(files[2]);
+  EXPECT_EQ(result["files"], files.size());
+  EXPECT_EQ(result["rows"], rows);
+  EXPECT_GT(rows, 13'000u);
+  expect_equal(films.file(""));
+  Words words{"replay", "--json", "-"};
+  words.insert(words.end(), files.rbegin(), files.rend());
+  const Ended named = netsim(words);
+  EXPECT_EQ(named.code, 0) << named.out << named.err;
+  EXPECT_EQ(Json::parse(named.out)["rows"], rows);
+  for (std::size_t missing = 0; missing < files.size(); ++missing) {
+    SCOPED_TRACE(missing);
+    std::filesystem::rename(files[missing], others.file("away.mcap"));
+    const Ended part = netsim({"replay", files[missing == 0 ? 1 : 0]});
+    std::filesystem::rename(others.file("away.mcap"), files[missing]);
+    EXPECT_EQ(part.code, 2) << part.out;
+    const auto listed = part.err.find("part ");
+    EXPECT_NE(listed, std::string::npos) << part.err;
+    EXPECT_NE(part.err.find(" of the recording is missing"), std::string::npos) << part.err;
+  }
+  std::filesystem::copy_file(files[0], films.file("copy.mcap"));
+  const Ended copied = netsim({"replay", files[1]});
+  EXPECT_EQ(copied.code, 2);
+  EXPECT_NE(copied.err.find("are both part "), std::string::npos) << copied.err;
+  EXPECT_EQ(netsim({"replay", others.file("")}).code, 2) << "an empty folder";
+  EXPECT_EQ(netsim({"replay", files[0], files[1], "--what-if", "delay=10"}).code, 2) << "one file is played";
 }
 
 TEST(LiveReplay, PlaysAWhatIfWithASeatThatWasNeverTaken) {

@@ -124,6 +124,7 @@ class RemoteRecording {
     line_.clear();
     const auto problems = files_.take_problems();
     for (const std::string& path : files_.take_completed()) io::print(stdout, path + " is complete\n");
+    for (const std::string& path : files_.take_removed()) io::print(stdout, path + " was removed: no tick arrived\n");
     for (const std::string& problem : problems) record_trouble(problem);
     io::print(stdout, format("%s: %llu ticks recorded, %llu lost or dropped\n", why.c_str(),
                              static_cast<unsigned long long>(files_.recorded()),

@@ -49,7 +49,8 @@ void LiveSession::draw_path_tokens() noexcept {
 
 SessionStatus LiveSession::status() const { return published_.read(); }
 
-void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
+Time LiveSession::tick(Time now, Time due, std::uint32_t missed, const MachineStatus& machine) noexcept {
+  if (session_.idle()) now = due;
   session_.lifecycle().set_load_state(machine.load_state);
   const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
   const bool every_tick = reported_ || recording_.load(std::memory_order_relaxed);
@@ -76,6 +77,7 @@ void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& mach
   const std::size_t seat = ticks_ % every;
   if (seat < scene_->seats.size()) update_seat_status(seat, now);
   if (++ticks_ % every == 0) publish(now, machine);
+  return now;
 }
 
 void LiveSession::finish(Time now, const MachineStatus& machine) noexcept {

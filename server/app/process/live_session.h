@@ -65,7 +65,11 @@ class LiveSession {
 
   // ---- The shard's thread ----
   [[nodiscard]] Session& session() noexcept { return session_; }
-  void tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept;
+  /// Runs a tick. A session without clients gets the time at which the tick was due: these times are evenly spaced, so
+  /// that a recording of its inputs takes no space.
+  /// @param due  time of the tick, at most one period before `now`
+  /// @return time that the session got, with which its datagrams are to be polled
+  Time tick(Time now, Time due, std::uint32_t missed, const MachineStatus& machine) noexcept;
   /// Publishes the final status and checkpoint. The shard does not access the session afterwards.
   void finish(Time now, const MachineStatus& machine) noexcept;
 

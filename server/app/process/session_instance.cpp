@@ -144,6 +144,7 @@ std::string SessionInstance::start_recording() {
                    {"law", std::string(setup::law_name(scene.channel.law))},
                    {"scene_hash", to_hex(scene_hash(scene))},
                    {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
+  info.round_tools = true;
   info.persons = desk_->persons();
   auto started = LiveRecording::start(
       recording_path(wanted.target, options_->name, id.substr(0, 8), auth::wall_seconds()), *live_session_, info,

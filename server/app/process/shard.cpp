@@ -78,7 +78,7 @@ void Shard::run() noexcept {
     now = io::monotonic_now();
     const std::uint32_t missed = load_.begin_tick(now, now - due, serving());
     const Duration before = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
-    tick(now, missed);
+    tick(now, due + missed * period_, missed);
     load_.end_tick(now, before, io::read_clock(CLOCK_THREAD_CPUTIME_ID));
     due += (missed + 1) * period_;
     ticks_ += missed + 1;
@@ -183,12 +183,11 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
   }
 }
 
-void Shard::tick(Time now, std::uint32_t missed) noexcept {
+void Shard::tick(Time now, Time due, std::uint32_t missed) noexcept {
   bool ended = false;
   for (LiveSession*& live : sessions_) {
     if (live == nullptr) continue;
-    live->tick(now, missed, load_.machine());
-    send(now, live->session());
+    send(live->tick(now, due, missed, load_.machine()), live->session());
     if (!live->session().over()) continue;
     live->finish(now, load_.machine());
     live = nullptr;

@@ -56,7 +56,7 @@ class Shard {
   void execute_requests(Time now) noexcept;
   void execute(Time now, ShardRequest& request) noexcept;
   void stagger(LiveSession& session) noexcept;
-  void tick(Time now, std::uint32_t missed) noexcept;
+  void tick(Time now, Time due, std::uint32_t missed) noexcept;
   void send(Time now, Session& session) noexcept;
   void flush() noexcept;
 

@@ -141,6 +141,8 @@ void LiveRecording::report() {
   cpu_ns_.store((io::read_clock(CLOCK_THREAD_CPUTIME_ID) + files_->disk_cpu()).count(), std::memory_order_relaxed);
   static_cast<void>(files_->closed());
   for (const std::string& path : files_->take_completed()) say(false, "recording_file", path + " is complete");
+  for (const std::string& path : files_->take_removed())
+    say(false, "recording_file", path + " was removed: the session never ran, and nothing was noted");
   for (std::string& problem : files_->take_problems()) say(true, "recording_trouble", std::move(problem));
   const std::string& trouble = files_->trouble();
   if (trouble != trouble_) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/base/format.h"
+#include "hal/sim/hand.h"
 
 namespace tandem::server {
 namespace {
@@ -14,18 +15,22 @@ bool finite(const LessonTriple& x) {
   return std::ranges::all_of(x, [](double v) { return std::isfinite(v); });
 }
 
-/// Samples of a seat at the session time at which its client took them; only those behind the one before.
+/// Samples of a seat at the session time at which its client took them; only those behind the one before. The hand that
+/// plays them is a spring: its rest position is the recorded tip moved against the force on the hand by F / k, so that
+/// it holds the tip where it was recorded.
 std::string motion_csv(const Lesson& lesson, std::size_t seat) {
   const LessonSeat& in = lesson.seats[seat];
   const double scale = lesson.scene.seats[seat].motion_scale;
+  const double compliance = scale / hal::sim::impedance_of(HandModel::kRecorded).k;
   std::string csv = "t_s[s],px[m],py[m],pz[m]\n";
   std::optional<std::uint32_t> last;
   std::size_t points = 0;
   for (std::size_t k = 0; k < lesson.rows(); ++k) {
-    if (!finite(in.x[k]) || (last && in.sample_tick[k] <= *last)) continue;
+    if (!finite(in.x[k]) || !finite(in.f[k]) || (last && in.sample_tick[k] <= *last)) continue;
     last = in.sample_tick[k];
-    csv += format("%.6f,%.9g,%.9g,%.9g\n", in.sample_tick[k] / lesson.scene.tick_hz, in.x[k][0] / scale,
-                  in.x[k][1] / scale, in.x[k][2] / scale);
+    csv += format("%.6f", in.sample_tick[k] / lesson.scene.tick_hz);
+    for (std::size_t a = 0; a < 3; ++a) csv += format(",%.9g", in.x[k][a] / scale - in.f[k][a] * compliance);
+    csv += '\n';
     ++points;
   }
   return points < 2 ? std::string() : csv;

@@ -11,7 +11,9 @@ namespace tandem::server {
 /// A recorded hand that moves a seat again.
 struct ReplayedHand {
   std::string seat;  ///< name
-  std::string csv;   ///< `t_s[s],px[m],py[m],pz[m]`: session time, tip of the hand in the frame of the scene
+  /// `t_s[s],px[m],py[m],pz[m]`: session time, rest position of the hand's spring in the frame of the scene. The spring
+  /// (HandModel::kRecorded) then holds the tip where it was recorded, against the recorded force.
+  std::string csv;
 };
 /// A recorded lesson as a live session: its scene, and the hands that play it. Couplings, authority and forces come
 /// from the session as always; the recording moves hands only.

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include "common/base/format.h"
 #include "common/io/output_file.h"
+#include "proto/recording/recording_format.h"
 
 namespace tandem::server {
 namespace {
@@ -18,6 +20,7 @@ constexpr double kBurstS = 10;         // [s] over which the rate is judged
 constexpr unsigned kNumberMax = 9999;  // of the files of one name
 constexpr Duration kRetryOpen = 10s;
 constexpr Duration kQuiet = 500ms;  // without a whole chunk, until an open one is ended
+constexpr Duration kIdle = 30s;     // likewise, while it has inputs only: nothing happens in the session
 constexpr const char* kSuffix = ".mcap";
 
 std::string disk_text(int error) {
@@ -25,6 +28,8 @@ std::string disk_text(int error) {
 }
 
 double mib(double bytes) { return bytes / (1 << 20); }
+
+std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 }  // namespace
 
@@ -34,7 +39,8 @@ std::expected<std::unique_ptr<RecordingFiles>, std::string> RecordingFiles::open
                                                                                  const RecordingLimits& limits,
                                                                                  Time now) {
   std::unique_ptr<RecordingFiles> made{new RecordingFiles(path, scene, info, limits)};
-  if (std::string problem = made->open_next(now); !problem.empty()) return std::unexpected(std::move(problem));
+  made->now_ = now;
+  if (std::string problem = made->open_next(); !problem.empty()) return std::unexpected(std::move(problem));
   return made;
 }
 
@@ -46,7 +52,7 @@ RecordingFiles::RecordingFiles(std::string path, const SceneSpec& scene, Recordi
       limits_(limits),
       budget_(limits.bytes_per_s * kBurstS) {}
 
-std::string RecordingFiles::open_next(Time now) {
+std::string RecordingFiles::open_next() {
   unsigned number = number_ + 1;
   std::string path;
   // The name of the first file was free when it was chosen; later ones may meet files of earlier recordings.
@@ -57,19 +63,22 @@ std::string RecordingFiles::open_next(Time now) {
   auto file = io::AppendFile::create(path);
   if (!file) return file.error();
   if (file_) {
-    info_.metadata["previous_file"] = file_->path().substr(file_->path().rfind('/') + 1);
-    end_file();
+    info_.metadata[rec::kPreviousKey] = base_name(file_->path());
+    end_file(false);
   }
   file_ = std::move(*file);
   number_ = number;
-  file_began_ = now;
+  info_.metadata[rec::kRecordingKey] = base_name(stem_);
+  info_.metadata[rec::kPartKey] = std::to_string(++part_);
+  file_began_.reset();
   if (begun()) writer_ = std::make_unique<RecordingWriter>(*scene_, info_);
   return {};
 }
 
-void RecordingFiles::end_file() {
+void RecordingFiles::end_file(bool last) {
   if (!begun()) begin(0);
-  writer_->finish();
+  empty_ = last && part_ == 1 && !writer_->has_content() && lost() == 0;
+  writer_->finish(last);
   static_cast<void>(pass_on());
   file_->begin_close();
   total_bytes_ += std::exchange(file_bytes_, 0);
@@ -96,13 +105,32 @@ void RecordingFiles::add(const TickRecord& record) {
     ++gap_;
     return writer_->count_dropped(1);
   }
+  if (full()) change_file();
   if (gap_ > 0) note_gap();
   writer_->add(record);
+  if (!file_began_) file_began_ = now_;
   ++recorded_;
+}
+
+bool RecordingFiles::full() const {
+  return file_bytes_ >= limits_.file_bytes || (file_began_ && seconds(now_ - *file_began_) >= limits_.file_s);
+}
+
+void RecordingFiles::change_file() {
+  if (now_ < retry_at_) return;
+  std::string error = open_next();
+  if (error.empty()) {
+    open_error_.clear();
+    return;
+  }
+  retry_at_ = now_ + kRetryOpen;  // the present file goes on meanwhile
+  if (error != open_error_) problems_.push_back("no further file can be made, so this one goes on: " + error);
+  open_error_ = std::move(error);
 }
 
 void RecordingFiles::add_inputs(std::span<const std::byte> piece) {
   if (trouble_.empty() && !closing_) {
+    if (file_bytes_ >= limits_.file_bytes) change_file();
     writer_->add_inputs(piece);
   } else {
     lost_inputs_ += piece.size();
@@ -120,12 +148,14 @@ bool RecordingFiles::pass_on() {
 
 void RecordingFiles::step(Time now) {
   if (closing_ || !begun()) return;
+  now_ = now;
   // The writer ends a chunk with the first message behind it. While none comes, its last chunk ends here.
   if (pass_on()) {
     passed_on_ = now;
-  } else if (now - passed_on_ > kQuiet) {
+  } else if (now - passed_on_ > (writer_->has_open_messages() ? kQuiet : kIdle)) {
     writer_->flush();
     static_cast<void>(pass_on());
+    passed_on_ = now;
   }
   budget_ =
       std::min(budget_ + limits_.bytes_per_s * std::max(0.0, seconds(now - budget_at_)), limits_.bytes_per_s * kBurstS);
@@ -136,16 +166,6 @@ void RecordingFiles::step(Time now) {
                                mib(static_cast<double>(limits_.total_bytes))));
     return begin_close();
   }
-  const bool full = file_bytes_ >= limits_.file_bytes || seconds(now - file_began_) >= limits_.file_s;
-  if (!full || now < retry_at_) return;
-  std::string error = open_next(now);
-  if (error.empty()) {
-    open_error_.clear();
-    return;
-  }
-  retry_at_ = now + kRetryOpen;  // the present file goes on meanwhile
-  if (error != open_error_) problems_.push_back("no further file can be made, so this one goes on: " + error);
-  open_error_ = std::move(error);
 }
 
 void RecordingFiles::update_trouble() {
@@ -169,15 +189,22 @@ void RecordingFiles::note_gap() {
 void RecordingFiles::begin_close() {
   if (std::exchange(closing_, true)) return;
   if (gap_ > 0) note_gap();
-  end_file();
+  end_file(true);
 }
 
 bool RecordingFiles::closed() {
   std::erase_if(ending_, [this](const std::unique_ptr<io::AppendFile>& file) {
     const io::AppendFile::State state = file->state();
     if (!state.closed) return false;
-    (state.close_error.empty() ? completed_ : problems_)
-        .push_back(state.close_error.empty() ? file->path() : state.close_error);
+    if (!state.close_error.empty()) {
+      problems_.push_back(state.close_error);
+    } else if (!empty_) {
+      completed_.push_back(file->path());
+    } else if (::unlink(file->path().c_str()) == 0) {
+      removed_.push_back(file->path());
+    } else {
+      problems_.push_back(file->path() + " has no tick and cannot be removed: " + std::strerror(errno));
+    }
     disk_cpu_ += Duration{state.cpu};
     return true;
   });
@@ -191,6 +218,7 @@ void RecordingFiles::abandon() {
 }
 
 std::vector<std::string> RecordingFiles::take_completed() { return std::exchange(completed_, {}); }
+std::vector<std::string> RecordingFiles::take_removed() { return std::exchange(removed_, {}); }
 std::vector<std::string> RecordingFiles::take_problems() { return std::exchange(problems_, {}); }
 
 Duration RecordingFiles::disk_cpu() const {

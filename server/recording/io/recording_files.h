@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,14 +18,16 @@ namespace tandem::server {
 /// Limits of a recording.
 struct RecordingLimits {
   std::uint64_t file_bytes = std::uint64_t{256} << 20U;  ///< a longer file goes on in another one
-  double file_s = 600;                                   ///< [s] likewise
+  double file_s = 600;                                   ///< [s] likewise, from its first tick on
   std::uint64_t total_bytes = std::uint64_t{64} << 30U;  ///< of all files; then the recording ends
   double bytes_per_s = 128.0 * (1 << 20) / 60;  ///< ticks beyond this rate, over 10 s, are left out and counted
 };
 
-/// The files of one recording, each a complete MCAP file: NAME.mcap, then NAME-2.mcap and so on. Ticks that the disk,
-/// the rate or a queue did not let through are counted in the file in which they are missing. Not thread-safe; no
-/// member waits for the disk but `close`.
+/// The files of one recording, each a complete MCAP file: NAME.mcap, then NAME-2.mcap and so on. The next file begins
+/// with the first tick beyond the limits, so that a session that waits makes none; inputs alone begin one at
+/// `file_bytes`. Ticks that the disk, the rate or a
+/// queue did not let through are counted in the file in which they are missing. A recording without a tick, a mark or a
+/// sheet leaves no file. Not thread-safe; no member waits for the disk but `close`.
 class RecordingFiles {
  public:
   /// @param path   NAME.mcap, which does not exist
@@ -63,8 +66,10 @@ class RecordingFiles {
   [[nodiscard]] bool ended() const noexcept { return closing_; }
   /// Why ticks are dropped now; empty: none are.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
-  /// Names of the files that are complete, and reasons for those that are not, since the last call.
+  /// Names of the files that are complete, of those without content, which were removed, and reasons for those that are
+  /// not complete, since the last call.
   [[nodiscard]] std::vector<std::string> take_completed();
+  [[nodiscard]] std::vector<std::string> take_removed();
   [[nodiscard]] std::vector<std::string> take_problems();
   [[nodiscard]] std::uint64_t recorded() const noexcept { return recorded_; }
   /// Session ticks since the first one that are in no file.
@@ -80,8 +85,12 @@ class RecordingFiles {
  private:
   RecordingFiles(std::string path, const SceneSpec& scene, RecordingInfo info, const RecordingLimits& limits);
   /// Opens the next file. @return the error
-  [[nodiscard]] std::string open_next(Time now);
-  void end_file();
+  [[nodiscard]] std::string open_next();
+  /// @param last  no other file follows
+  void end_file(bool last);
+  [[nodiscard]] bool full() const;
+  /// Begins the next file; if it cannot be made, the present one goes on.
+  void change_file();
   [[nodiscard]] bool pass_on();
   void update_trouble();
   /// Writes an event about the ticks lost since the last one, so that the file says where and why.
@@ -94,11 +103,14 @@ class RecordingFiles {
   std::unique_ptr<RecordingWriter> writer_;              ///< null before `begin`
   std::unique_ptr<io::AppendFile> file_;                 ///< present file; null after `begin_close`
   std::vector<std::unique_ptr<io::AppendFile>> ending_;  ///< files that are being completed
-  std::vector<std::string> completed_, problems_;
+  bool empty_ = false;                                   ///< the last of them has no content and is to be removed
+  std::vector<std::string> completed_, removed_, problems_;
   std::string trouble_, open_error_;
   unsigned number_ = 0;  ///< in the name of the present file
-  Time file_began_{}, passed_on_{}, budget_at_{}, retry_at_{};
-  double budget_ = 0;  ///< [bytes] that the rate allows now
+  unsigned part_ = 0;    ///< of the present file, from 1
+  Time now_{}, passed_on_{}, budget_at_{}, retry_at_{};
+  std::optional<Time> file_began_;  ///< first tick of the present file
+  double budget_ = 0;               ///< [bytes] that the rate allows now
   std::uint64_t total_bytes_ = 0, file_bytes_ = 0, recorded_ = 0, lost_inputs_ = 0;
   Duration disk_cpu_{};         ///< of files that are complete
   std::uint64_t unsynced_ = 0;  ///< failed syncs that were reported

@@ -128,7 +128,7 @@ TEST(JournalReader, NamesAVersionThatItDoesNotRead) {
   JournalReader reader;
   ASSERT_TRUE(reader.add(piece_of(bytes, 0)));
   EXPECT_FALSE(reader.next());
-  EXPECT_EQ(reader.error(), "byte 0 of the inputs: version 9 of the journal; this program reads version 1");
+  EXPECT_EQ(reader.error(), "byte 0 of the inputs: version 9 of the journal; this program reads version 2");
 }
 
 }  // namespace

@@ -57,11 +57,6 @@ bool same(const Triple& a, const recording::Vector3& b) {
   return same_number(a[0], b, b.xyz(), 0) && same_number(a[1], b, b.xyz(), 1) && same_number(a[2], b, b.xyz(), 2);
 }
 
-bool same(const Triple& a, const recording::Vector3Double& b) {
-  return b.xyz_size() == 3 && bits(a[0]) == bits(b.xyz(0)) && bits(a[1]) == bits(b.xyz(1)) &&
-         bits(a[2]) == bits(b.xyz(2));
-}
-
 SeatSample any_seat(RandomStream& random) {
   SeatSample s;
   for (Triple* v : {&s.measured_cp, &s.measured_cv, &s.measured_cf, &s.servo_cf}) fill(*v, random);
@@ -129,13 +124,72 @@ TEST(TickMessages, MatchTheLibraryForAnyTool) {
     EXPECT_TRUE(same(in.measured_cf, library.measured_cf()));
     EXPECT_TRUE(same(in.servo_cf, library.servo_cf()));
     EXPECT_EQ(in.sample_tick, library.sample_tick());
-    EXPECT_EQ(bits(in.penetration), bits(library.penetration()));
+    EXPECT_EQ(bits(to_single(in.penetration)), bits(library.penetration()));
+    EXPECT_EQ(bits(in.penetration),
+              bits(is_single(in.penetration) ? library.penetration() : library.penetration_exact()));
     EXPECT_EQ(in.braked, library.braked());
     ToolSample out;
     ASSERT_TRUE(decode(bytes_of(library.SerializeAsString()), out));
     std::string again;
     encode(out, again);
     EXPECT_EQ(again, bytes);
+  }
+}
+
+TEST(TickMessages, ShortNumbersAreTheNearestOf16SignificantBits) {
+  EXPECT_EQ(to_short(1.0), 1.0F);
+  EXPECT_EQ(to_short(1 + 0x1p-15), 1 + 0x1p-15F);
+  EXPECT_EQ(to_short(1 + 0x1p-16), 1.0F) << "half a step: to the even one";
+  EXPECT_EQ(to_short(1 + 3 * 0x1p-16), 1 + 0x1p-14F) << "likewise";
+  EXPECT_EQ(to_short(1 + 0x1p-16 + 0x1p-22), 1 + 0x1p-15F);
+  EXPECT_EQ(to_short(-0.1), -to_short(0.1));
+  EXPECT_TRUE(std::signbit(to_short(-0.0)));
+  EXPECT_TRUE(std::isnan(to_short(std::nan(""))));
+  EXPECT_EQ(to_short(1e300), std::numeric_limits<float>::infinity());
+  RandomStream random{RandomKey{5}};
+  for (int k = 0; k < 10'000; ++k) {
+    const double value = random.uniform(-10, 10);
+    EXPECT_LE(std::abs(to_short(value) - value), std::abs(value) * 0x1p-16);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(to_short(value)) & 0xff, 0u);
+  }
+}
+
+TEST(TickMessages, OfARoundedToolHaveNoNumberInDoublePrecision) {
+  const std::uint64_t count = seeds(300);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream random{RandomKey{seed}};
+    ToolSample in;
+    for (Triple* v : {&in.measured_cp, &in.setpoint_cp, &in.measured_cf, &in.servo_cf, &in.energy.e_p_axis_j})
+      fill(*v, random);
+    fill(in.measured_jp, random, random.below(8));
+    in.penetration = any_double(random);
+    in.energy.mfs_j = any_double(random);
+    const auto& axes = in.energy.e_p_axis_j;
+    const bool sum = random.below(2) == 0;
+    in.energy.e_p_j = sum ? 0 + axes[0] + axes[1] + axes[2] : any_double(random);
+    ToolSample rounded = in;
+    round_tool(rounded);
+    std::string bytes;
+    encode(rounded, bytes);
+    recording::Tool library;
+    ASSERT_TRUE(library.ParseFromString(bytes));
+    EXPECT_EQ(library.measured_cp().exact_size() + library.servo_cf().exact_size() +
+                  library.measured_jp().exact_size() + library.energy().exact_size(),
+              0);
+    EXPECT_EQ(bits(library.penetration_exact()), bits(0.0));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(bits(rounded.servo_cf[k]), bits(static_cast<double>(to_short(in.servo_cf[k]))));
+    ToolSample out;
+    ASSERT_TRUE(decode(bytes_of(bytes), out));
+    EXPECT_TRUE(same(out.measured_jp, rounded.measured_jp) && same(out.setpoint_cp, rounded.setpoint_cp));
+    EXPECT_EQ(bits(out.energy.e_p_j), bits(rounded.energy.e_p_j)) << "also where a reader adds the axes";
+    EXPECT_EQ(bits(out.penetration), bits(rounded.penetration));
+    ToolSample again = rounded;
+    round_tool(again);
+    std::string twice;
+    encode(again, twice);
+    EXPECT_EQ(twice, bytes) << "rounding twice changes nothing";
   }
 }
 

@@ -120,6 +120,9 @@ TEST(RecordingText, NamesPersonsAndSkippedFilesSafely) {
   EXPECT_NE(text.find("bad\\x1b[2J.mcap: skipped, it is no MCAP file"), std::string::npos) << text;
   EXPECT_NE(text.find("1 recording, 2.5 MB"), std::string::npos) << text;
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_NE(text.find("(no tick: the session did not run)"), std::string::npos) << text;
+  rows[0].summary.rows = 1;
+  EXPECT_EQ(recordings_text(rows).find("no tick"), std::string::npos);
   const auto json = nlohmann::json::parse(recordings_json(rows));
   EXPECT_EQ(json[0]["persons"][0]["name"], "Ada\nByron");
   EXPECT_TRUE(json[0]["problem"].is_null());

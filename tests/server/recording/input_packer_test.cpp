@@ -36,6 +36,7 @@ std::string datagram(std::uint8_t seat, const SeatRecord& r, std::uint64_t e_in,
   plaintext += '\x12';
   append(plaintext, filtered);
   append(plaintext, r.e_in[0]);
+  append(plaintext, r.f_out[1]);  // in double precision
   std::string out{static_cast<char>(InputRecord::kDatagram), static_cast<char>(seat), '\2', '\0'};
   append(out, static_cast<std::uint16_t>(plaintext.size()));
   append(out, std::int64_t{1'000'000});
@@ -68,13 +69,14 @@ Sample sample_of(std::uint64_t seed, std::uint32_t ticks) {
       filtered = static_cast<float>(0.99 * static_cast<double>(filtered) +
                                     8.0 * (static_cast<double>(static_cast<float>(v)) - static_cast<double>(before)));
       r.e_in[0] = random.bits();
+      r.f_out[1] = random.uniform(-1, 1);
       if (random.below(20) > 0) inputs += datagram(i, r, tick, i == 0 ? filtered : 0.F);  // others are lost
     }
     inputs += static_cast<char>(InputRecord::kTick);
     append(inputs, std::int64_t{0});
     append(inputs, std::uint32_t{0});
     append(inputs, std::uint32_t{1});
-    append(inputs, static_cast<std::uint32_t>(random.bits()));
+    append(inputs, static_cast<std::uint16_t>(random.bits()));
     if (random.below(50) == 0) inputs += std::string("\x08\x01", 2) + '\2';  // a removal
     if (random.below(50) == 0) inputs.append(random.below(40), '\0');        // the end of the ring
     out.journal.push_back(inputs);
@@ -132,7 +134,7 @@ TEST(InputPacker, GivesEveryJournalBackByteForByte) {
     const Sample sample = sample_of(seed, 600);
     std::size_t size = 0;
     for (const std::string& inputs : sample.journal) size += inputs.size();
-    // 59 bytes of a datagram repeat numbers of the recording; 4 of each tick are a hash.
+    // 67 bytes of a datagram repeat numbers of the recording; 2 of each tick are a hash.
     EXPECT_LT(expect_same(sample, random), size / 4);
   }
 }

@@ -91,8 +91,9 @@ TEST(RecordingCut, ForeignFilesAreNamed) {
 
 TEST(RecordingCut, AnotherFormatAndABadSceneAreNamed) {
   for (const auto& [format, text, word] :
-       {std::tuple{"1", "", "has format \"1\" of recordings; this program reads format 2"},
-        std::tuple{"3", "", "format"}, std::tuple{"2", "seat { nam: \"x\" }", "scene"}}) {
+       {std::tuple{"1", "", "has format \"1\" of recordings; this program reads format 3"},
+        std::tuple{"2", "", "has format \"2\" of recordings; this program reads format 3"},
+        std::tuple{"4", "", "format"}, std::tuple{"3", "seat { nam: \"x\" }", "scene"}}) {
     mcap::Writer file{"x-tandem", "test"};
     file.add_metadata({"session", {{"format", format}, {"start_unix_ns", "0"}}});
     file.add_metadata({"scene", {{"name", "s"}, {"text", text}}});

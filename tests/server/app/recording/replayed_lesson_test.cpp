@@ -19,6 +19,7 @@ Lesson lesson_of(const std::string& scene) {
     lesson.tick.push_back(1000 + k);
     for (LessonSeat& seat : lesson.seats) {
       seat.x.push_back({0.001 * k, 0.02, -0.03});
+      seat.f.push_back({0, 0, 0});
       seat.sample_tick.push_back(1000 + k);
       seat.engaged.push_back(&seat == lesson.seats.data() ? 1 : 0);
     }
@@ -53,6 +54,24 @@ TEST(ReplayedLesson, AwaitsTheOtherRequiredSeatsWhenSeatsAreChosen) {
   ASSERT_TRUE(alone) << alone.error();
   EXPECT_TRUE(alone->awaited.empty());
   EXPECT_FALSE(alone->scene.seats[1].required);
+}
+
+// A hand of 1000 N/m that is pushed by 2 N has its rest position 2 mm before the force.
+TEST(ReplayedLesson, MovesTheRestPositionAgainstTheForceOnTheHand) {
+  Lesson lesson = lesson_of("free_motion");
+  for (LessonTriple& f : lesson.seats[0].f) f = {2, 0, -1};
+  lesson.seats[0].f[1] = {std::nan(""), 0, 0};
+  auto replayed = replayed_lesson(lesson, {}, true);
+  ASSERT_TRUE(replayed) << replayed.error();
+  EXPECT_EQ(
+      replayed->hands[0].csv,
+      "t_s[s],px[m],py[m],pz[m]\n1.000000,-0.002,0.02,-0.029\n1.002000,0,0.02,-0.029\n1.003000,0.001,0.02,-0.029\n");
+  // With a motion scale of 2, 2 N at the tool are 4 N at the hand.
+  lesson.scene.seats[0].motion_scale = 2;
+  replayed = replayed_lesson(lesson, {}, true);
+  ASSERT_TRUE(replayed) << replayed.error();
+  EXPECT_NE(replayed->hands[0].csv.find("\n1.002000,-0.003,0.01,-0.013\n"), std::string::npos)
+      << replayed->hands[0].csv;
 }
 
 TEST(ReplayedLesson, DividesByTheMotionScaleOfASeat) {
