@@ -7,9 +7,12 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "common/base/csv.h"
 #include "common/base/raw_bytes.h"
+#include "common/io/whole_file.h"
+#include "netsim/app/part_files.h"
 #include "netsim/score/motion_lesson.h"
 #include "netsim/score/trace_lesson.h"
 #include "proto/io/scene_file.h"
@@ -78,37 +81,69 @@ std::string foreign_problem(std::string_view begin) {
   return *why == '\0' ? std::string() : why + std::string(kKinds);
 }
 
+std::expected<Lesson, std::string> read_recording(const LessonFile& named) {
+  LessonReader reader;
+  const auto add = [&reader](const std::string& file) -> std::string {
+    const auto bytes = io::read_whole_file(file, kRecordingMax);
+    if (!bytes) return bytes.error();
+    const auto added = reader.add(bytes_of(*bytes));
+    return added ? std::string{} : file + ": " + added.error();
+  };
+  if (std::string problem = add(named.name); !problem.empty()) return std::unexpected(std::move(problem));
+  for (const std::string& file : named.more)
+    if (std::string problem = add(file); !problem.empty()) return std::unexpected(std::move(problem));
+  return reader.take();
+}
+
+/// Adds the other parts of a long recording to the file.
+void find_more(LessonFile& file) {
+  if (std::error_code error; !std::filesystem::is_regular_file(file.name, error)) return;  // a pipe is read once
+  if (Pieces pieces(file.name); !pieces.next(file.name).starts_with(kMcap)) return;
+  const auto parts = find_parts({file.name});
+  if (!parts) {
+    file.note = parts.error();
+    return;
+  }
+  file.name = parts->front().file;
+  for (std::size_t k = 1; k < parts->size(); ++k) file.more.push_back((*parts)[k].file);
+}
+
 }  // namespace
 
-std::expected<Lesson, std::string> load_lesson(const std::string& file, const std::string& scene) {
+std::expected<Lesson, std::string> load_lesson(const LessonFile& named, const std::string& scene) {
+  const std::string& file = named.name;
   Pieces pieces(file);
   std::string_view piece = pieces.next(file);
   if (!pieces.error().empty()) return std::unexpected(pieces.error());
   if (score::TraceReader::is_trace(piece)) return read_trace(pieces, piece, file, scene);
   if (piece.starts_with(kHdf5)) return server::import_hdf5(file);
-  const bool recording = piece.starts_with(kMcap);
-  if (const std::string problem = recording ? "" : foreign_problem(piece); !problem.empty())
+  if (piece.starts_with(kMcap)) return read_recording(named);
+  if (const std::string problem = foreign_problem(piece); !problem.empty())
     return std::unexpected(file + ": " + problem);
-  const std::size_t most = recording ? kRecordingMax : CsvTable::kBytesMax;
   std::string bytes;
   for (; !piece.empty(); piece = pieces.next(file)) {
-    if (bytes.size() + piece.size() > most)
-      return std::unexpected(file + ": more than " + std::to_string(most >> 30) + " GiB; cut the recording");
+    if (bytes.size() + piece.size() > CsvTable::kBytesMax)
+      return std::unexpected(file + ": more than " + std::to_string(CsvTable::kBytesMax >> 30) + " GiB; cut the table");
     bytes += piece;
   }
   if (!pieces.error().empty()) return std::unexpected(pieces.error());
-  if (!recording) return score::read_motion(bytes, file);
-  auto lesson = read_lesson(bytes_of(bytes));
-  if (!lesson) return std::unexpected(file + ": " + lesson.error());
-  return lesson;
+  return score::read_motion(bytes, file);
 }
 
 std::expected<std::vector<LessonFile>, std::string> lesson_files(const std::vector<std::string>& paths) {
   std::vector<LessonFile> out;
+  std::set<std::filesystem::path> parts;  // of the lessons so far
+  const auto add = [&](std::string name, bool of_folder) {
+    if (parts.contains(absolute(std::filesystem::path(name)))) return;
+    LessonFile& file = out.emplace_back(std::move(name), of_folder);
+    find_more(file);
+    for (const std::string& more : file.more) parts.insert(absolute(std::filesystem::path(more)));
+    if (!file.more.empty()) parts.insert(absolute(std::filesystem::path(file.name)));
+  };
   for (const std::string& path : paths) {
     std::error_code error;
     if (!std::filesystem::is_directory(path, error)) {
-      out.push_back({path});
+      add(path, false);
       continue;
     }
     std::vector<std::string> found;
@@ -120,7 +155,7 @@ std::expected<std::vector<LessonFile>, std::string> lesson_files(const std::vect
     if (error) return std::unexpected(path + ": " + error.message());
     if (found.empty()) return std::unexpected(path + ": the folder has no recording");
     std::ranges::sort(found);
-    for (std::string& name : found) out.push_back({std::move(name), true});
+    for (std::string& name : found) add(std::move(name), true);
   }
   return out;
 }

@@ -196,7 +196,7 @@ int check(const RunArguments& arguments, const SimulationConfig& setup, const Ne
 
 /// Scores of the recorded session, computed from the file as `tandem-netsim score` does. @return or why there are none
 std::expected<score::LessonScores, std::string> scores_of(const std::string& recording) {
-  const auto lesson = load_lesson(recording, "");
+  const auto lesson = load_lesson({.name = recording}, "");
   if (!lesson) return std::unexpected("--scores: " + lesson.error());
   auto scores = score::score_lesson(*lesson);
   if (!scores) return std::unexpected("--scores: " + recording + ": " + scores.error());

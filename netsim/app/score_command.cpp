@@ -65,7 +65,7 @@ Scored score_files(const ScoreArguments& a, const std::vector<std::string>& path
         mistakes.add(prefix + why);
       }
     };
-    auto lesson = load_lesson(file.name, a.scene);
+    auto lesson = load_lesson(file, a.scene);
     if (!lesson) {
       refuse(lesson.error());
       continue;
@@ -76,6 +76,9 @@ Scored score_files(const ScoreArguments& a, const std::vector<std::string>& path
       continue;
     }
     scores->file = file.name;
+    if (!file.more.empty())
+      scores->notes.push_back(format("The lesson has %zu files, of which this is the first.", file.more.size() + 1));
+    if (!file.note.empty()) scores->notes.push_back("Scored without the other parts of the session: " + file.note);
     out.push_back(std::move(*scores));
     if (last != nullptr) *last = std::move(*lesson);
   }
@@ -163,7 +166,8 @@ void add_score_command(const io::Command& root) {
       .add_option(
           "files", a.files,
           "recordings: MCAP files of --record, their exports as HDF5, rows of --trace (with --scene), or tables of "
-          "recorded motion; a folder: all of its .mcap, .h5, .hdf5 and .csv files, and foreign or damaged ones are "
+          "recorded motion; a part of a long recording: all of them that lie beside it; "
+          "a folder: all of its .mcap, .h5, .hdf5 and .csv files, and foreign or damaged ones are "
           "named and "
           "skipped")
       .value_name("FILE...");

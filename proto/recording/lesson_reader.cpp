@@ -39,7 +39,8 @@ constexpr std::size_t kNotesMax = 1'000'000;       // events, marks, sheets or l
 /// Fills a lesson from the messages of a file.
 class LessonBuilder {
  public:
-  LessonBuilder(Lesson& lesson, std::size_t rows_max) : lesson_(&lesson), rows_max_(rows_max) {}
+  LessonBuilder(Lesson& lesson, std::size_t rows_max)
+      : lesson_(&lesson), rows_max_(lesson.rows() + rows_max), counted_(lesson.counts) {}
 
   /// @return false if the message is damaged or does not fit the scene
   bool add(const mcap::Message& message, const mcap::Channel& channel) {
@@ -157,14 +158,21 @@ class LessonBuilder {
     }
     for (const CountsMessage::Channel& channel : counts->channels) {
       if (lesson_->counts.size() > mcap::kDefinitionsMax) return false;
-      lesson_->counts[channel.topic] = channel.count;
+      LessonCount count = channel.count;
+      if (const auto before = counted_.find(channel.topic); before != counted_.end()) {
+        count.recorded += before->second.recorded;
+        count.dropped += before->second.dropped;
+        count.never_received += before->second.never_received;
+      }
+      lesson_->counts[channel.topic] = count;
     }
     return true;
   }
 
   Lesson* lesson_;
   std::size_t rows_max_;
-  std::vector<std::optional<Use>> uses_;  ///< by number of the channel
+  std::map<std::string, LessonCount> counted_;  ///< in the files before
+  std::vector<std::optional<Use>> uses_;        ///< by number of the channel
   SeatSample seat_;
   ToolSample tool_;
   AuthoritySample authority_;
@@ -219,12 +227,24 @@ std::size_t expected_rows(const mcap::Reader& reader, std::size_t rows_max) {
 }  // namespace
 
 std::expected<Lesson, std::string> read_lesson(std::span<const std::byte> bytes) {
+  LessonReader reader;
+  if (auto added = reader.add(bytes); !added) return std::unexpected(std::move(added.error()));
+  return reader.take();
+}
+
+std::expected<void, std::string> LessonReader::add(std::span<const std::byte> bytes) {
   const auto reader = mcap::Reader::open(bytes);
   if (!reader) return std::unexpected(reader.error().message);
-  Lesson lesson;
-  if (std::string problem = read_metadata(*reader, lesson); !problem.empty()) return std::unexpected(problem);
+  Lesson facts;
+  if (std::string problem = read_metadata(*reader, facts); !problem.empty()) return std::unexpected(problem);
+  if (!lesson_) {
+    lesson_ = std::move(facts);
+  } else if (facts.scene_text != lesson_->scene_text || facts.start_unix_ns != lesson_->start_unix_ns) {
+    return std::unexpected("has another scene or begin than the files before, so it is of another session");
+  }
+  Lesson& lesson = *lesson_;
   const std::size_t rows_max = bytes.size() / kBytesPerRow + kRowsOfACutChunk;
-  reserve_rows(lesson, expected_rows(*reader, bytes.size() / kBytesPerRow));
+  reserve_rows(lesson, lesson.rows() + expected_rows(*reader, bytes.size() / kBytesPerRow));
   LessonBuilder builder{lesson, rows_max};
   mcap::MessageCursor cursor{*reader};
   bool whole = true;
@@ -232,8 +252,8 @@ std::expected<Lesson, std::string> read_lesson(std::span<const std::byte> bytes)
     const mcap::Channel* const channel = cursor.channel(message->channel);
     whole &= channel != nullptr && builder.add(*message, *channel);
   }
-  lesson.complete = whole && reader->complete() && cursor.damaged() == 0 && reader->metadata(kCountsRecord) != nullptr;
-  return lesson;
+  lesson.complete &= whole && reader->complete() && cursor.damaged() == 0 && reader->metadata(kCountsRecord) != nullptr;
+  return {};
 }
 
 }  // namespace tandem

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <expected>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,5 +17,17 @@ namespace tandem {
 /// is not valid. The text names neither the file nor a next step; the caller does.
 /// @throws std::bad_alloc  a row takes about 0.4 kB per seat and tool; a file has at most one row per 16 bytes
 [[nodiscard]] std::expected<Lesson, std::string> read_lesson(std::span<const std::byte> bytes);
+
+/// Reads the files of a long session into one lesson, one after the other, each as `read_lesson` does.
+class LessonReader {
+ public:
+  /// Adds the next file. @return why it is no recording, or none that continues the files before; it is left out then
+  [[nodiscard]] std::expected<void, std::string> add(std::span<const std::byte> bytes);
+  /// Returns the lesson. @pre a file was added
+  [[nodiscard]] Lesson take() { return std::move(*lesson_); }
+
+ private:
+  std::optional<Lesson> lesson_;
+};
 
 }  // namespace tandem

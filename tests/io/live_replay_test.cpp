@@ -179,6 +179,15 @@ TEST(LiveReplay, GivesTheFilesOfALongSessionBitForBit) {
   const Ended named = netsim(words);
   EXPECT_EQ(named.code, 0) << named.out << named.err;
   EXPECT_EQ(Json::parse(named.out)["rows"], rows);
+  // Any file gives the scores of the whole session, and so does the folder.
+  const auto scores = [](const std::string& what) { return Json::parse(netsim({"score", "--quiet", "--json", "-", what}).out); };
+  const Json scored = scores(files[1]);
+  ASSERT_EQ(scored["lessons"].size(), 1u);
+  const Json& lesson = scored["lessons"][0];
+  EXPECT_GE(lesson["end_s"].get<double>() - lesson["begin_s"].get<double>(), 13) << lesson.dump().substr(0, 300);
+  EXPECT_NE(lesson["notes"].dump().find("The lesson has " + std::to_string(files.size()) + " files"), std::string::npos)
+      << lesson["notes"];
+  EXPECT_EQ(scores(films.file(""))["lessons"], scored["lessons"]);
   for (std::size_t missing = 0; missing < files.size(); ++missing) {
     SCOPED_TRACE(missing);
     std::filesystem::rename(files[missing], others.file("away.mcap"));
