@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Rest of the period that a move needs, or half of a shorter period: the target must have the session before its next
-/// tick. A move takes about 50 us, of which the kernel needs most for the program.
+/// tick. The kernel needs most of it for the program: 90 us (median) if the slots alternate between two sockets.
 constexpr Duration kRestNeeded = 300us;
 /// Ticks after which a session moves although each of them left too little of its period; it then misses one tick.
 constexpr int kWaitedTicksMax = 64;
