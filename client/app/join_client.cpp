@@ -8,6 +8,7 @@
 #include "client/seat/seat.h"
 #include "common/base/command_hints.h"
 #include "common/io/clock.h"
+#include "proto/rpc/session_pages.h"
 #include "proto/text/scene_bytes.h"
 
 namespace tandem::client {
@@ -169,7 +170,7 @@ std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, c
 std::expected<rpc::SessionList, JoinError> list_sessions(const JoinOptions& options) {
   ServerConnection server{options};
   if (auto connected = server.connect(); !connected) return std::unexpected(connected.error());
-  return server.request<rpc::SessionList>(rpc::SessionListRequest{});
+  return rpc::all_sessions([&](const rpc::Body& page) { return server.request<rpc::SessionList>(page); });
 }
 
 void release_seat(const io::UdpSocket& socket, const JoinedSeat& given, const hal::DeviceCaps& caps) {

@@ -8,6 +8,7 @@
 #include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
 #include "common/transport/secure_channel.h"
+#include "proto/rpc/session_pages.h"
 
 namespace tandem::client {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 std::expected<rpc::ListedSession, JoinError> find_session(ServerConnection& server, const auth::Id16& id, bool is_id,
                                                           const std::optional<std::string>& code) {
   const JoinOptions& options = server.options();
-  const auto list = server.request<rpc::SessionList>(rpc::SessionListRequest{});
+  const auto list = rpc::all_sessions([&](const rpc::Body& page) { return server.request<rpc::SessionList>(page); });
   if (!list) return std::unexpected(list.error());
   std::string names;
   const rpc::ListedSession* found = nullptr;

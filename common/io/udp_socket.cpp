@@ -1,7 +1,6 @@
 #include "common/io/udp_socket.h"
 
 #include <fcntl.h>
-#include <linux/filter.h>
 
 #include <cerrno>
 #include <cstring>
@@ -48,23 +47,6 @@ std::expected<UdpSocket, std::string> bind_udp(const SocketAddress& at, bool loc
   return socket;
 }
 
-namespace {
-
-/// Installs the kernel program that selects the socket of a datagram.
-int steer(int fd, const Steering& steering) {
-  std::vector<sock_filter> program{{BPF_LD | BPF_B | BPF_ABS, 0, 0, static_cast<std::uint32_t>(steering.byte)}};
-  for (std::size_t value = 0; value < steering.socket_of.size(); ++value) {
-    if (steering.socket_of[value] == 0) continue;
-    program.push_back({BPF_JMP | BPF_JEQ | BPF_K, 0, 1, static_cast<std::uint32_t>(value)});
-    program.push_back({BPF_RET | BPF_K, 0, 0, steering.socket_of[value]});
-  }
-  program.push_back({BPF_RET | BPF_K, 0, 0, 0});
-  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-  return ::setsockopt(fd, SOL_SOCKET, SO_ATTACH_REUSEPORT_CBPF, &filter, sizeof filter);
-}
-
-}  // namespace
-
 std::expected<std::vector<UdpSocket>, std::string> bind_udp_steered(const SocketAddress& at, const Steering& steering) {
   std::vector<UdpSocket> sockets;
   if (steering.sockets == 1) {
@@ -73,12 +55,18 @@ std::expected<std::vector<UdpSocket>, std::string> bind_udp_steered(const Socket
     sockets.push_back(std::move(*one));
     return sockets;
   }
-  SocketAddress where = at;
+  // A socket with SO_REUSEPORT would join those of another server of this user on the port, and change their program.
+  // One without it is bound only if the port is free.
+  auto probe = bind_udp(at);
+  if (!probe) return std::unexpected(probe.error());
+  SocketAddress where = probe->local;
+  probe->fd = Fd{};
+  const SteeringProgram program{steering};
   for (std::size_t i = 0; i < steering.sockets; ++i) {
     UdpSocket socket{open_udp(at.family()), {}};
     const int yes = 1;
     if (!socket.fd.open() || ::setsockopt(socket.fd.get(), SOL_SOCKET, SO_REUSEPORT, &yes, sizeof yes) != 0 ||
-        ::bind(socket.fd.get(), where.get(), where.size) != 0 || (i == 0 && steer(socket.fd.get(), steering) != 0))
+        ::bind(socket.fd.get(), where.get(), where.size) != 0 || (i == 0 && !program.attach(socket.fd.get())))
       return std::unexpected(bind_problem(where, errno));
     ReceiveBatch::prepare(socket.fd.get(), at.family(), false);
     socket.local = where = local_address(socket.fd.get());

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <expected>
 #include <string>
 #include <vector>
 
+#include "common/io/datagram_steering.h"
 #include "common/io/fd.h"
 #include "common/io/socket_address.h"
 
@@ -23,12 +21,6 @@ struct UdpSocket {
 /// @return the socket, or the error with its remedy
 [[nodiscard]] std::expected<UdpSocket, std::string> bind_udp(const SocketAddress& at, bool local_wanted = false);
 
-/// Selects which of several sockets receives a datagram: by the value of its byte `byte`.
-struct Steering {
-  std::size_t byte = 0;
-  std::size_t sockets = 1;                    ///< 1 ... 64
-  std::array<std::uint8_t, 256> socket_of{};  ///< below `sockets`; datagrams that are too short go to socket 0
-};
 /// Binds several sockets to one address and port, so that each thread has its own while firewalls and proxies see one
 /// port. The kernel distributes datagrams (SO_ATTACH_REUSEPORT_CBPF) without copying. A single socket is bound as by
 /// `bind_udp`.

@@ -133,16 +133,21 @@ void write(const Enroll& in, wire_pb::Enroll& out) { out.set_code(text_of(in.cod
 bool read(const wire_pb::EnrollAck& in, EnrollAck& out) { return take_name(in.workstation(), out.workstation); }
 void write(const EnrollAck& in, wire_pb::EnrollAck& out) { out.set_workstation(in.workstation); }
 
-bool read(const wire_pb::SessionListRequest&, SessionListRequest&) { return true; }
-void write(const SessionListRequest&, wire_pb::SessionListRequest&) {}
+bool read(const wire_pb::SessionListRequest& in, SessionListRequest& out) {
+  out.after = in.after();
+  return true;
+}
+void write(const SessionListRequest& in, wire_pb::SessionListRequest& out) { out.set_after(in.after); }
 
 bool read(const wire_pb::SessionList& in, SessionList& out) {
-  if (in.session_size() > static_cast<int>(kSessionsMax)) return false;
+  if (in.session_size() > static_cast<int>(kListedSessionsMax)) return false;
   out.more = in.more();
+  out.last = in.last();
   return std::ranges::all_of(in.session(), [&](const auto& s) { return read_listed(s, out.sessions.emplace_back()); });
 }
 void write(const SessionList& in, wire_pb::SessionList& out) {
   out.set_more(in.more);
+  out.set_last(in.last);
   for (const ListedSession& s : in.sessions) write_listed(s, *out.add_session());
 }
 

@@ -18,7 +18,10 @@ inline constexpr std::size_t kNameMax = 32;           ///< names: A-Z a-z 0-9 _ 
 inline constexpr std::size_t kVersionsMax = 8;
 inline constexpr std::size_t kTicketMax = 512;  ///< more than a ticket has, so that a wrong length is a ticket error
 inline constexpr std::size_t kSessionCodeSize = 10;
-inline constexpr std::size_t kSessionsMax = 48, kListedSeatsMax = kSeatsMax;
+/// Sessions of a server: as many as the byte of a connection id tells apart that has the session's slot
+/// (server/session/connection_id.h). The kernel distributes datagrams to threads by this byte.
+inline constexpr std::size_t kSessionsMax = 256;
+inline constexpr std::size_t kListedSessionsMax = 48, kListedSeatsMax = kSeatsMax;  ///< of a SessionList, one page
 inline constexpr std::size_t kSceneTextMax = 49152;        ///< scene in a CreateSession [bytes]
 inline constexpr std::uint32_t kLifeMaxS = 86400;          ///< of a created session [s]
 inline constexpr std::size_t kNoteMax = 8192;              ///< JSON of a Note [bytes]

@@ -139,11 +139,13 @@ struct ListedSession {
   friend bool operator==(const ListedSession&, const ListedSession&) = default;
 };
 struct SessionListRequest {
+  std::uint32_t after = 0;  ///< `last` of the page before; 0: the first page
   friend bool operator==(const SessionListRequest&, const SessionListRequest&) = default;
 };
 struct SessionList {
-  std::vector<ListedSession> sessions;  ///< at most kSessionsMax
-  bool more = false;
+  std::vector<ListedSession> sessions;  ///< at most kListedSessionsMax, in the order in which they were opened
+  bool more = false;                    ///< another page follows
+  std::uint32_t last = 0;               ///< for the request of the next page; 0 without one
   friend bool operator==(const SessionList&, const SessionList&) = default;
 };
 

@@ -36,6 +36,7 @@ struct ConnectionLimitsSpec {
   double load_percent = 60;
   double core_percent = 80;
   std::uint32_t created_sessions = 16;
+  std::uint32_t threads = 0;  ///< 0: as many as the server may use processors
 };
 
 struct LogSpec {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "proto/rpc/rpc_limits.h"
+
 namespace tandem::server {
 
 /// Connection id of a client at the server. The low byte is the place in a session: the seat's number plus one, then
@@ -12,6 +14,7 @@ namespace tandem::server {
   return std::uint32_t{drawn} << 16 | std::uint32_t{slot} << 8 | place;
 }
 [[nodiscard]] constexpr std::uint8_t slot_of(std::uint32_t cid) noexcept { return static_cast<std::uint8_t>(cid >> 8); }
+static_assert(rpc::kSessionsMax == 1 + slot_of(0xffffffff), "a server has as many sessions as there are slots");
 [[nodiscard]] constexpr std::uint8_t place_of(std::uint32_t cid) noexcept { return static_cast<std::uint8_t>(cid); }
 
 }  // namespace tandem::server

@@ -23,18 +23,18 @@ inline Duration cpu_of(pthread_t thread) {
   return io::read_clock(clock);
 }
 
-/// Sockets of many clients. One thread drives them: all clients send at the start of each millisecond.
+/// Sockets of many clients. One thread drives them: all clients send at the start of each period.
 class Crowd {
  public:
   Crowd(std::size_t clients, const io::SocketAddress& to) {
     for (std::size_t i = 0; i < clients; ++i) sockets_.push_back(std::move(io::connect_udp(to)->fd));
   }
   template <class Fill, class Hear>
-  void run(Duration length, Fill fill, Hear hear) {
+  void run(Duration length, Fill fill, Hear hear, Duration period = std::chrono::milliseconds(1)) {
     std::array<std::byte, 1500> buffer;
     const Time begin = io::monotonic_now();
-    for (int ms = 1; ms <= length / std::chrono::milliseconds(1); ++ms) {
-      UdpLoad::pause_until((begin + ms * std::chrono::milliseconds(1)).time_since_epoch());
+    for (int n = 1; n <= length / period; ++n) {
+      UdpLoad::pause_until((begin + n * period).time_since_epoch());
       for (std::size_t c = 0; c < sockets_.size(); ++c) {
         for (ssize_t size; (size = ::recv(sockets_[c].get(), buffer.data(), buffer.size(), MSG_DONTWAIT)) > 0;)
           hear(c, std::span{buffer}.first(static_cast<std::size_t>(size)));

@@ -35,7 +35,7 @@ class HostedShard {
     double client_ticks = 0;  ///< FORCE datagrams that arrived
     [[nodiscard]] double ns_per_client_tick() const { return static_cast<double>(cpu.count()) / client_ticks; }
   };
-  /// Lets all clients send for `length`.
+  /// Lets all clients send for `length`, once per tick.
   Spent run(Duration length) {
     const Duration cpu = cpu_of(thread_.native_handle());
     const std::uint64_t before = forces();
@@ -48,8 +48,14 @@ class HostedShard {
         },
         [this](std::size_t c, std::span<const std::byte> bytes) {
           seated_.clients()[c]->hear(io::monotonic_now(), bytes);
-        });
+        },
+        shard().period());
     return {cpu_of(thread_.native_handle()) - cpu, static_cast<double>(forces() - before)};
+  }
+  /// Lets the shard tick without datagrams. @return processor time of its thread so far
+  Duration run_without_clients(Duration length) {
+    UdpLoad::pause_until((io::monotonic_now() + length).time_since_epoch());
+    return cpu_of(thread_.native_handle());
   }
   /// All hands are engaged.
   [[nodiscard]] bool settled() const {

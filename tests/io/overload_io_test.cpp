@@ -26,7 +26,7 @@ void slow_down(const Process& program, std::chrono::milliseconds pulse, int puls
 }
 
 double gauge(const std::string& page, const std::string& name) {
-  const auto at = page.find("\n" + name + "{tick_hz=\"1000\"} ");
+  const auto at = page.find("\n" + name + "{tick_hz=\"1000\",shard=\"0\"} ");
   return at == std::string::npos ? -1 : std::atof(page.c_str() + page.find(' ', at) + 1);
 }
 

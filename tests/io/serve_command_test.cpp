@@ -252,7 +252,8 @@ TEST(Monitoring, ShowsMetricsHealthAndNothingElse) {
   const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_TRUE(page.starts_with("HTTP/1.1 200 OK\r\n")) << page;
   for (const char* line :
-       {"tandem_tick_seconds_bucket{tick_hz=\"1000\",le=\"0.0001\"}", "tandem_tick_late_total{",
+       {"tandem_session_moves_total 0", "tandem_shard_sessions{tick_hz=\"1000\",shard=\"0\"} 1",
+        "tandem_tick_seconds_bucket{tick_hz=\"1000\",shard=\"0\",le=\"0.0001\"}", "tandem_tick_late_total{",
         "tandem_loop_age_seconds{session=\"one_axis\",seat=\"trainer\"}", "tandem_gate_state{",
         "tandem_authority{session=\"one_axis\",seat=\"trainer\"} ", "tandem_joins_total{result=\"welcomed\"} 1",
         "tandem_udp_drop_total{reason=\"tag\"} 0", "tandem_sessions{phase=\"running\"} 1",
@@ -287,7 +288,7 @@ TEST(Monitoring, ReportsWhyABusyServerRejectsJoins) {
   double load = 0;
   for (int tries = 0; tries < 100'000 && load == 0; ++tries) {
     const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n"),
-                      name = "\ntandem_tick_load{tick_hz=\"1000\"} ";
+                      name = "\ntandem_tick_load{tick_hz=\"1000\",shard=\"0\"} ";
     const auto at = page.find(name);
     if (at != std::string::npos) load = std::atof(page.c_str() + at + name.size());
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -108,6 +109,66 @@ TEST(ShardRequests, CompleteAllThatWaitForAPlaceAtTheEnd) {
   rig.requests.stop_watching();
   EXPECT_EQ(over, ShardRequests::kRetriedMax + 1);
   lost = 0;
+  rig.run_shard();
+}
+
+TEST(ShardRequests, WaitWhileTheirSessionMoves) {
+  Rig rig;
+  Shard target{std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0))), 1000};
+  LiveSession other{rig.scene, *make_local_slaves(rig.scene, Time{}), 1, rig.records};
+  std::vector<std::string> done;
+  const auto note = [&done](const char* name) { return [&done, name](ShardRequest&) { done.push_back(name); }; };
+  const auto move = [&](LiveSession& session, const char* name) {
+    rig.requests.move(
+        rig.shard,
+        {.what = ShardRequest::What::kMoveSession, .session = &session, .target = &target, .done = note(name)});
+  };
+  rig.post(note("before"));
+  move(rig.session, "move");
+  move(other, "second move");
+  EXPECT_EQ(done, std::vector<std::string>{"second move"}) << "one session moves at a time";
+  rig.post(note("first"));
+  rig.requests.post_when_possible(
+      rig.shard, {.what = ShardRequest::What::kEndSession, .session = &rig.session, .done = note("second")});
+  rig.requests.post(rig.shard, {.what = ShardRequest::What::kEndSession, .session = &other, .done = note("other")});
+  rig.run_shard();  // it serves no session, so it rejects the move
+  EXPECT_EQ(done, (std::vector<std::string>{"second move", "before", "move", "other"}));
+  bool idle = false;
+  rig.requests.when_idle(rig.session, [&idle] { idle = true; });
+  EXPECT_FALSE(idle);
+  rig.run_shard();
+  EXPECT_EQ(done, (std::vector<std::string>{"second move", "before", "move", "other", "first", "second"}));
+  EXPECT_TRUE(idle);
+}
+
+TEST(ShardRequests, AreBoundedAndCompletedAtTheEndWhileTheirSessionMoves) {
+  Rig rig;
+  std::size_t over = 0;
+  const auto count = [&over](ShardRequest& r) {
+    EXPECT_EQ(r.result, JoinResult::kSessionOver);
+    ++over;
+  };
+  rig.requests.move(rig.shard, {.what = ShardRequest::What::kMoveSession, .session = &rig.session, .done = count});
+  for (std::size_t i = 0; i < ShardRequests::kHeldMax; ++i) rig.post(count);
+  EXPECT_EQ(over, 0U);
+  rig.post(count);
+  EXPECT_EQ(over, 1U);
+  rig.requests.stop_watching();
+  EXPECT_EQ(over, 1 + ShardRequests::kHeldMax);
+}
+
+TEST(ShardRequests, MoveNoSessionWhileOthersWaitForAPlace) {
+  Rig rig;
+  int lost = 0;
+  for (int posted = 0; lost == 0 && posted < 10000; ++posted) rig.post([&lost](ShardRequest&) { ++lost; });
+  rig.requests.post_when_possible(rig.shard, {.what = ShardRequest::What::kEndSession, .session = &rig.session});
+  bool refused = false;
+  rig.requests.move(rig.shard,
+                    {.what = ShardRequest::What::kMoveSession,
+                     .session = &rig.session,
+                     .done = [&refused](ShardRequest& r) { refused = r.result == JoinResult::kSessionOver; }});
+  EXPECT_TRUE(refused) << "the waiting request would go to a shard that no longer serves its session";
+  rig.requests.stop_watching();
   rig.run_shard();
 }
 

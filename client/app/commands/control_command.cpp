@@ -21,6 +21,7 @@
 #include "common/io/signals.h"
 #include "common/io/usage_errors.h"
 #include "proto/rpc/session_list_text.h"
+#include "proto/rpc/session_pages.h"
 
 namespace tandem::client {
 namespace {
@@ -127,6 +128,9 @@ class ConsoleClient {
     return std::nullopt;
   }
   bool order(const rpc::Body& command) { return ask<rpc::Ok>(command).has_value(); }
+  std::optional<rpc::SessionList> sessions() {
+    return rpc::all_sessions([this](const rpc::Body& page) { return ask<rpc::SessionList>(page); });
+  }
   std::optional<rpc::Status> status() {
     auto now = ask<rpc::Status>(rpc::StatusRequest{console_.welcome.session_id});
     if (now) seen_ = now = completed(*now);
@@ -197,14 +201,14 @@ class ConsoleClient {
     return say(json_ ? created_json(*created) : created_text(*created, io::to_text(asked_.server)));
   }
   int run(const EndCommand& command) {
-    const auto list = ask<rpc::SessionList>(rpc::SessionListRequest{});
+    const auto list = sessions();
     if (!list) return io::kExitTrouble;
     const auto id = listed_session(*list, command.session);
     if (!id) return complain(id.error());
     return order(rpc::EndSession{*id, command.why}) ? say(command.session + ": ended") : io::kExitTrouble;
   }
   int run(const SessionsCommand&) {
-    const auto list = ask<rpc::SessionList>(rpc::SessionListRequest{});
+    const auto list = sessions();
     return list ? say(json_ ? session_list_json(*list) : session_list_text(*list)) : io::kExitTrouble;
   }
   int run(const rpc::Note& note) {

@@ -91,6 +91,7 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
                   .load_limits = {limits.load_percent / 100, limits.core_percent / 100},
                   .metrics_hosts = config.metrics_hosts,
                   .audit = {static_cast<std::uint64_t>(config.audit.file_mib * (1 << 20)), config.audit.older_files}},
+      .threads = limits.threads,
       .created_max = limits.created_sessions,
       .scenes = path_beside_config(config, config.scenes.text),
       .reports = path_beside_config(config, config.reports.text),

@@ -126,8 +126,8 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
   if (const auto* enrol = std::get_if<rpc::Enroll>(&frame->body)) return on_enrol(*enrol);
   if (auto* hello = std::get_if<rpc::Hello>(&frame->body)) return on_hello(std::move(*hello));
   if (const auto* ping = std::get_if<rpc::Ping>(&frame->body)) return answer(rpc::Pong{ping->nonce});
-  if (std::holds_alternative<rpc::SessionListRequest>(frame->body)) {
-    rpc::SessionList list = services_.join_handler.list();
+  if (const auto* page = std::get_if<rpc::SessionListRequest>(&frame->body)) {
+    rpc::SessionList list = services_.join_handler.list(page->after);
     accepted();
     return answer(std::move(list));
   }

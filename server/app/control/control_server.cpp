@@ -25,7 +25,7 @@ constexpr int kPortsTried = 20;  // ports that are tried until one is free for U
 /// Raises the limit of open files to all connections that the limits allow and the program's own files. A login shell
 /// often permits 1024 only.
 void permit_descriptors(const ControlLimits& limits) {
-  constexpr rlim_t kOwn = 512;
+  constexpr rlim_t kOwn = 512 + 4 * rpc::kSessionsMax;  // an event, a recording, a report and a trace of each
   const rlim_t wanted = kMostPerPending * limits.pending + limits.connections + kOwn;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return;

@@ -37,7 +37,8 @@ class JoinHandler {
   /// A Welcome could not be sent: the seat is free again.
   virtual void on_join_failed(const rpc::Welcome& welcome) = 0;
 
-  [[nodiscard]] virtual rpc::SessionList list() = 0;
+  /// One page of the list of sessions. @param after  of the SessionListRequest
+  [[nodiscard]] virtual rpc::SessionList list(std::uint32_t after) = 0;
 
   /// Executes a command of a joined connection: stop, pause, resume, authority, remove, status, drain. Replies with
   /// Ok, Status, AuthorityReply or ErrorReply.

@@ -68,6 +68,7 @@ struct SessionEntry {
   }
 
   SessionRegistration registration;
+  std::uint32_t number = 0;            ///< of this server, from 1: place in the list of sessions
   bool closing = false;                ///< the session is over and being removed: it gets no more requests
   std::vector<SeatReservation> seats;  ///< one per seat
   LinkTestSlots link_tests;

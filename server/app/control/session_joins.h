@@ -26,7 +26,7 @@ class SessionJoins final : public JoinHandler {
   void on_joined(const JoinRequest& request, const rpc::Welcome& welcome,
                  const Secret<auth::kExportSize>& secrets) override;
   void on_join_failed(const rpc::Welcome& welcome) override;
-  [[nodiscard]] rpc::SessionList list() override { return registry_.list(); }
+  [[nodiscard]] rpc::SessionList list(std::uint32_t after) override { return registry_.list(after); }
   void command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                std::function<void(rpc::Body)> answer) override;
   [[nodiscard]] bool is_current(const rpc::Welcome& joined) const override;

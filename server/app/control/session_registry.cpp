@@ -7,12 +7,20 @@
 #include "common/auth/base32.h"
 #include "common/auth/enrolment.h"
 #include "common/auth/io/state_directory.h"
+#include "common/base/format.h"
 #include "common/io/clock.h"
 
 namespace tandem::server {
 
 using rpc::ErrorCode;
 using rpc::ErrorReply;
+
+namespace {
+
+constexpr std::size_t kNamedSessions = 8;  // in the text of a rejection
+static_assert(kNamedSessions * (rpc::kNameMax + 2) + 200 < rpc::kTextMax);
+
+}  // namespace
 
 rpc::SessionPhase phase_of(wire::SessionState state) noexcept {
   switch (state) {
@@ -38,7 +46,7 @@ std::string make_session_code() { return auth::session_code(auth::random_bytes<s
 std::string code_text(const std::string& code) { return auth::grouped(code, 5); }
 
 void SessionRegistry::add(SessionRegistration opening) {
-  entries_.emplace_back(std::move(opening), io::monotonic_now());
+  entries_.emplace_back(std::move(opening), io::monotonic_now()).number = ++numbers_;
 }
 
 void SessionRegistry::add_running(SessionRegistration opening, std::function<void(bool)> done) {
@@ -61,6 +69,23 @@ void SessionRegistry::remove(const rpc::Id& id, std::function<void()> gone) {
 void SessionRegistry::end(const rpc::Id& id) {
   if (SessionEntry* const found = find(id); found != nullptr)
     post_when_possible(*found, {.what = ShardRequest::What::kEndSession});
+}
+
+void SessionRegistry::move(const rpc::Id& id, Shard& to, const io::SteeringProgram& there,
+                           const io::SteeringProgram& before, std::function<void(bool)> done) {
+  SessionEntry* const found = find(id);
+  if (found == nullptr || !found->open()) return done(false);
+  ShardRequest request{.what = ShardRequest::What::kMoveSession,
+                       .session = &found->session(),
+                       .target = &to,
+                       .steering = &there,
+                       .steering_before = &before};
+  request.done = [this, found, done = std::move(done)](const ShardRequest& moved) {
+    const bool served = moved.result == JoinResult::kAccepted;
+    if (served) found->registration.shard = moved.target, ++moves_;
+    done(served);
+  };
+  requests_.move(*found->registration.shard, std::move(request));
 }
 
 void SessionRegistry::post_when_possible(const SessionEntry& entry, ShardRequest request) {
@@ -86,15 +111,16 @@ SessionEntry* SessionRegistry::find(const rpc::Id& id) {
 std::variant<SessionEntry*, ErrorReply> SessionRegistry::choose(const rpc::SessionChoice& choice) {
   const auto* const id = std::get_if<rpc::Id>(&choice);
   const auto* const code = std::get_if<std::string>(&choice);
-  std::string names;
+  std::string names;  // a server may have more sessions than the text of a reply has room for
   std::size_t open = 0;
   SessionEntry* found = id == nullptr ? nullptr : find(*id);
   for (SessionEntry& e : entries_) {
     if (code != nullptr && !e.closing && !e.registration.code.empty() && e.registration.code == *code) found = &e;
     if (!e.open()) continue;
-    names += (open++ == 0 ? "" : ", ") + e.registration.name;
+    if (open++ < kNamedSessions) names += (open == 1 ? "" : ", ") + e.registration.name;
     if (id == nullptr && code == nullptr) found = &e;
   }
+  if (open > kNamedSessions) names += format(" and %zu more", open - kNamedSessions);
   if (id == nullptr && code == nullptr && open > 1)
     return ErrorReply{ErrorCode::kNoSession,
                       "this server has several sessions: " + names + "; choose one with --session", 0};
@@ -124,15 +150,18 @@ rpc::ListedSession SessionRegistry::listed(const SessionEntry& entry) {
   return s;
 }
 
-rpc::SessionList SessionRegistry::list() const {
+rpc::SessionList SessionRegistry::list(std::uint32_t after) const {
   rpc::SessionList list;
+  std::uint32_t last = 0;
   for (const SessionEntry& e : entries_) {
-    if (!e.open()) continue;
-    if (list.sessions.size() == rpc::kSessionsMax) {
+    if (!e.open() || e.number <= after) continue;
+    if (list.sessions.size() == rpc::kListedSessionsMax) {
       list.more = true;
+      list.last = last;
       break;
     }
     list.sessions.push_back(listed(e));
+    last = e.number;
   }
   return list;
 }

@@ -28,6 +28,13 @@ class SessionRegistry {
   void remove(const rpc::Id& id, std::function<void()> gone);
   /// Releases all hands of a session and ends it. A full queue of its shard delays this.
   void end(const rpc::Id& id);
+  /// Moves a session to another shard of its tick rate, between two ticks. Requests of the session wait meanwhile.
+  /// @param there, before  kernel's program with the session at `to`, and the one in force; valid until `done`
+  /// @param done           false: its shard still serves it, or it is over; try again later
+  void move(const rpc::Id& id, Shard& to, const io::SteeringProgram& there, const io::SteeringProgram& before,
+            std::function<void(bool)> done);
+  /// Number of moves so far.
+  [[nodiscard]] std::uint64_t moves() const noexcept { return moves_; }
   /// Posts a request to the shard of a session.
   void post(const SessionEntry& entry, ShardRequest request);
 
@@ -42,8 +49,8 @@ class SessionRegistry {
   [[nodiscard]] const std::list<SessionEntry>& entries() const noexcept { return entries_; }
   /// One session of `list`. @pre entry.open()
   [[nodiscard]] static rpc::ListedSession listed(const SessionEntry& entry);
-  /// List of the open sessions for clients.
-  [[nodiscard]] rpc::SessionList list() const;
+  /// One page of the list of open sessions for clients. @param after  `last` of the page before; 0: the first page
+  [[nodiscard]] rpc::SessionList list(std::uint32_t after = 0) const;
   /// List of the sessions for commands on the server's computer.
   [[nodiscard]] ServingSpec serving() const;
 
@@ -60,7 +67,9 @@ class SessionRegistry {
 
   ShardRequests requests_;
   DrainSchedule drain_;
-  std::list<SessionEntry> entries_;
+  std::list<SessionEntry> entries_;  ///< with ascending numbers
+  std::uint32_t numbers_ = 0;        ///< given so far
+  std::uint64_t moves_ = 0;
 };
 
 /// Phase of a session for clients.

@@ -29,6 +29,7 @@ void ShardRequests::await_completions(Watched& watched) {
 
 void ShardRequests::post(Shard& shard, ShardRequest request) {
   ShardRequest& kept = requests_.emplace_back(std::move(request));
+  if (kept.session == moving_) return hold(kept);
   if (shard.post(kept)) return;
   kept.result = JoinResult::kSessionOver;
   complete(kept);
@@ -36,6 +37,11 @@ void ShardRequests::post(Shard& shard, ShardRequest request) {
 
 void ShardRequests::post_when_possible(Shard& shard, ShardRequest request) {
   ShardRequest& kept = requests_.emplace_back(std::move(request));
+  if (kept.session == moving_) return hold(kept);
+  begin(shard, kept);
+}
+
+void ShardRequests::begin(Shard& shard, ShardRequest& kept) {
   if (retried_.empty() && shard.post(kept)) return;
   if (retried_.size() >= kRetriedMax) {
     kept.result = JoinResult::kSessionOver;
@@ -43,6 +49,26 @@ void ShardRequests::post_when_possible(Shard& shard, ShardRequest request) {
   }
   retried_.push_back({&shard, &kept});
   if (retried_.size() == 1) retry();
+}
+
+void ShardRequests::move(Shard& from, ShardRequest request) {
+  ShardRequest& kept = requests_.emplace_back(std::move(request));
+  kept.result = JoinResult::kSessionOver;
+  if (moving_ != nullptr || !retried_.empty()) return complete(kept);
+  if (!from.post(kept)) return complete(kept);
+  moving_ = kept.session;
+  moves_from_ = &from;
+}
+
+void ShardRequests::hold(ShardRequest& request) {
+  if (held_.size() < kHeldMax) return held_.push_back(&request);
+  request.result = JoinResult::kSessionOver;
+  complete(request);
+}
+
+void ShardRequests::end_move(Shard& serving) {
+  moving_ = nullptr;
+  for (ShardRequest* const held : std::exchange(held_, {})) begin(serving, *held);
 }
 
 void ShardRequests::retry() {
@@ -61,12 +87,20 @@ void ShardRequests::stop_watching() {
     r.request->result = JoinResult::kSessionOver;
     complete(*r.request);
   }
+  for (ShardRequest* const held : std::exchange(held_, {})) {
+    held->result = JoinResult::kSessionOver;
+    complete(*held);
+  }
 }
 
 void ShardRequests::complete(ShardRequest& request) {
   request.done(request);
   const LiveSession& session = *request.session;
+  Shard* serving = nullptr;  // after a move
+  if (request.what == ShardRequest::What::kMoveSession && &session == moving_)
+    serving = request.result == JoinResult::kAccepted ? request.target : moves_from_;
   requests_.remove_if([&](const ShardRequest& r) { return &r == &request; });
+  if (serving != nullptr) end_move(*serving);
   const auto waits = std::ranges::find(waiting_, &session, &Waiting::session);
   if (waits == waiting_.end() || !idle(session)) return;
   const auto then = std::move(waits->then);

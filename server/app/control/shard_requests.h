@@ -19,6 +19,7 @@ namespace tandem::server {
 class ShardRequests {
  public:
   static constexpr std::size_t kRetriedMax = 2 * Shard::kSessionsMax;  ///< one start and one end per session
+  static constexpr std::size_t kHeldMax = 256;  ///< requests that wait while their session moves; a shard's queue
   static constexpr std::chrono::milliseconds kRetry{2};
 
   explicit ShardRequests(asio::io_context& context) : context_(context), retry_timer_(context) {}
@@ -37,6 +38,10 @@ class ShardRequests {
   /// kRetriedMax such requests wait; one more is completed now with JoinResult::kSessionOver, as all are by
   /// `stop_watching`.
   void post_when_possible(Shard& shard, ShardRequest request);
+  /// Passes the session of the request (kMoveSession) from its shard to another. Until that is completed, all requests
+  /// of the session wait here, at most kHeldMax; then they go to the shard that serves it. One session moves at a time.
+  /// While another moves, or requests wait for a place in a queue, this is completed now with JoinResult::kSessionOver.
+  void move(Shard& from, ShardRequest request);
   /// Calls `then` once no request of the session is in progress.
   void when_idle(const LiveSession& session, std::function<void()> then);
 
@@ -55,6 +60,9 @@ class ShardRequests {
   };
   void await_completions(Watched& watched);
   void retry();
+  void begin(Shard& shard, ShardRequest& request);
+  void hold(ShardRequest& request);
+  void end_move(Shard& serving);
   void complete(ShardRequest& request);
   [[nodiscard]] bool idle(const LiveSession& session) const;
 
@@ -64,6 +72,9 @@ class ShardRequests {
   std::list<Waiting> waiting_;
   std::deque<Retried> retried_;  ///< requests of `requests_` that wait for a place, in their order
   asio::steady_timer retry_timer_;
+  const LiveSession* moving_ = nullptr;  ///< the session that moves
+  Shard* moves_from_ = nullptr;
+  std::vector<ShardRequest*> held_;  ///< requests of `requests_` for that session, in their order
 };
 
 }  // namespace tandem::server

@@ -116,8 +116,15 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
   for (std::size_t i = 0; i < sessions.size(); ++i)
     page.gauge("tandem_sessions", "Sessions by phase", {{"phase", rpc::to_text(static_cast<rpc::SessionPhase>(i))}},
                static_cast<double>(sessions[i]));
-  for (const Shard* shard : registry.requests().shards()) {
-    const Labels who{{"tick_hz", std::to_string(std::lround(1.0 / seconds(shard->period())))}};
+  page.count("tandem_session_moves_total", "Sessions that moved from a strained tick thread to another", {},
+             static_cast<double>(registry.moves()));
+  const std::vector<const Shard*> shards = registry.requests().shards();
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    const Shard* const shard = shards[i];
+    const Labels who{{"tick_hz", std::to_string(std::lround(1.0 / seconds(shard->period())))},
+                     {"shard", std::to_string(i)}};
+    page.gauge("tandem_shard_sessions", "Sessions that the tick thread serves", who,
+               static_cast<double>(shard->sessions()));
     page.ticks("tandem_tick_seconds", "Processor time of a tick, all sessions of a shard", who,
                shard->load().lengths());
     page.ticks("tandem_tick_lateness_seconds", "Lateness of the start of ticks", who, shard->load().lateness());

@@ -1,10 +1,11 @@
 // Sessions that operators create and end at run time.
 #include <algorithm>
-#include <thread>
+#include <set>
 #include <utility>
 
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/processors.h"
 #include "server/app/process/session_table.h"
 
 namespace tandem::server {
@@ -31,7 +32,7 @@ void SessionTable::reply(const SessionOrder& order, rpc::Body body) {
   });
 }
 
-std::expected<std::size_t, ErrorReply> SessionTable::find_slot(const SceneSpec& scene) const {
+std::expected<SessionTable::Place, ErrorReply> SessionTable::find_place(const SceneSpec& scene) const {
   const auto created = static_cast<std::size_t>(
       std::ranges::count_if(sessions_, [](const auto& session) { return session->created(); }));
   if (created >= options_.created_max)
@@ -46,10 +47,11 @@ std::expected<std::size_t, ErrorReply> SessionTable::find_slot(const SceneSpec& 
                                       format("%zu sessions are open, and a server has at most %zu; end one first",
                                              sessions_.size(), rpc::kSessionsMax),
                                       0});
-  const std::vector<double>& rates = shards_.rates();
-  if (std::ranges::find(rates, scene.tick_hz) == rates.end()) {
+  const auto shard = least_loaded(expected_loads(), scene.tick_hz);
+  if (!shard) {
     std::string known;
-    for (const double rate : rates) known += (known.empty() ? "" : ", ") + format("%g", rate);
+    for (const double rate : std::set<double>(shards_.rates().begin(), shards_.rates().end()))
+      known += (known.empty() ? "" : ", ") + format("%g", rate);
     return std::unexpected(
         ErrorReply{ErrorCode::kNotAllowed,
                    format("the scene has tick_hz %g, and the threads of this server tick at ", scene.tick_hz) + known +
@@ -59,10 +61,9 @@ std::expected<std::size_t, ErrorReply> SessionTable::find_slot(const SceneSpec& 
   for (std::size_t slot = 0; slot < Shard::kSessionsMax; ++slot) {
     const bool taken =
         std::ranges::any_of(sessions_, [&](const auto& session) { return session->live_session().slot() == slot; });
-    if (!taken && shards_.rate_of_slot(slot) == scene.tick_hz) return slot;
+    if (!taken) return Place{slot, *shard};
   }
-  return std::unexpected(
-      ErrorReply{ErrorCode::kFull, format("all sessions of %g Hz are in use; end one first", scene.tick_hz), 0});
+  return std::unexpected(ErrorReply{ErrorCode::kFull, "all slots of sessions are in use; end one first", 0});
 }
 
 rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
@@ -78,17 +79,19 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
   checked->reports = options_.reports;
   checked->record = options_.record;
   const auto options = std::make_shared<const SessionOptions>(std::move(*checked));
-  const auto slot = find_slot(options->scene);
-  if (!slot) return slot.error();
+  const auto place = find_place(options->scene);
+  if (!place) return place.error();
   double all = 0;
   for (const auto& shard : shards_.all()) all += shard->load().cpu_share();
-  const ShardLoad& own = shards_.of_slot(*slot).load();
+  const ShardLoad& own = shards_.all()[place->shard]->load();
   if (std::string why = rejection_reason({own.tick_share(), own.cpu_share(), own.state().level == ShedLevel::kNewJoins},
-                                         all, std::thread::hardware_concurrency(), options_.control.load_limits);
+                                         all, io::available_processors(), options_.control.load_limits);
       !why.empty())
     return ErrorReply{ErrorCode::kFull, std::move(why), 5};
 
-  auto opened = SessionInstance::open(*options, static_cast<std::uint8_t>(*slot), 1,
+  if (!shards_.assign(place->slot, place->shard))
+    return ErrorReply{ErrorCode::kInternal, "the kernel gives no memory for the distribution of datagrams", 5};
+  auto opened = SessionInstance::open(*options, static_cast<std::uint8_t>(place->slot), 1,
                                       !control_.ephemeral_keys() && !options->tickets_only);
   if (!opened)
     return ErrorReply{ErrorCode::kBadFrame, reply_text({{wanted.name, 0, 0, "", "", opened.error().texts.front()}}), 0};

@@ -16,6 +16,8 @@ constexpr std::uint64_t kStatusInterval = 64;
 constexpr std::uint64_t kStatusIntervalShedding = 4 * kStatusInterval;  // from ShedLevel::kTelemetry on
 constexpr std::uint32_t kRecordIntervalShedding = 10;                   // [ticks] likewise, of a recorded session
 
+constexpr double kCostWeight = 1.0 / 4;  // of the newest measurement in the mean cost
+
 constexpr Duration kNeverEchoed = std::chrono::hours(1);  // a longer loop age means that no echo has arrived
 
 double ms(Duration d) { return seconds(d) * 1e3; }
@@ -49,8 +51,15 @@ void LiveSession::draw_path_tokens() noexcept {
 
 SessionStatus LiveSession::status() const { return published_.read(); }
 
+void LiveSession::add_cost(Duration spent) noexcept {
+  const double before = cost_.load(std::memory_order_relaxed), now = seconds(spent);
+  cost_.store(before == 0 ? now : before + kCostWeight * (now - before), std::memory_order_relaxed);
+}
+
 Time LiveSession::tick(Time now, Time due, std::uint32_t missed, const MachineStatus& machine) noexcept {
   if (session_.idle()) now = due;
+  late_ticks_ += machine.late ? 1 : 0;
+  missed_ticks_ += missed;
   session_.lifecycle().set_load_state(machine.load_state);
   const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
   const bool every_tick = reported_ || recording_.load(std::memory_order_relaxed);
@@ -117,6 +126,8 @@ void LiveSession::publish(Time now, const MachineStatus& machine) noexcept {
   status_.stop = session_.stop_control().latch();
   status_.waiting = !session_.start_condition().begun() || session_.start_condition().recovering();
   status_.machine = machine;
+  status_.machine.late_ticks = late_ticks_;
+  status_.machine.missed_ticks = missed_ticks_;
   status_.unmatched_datagrams = session_.unmatched_datagrams();
   status_.violations = violations_.passed() ? 0 : 1;
   status_.audit_dropped = session_.audit().dropped() + audit_.dropped();

@@ -57,6 +57,10 @@ class LiveSession {
   /// No shard serves the session any more. All members may be read, and it may be destroyed.
   [[nodiscard]] bool over() const noexcept { return over_.load(std::memory_order_acquire); }
 
+  /// Processor time of a tick, without the kernel's part of receiving and sending [s]: mean of about the last 4 that
+  /// were measured; 0: none yet.
+  [[nodiscard]] double cost() const noexcept { return cost_.load(std::memory_order_relaxed); }
+
   /// Sets whether a recording is made of the records, from one of the next ticks on; as `set_recorded`.
   void set_recording(bool on) noexcept { recording_.store(on, std::memory_order_relaxed); }
 
@@ -67,9 +71,20 @@ class LiveSession {
   [[nodiscard]] Session& session() noexcept { return session_; }
   /// Runs a tick. A session without clients gets the time at which the tick was due: these times are evenly spaced, so
   /// that a recording of its inputs takes no space.
-  /// @param due  time of the tick, at most one period before `now`
+  /// @param due      time of the tick, at most one period before `now`
+  /// @param machine  of the shard; the session counts late and missed ticks itself, because it may change the shard
   /// @return time that the session got, with which its datagrams are to be polled
   Time tick(Time now, Time due, std::uint32_t missed, const MachineStatus& machine) noexcept;
+  /// Sets the number of the tick before the session's first one. Shards of one tick rate number their ticks alike.
+  void set_last_tick(std::uint64_t number) noexcept { last_tick_ = number; }
+  /// Number of ticks that the session missed before this one, which becomes its last. nullopt: it has had this tick
+  /// already, on the shard that passed it on.
+  [[nodiscard]] std::optional<std::uint32_t> begin_tick(std::uint64_t number) noexcept {
+    if (number <= last_tick_) return std::nullopt;
+    return static_cast<std::uint32_t>(number - std::exchange(last_tick_, number) - 1);
+  }
+  /// Adds the processor time of one tick of the session, sealing included, to the mean that `cost` returns.
+  void add_cost(Duration spent) noexcept;
   /// Publishes the final status and checkpoint. The shard does not access the session afterwards.
   void finish(Time now, const MachineStatus& machine) noexcept;
 
@@ -97,6 +112,9 @@ class LiveSession {
   std::atomic<bool> recording_{false};       ///< likewise: for a recording
   std::atomic<std::int64_t> first_tick_{0};  ///< [ns]; 0: none
   std::uint64_t ticks_ = 0, skipped_records_ = 0;
+  std::uint64_t last_tick_ = 0;  ///< in the numbering of the shards
+  std::uint64_t late_ticks_ = 0, missed_ticks_ = 0;
+  std::atomic<double> cost_{0};
   SessionStatus status_;
   io::Published<SessionStatus> published_;
   CheckpointPublisher checkpoints_;

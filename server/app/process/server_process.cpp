@@ -27,12 +27,6 @@ constexpr Duration kDrainMax = std::chrono::seconds(3);
 constexpr int kRecordingsIntervalMs = 20;
 constexpr Duration kRecordingsMax = std::chrono::seconds(2);
 
-std::vector<double> tick_rates(const ServerOptions& options) {
-  std::vector<double> rates;
-  for (const SessionOptions& session : options.sessions) rates.push_back(session.scene.tick_hz);
-  return rates;
-}
-
 ServerOutput make_output(const ServerOptions& options) {
   return {options.command, !options.quiet && !options.json_log,
           std::ranges::any_of(options.sessions, [](const SessionOptions& s) { return s.json == "-"; })};
@@ -42,7 +36,7 @@ ServerOutput make_output(const ServerOptions& options) {
 class ServerProcess {
  public:
   explicit ServerProcess(const ServerOptions& options)
-      : options_(options), signals_(io::make_signalfd()), output_(make_output(options)), shards_(tick_rates(options)) {
+      : options_(options), signals_(io::make_signalfd()), output_(make_output(options)), shards_(options) {
     if (options.json_log) io::log_as_json(*options.json_log);
   }
   ~ServerProcess() {
@@ -145,6 +139,7 @@ class ServerProcess {
     while (auto order = control_->orders().take()) sessions_->execute(std::move(*order));
     check_start();
     sessions_->service(now);
+    sessions_->balance(now);
     sessions_->service_recordings();
     if (!output_.due(now) || drain_began_) return;
     output_.show(now, sessions_->screen_entries(),

@@ -19,6 +19,7 @@ struct ServerOptions {
   ControlOptions control{};
   std::optional<io::Level> json_log{};                ///< set: log lines are JSON, of this level and above
   double start_timeout_s = 0;                         ///< [s] for the required seats to get ready; 0: no limit
+  std::size_t threads = 0;                            ///< tick threads wanted, 1 ... 64; 0: one per processor
   std::size_t created_max = kCreatedSessionsDefault;  ///< sessions created at run time that are open at a time
   std::string scenes{};       ///< folder of scenes for created sessions, NAME.textproto; empty: shipped scenes only
   std::string reports{};      ///< folder for reports of created sessions; empty: none

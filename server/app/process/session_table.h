@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "server/app/control/control_server.h"
@@ -10,6 +12,7 @@
 #include "server/app/process/checkpoint_store.h"
 #include "server/app/process/server_process.h"
 #include "server/app/process/shard_pool.h"
+#include "server/policy/shard_balancer.h"
 
 namespace tandem::server {
 
@@ -36,6 +39,11 @@ class SessionTable {
   [[nodiscard]] std::vector<SessionScreenEntry> screen_entries() const;
   /// Reports the events of all sessions, ends those without participants, and finishes those that are over.
   void service(Time now);
+  /// Moves a session to another shard if its own is strained.
+  void balance(Time now);
+  /// Moves a session to another shard of its tick rate, and waits for it: one tick, at most 65.
+  /// @return whether that shard serves it; false: the former one does, or the session is over
+  [[nodiscard]] bool move(SessionInstance& session, std::size_t to);
   /// Executes an operator's order: creates a session, or begins to end one. Its reply follows on the control thread,
   /// for an end when the session is over.
   void execute(SessionOrder order);
@@ -65,8 +73,18 @@ class SessionTable {
   /// Words of the status line about a recording; empty: none runs.
   [[nodiscard]] static std::string recording_words(const SessionInstance& session);
   void end_session(SessionOrder order);
-  /// Slot for one more session of this scene, or why there is none.
-  [[nodiscard]] std::expected<std::size_t, rpc::ErrorReply> find_slot(const SceneSpec& scene) const;
+  /// Slot and shard for one more session of this scene, or why there are none.
+  struct Place {
+    std::size_t slot = 0, shard = 0;
+  };
+  [[nodiscard]] std::expected<Place, rpc::ErrorReply> find_place(const SceneSpec& scene) const;
+  /// Measured loads of the shards.
+  [[nodiscard]] std::vector<ShardView> shard_views() const;
+  /// Measured costs of the sessions, as parts of the loads of their shards.
+  [[nodiscard]] std::vector<SessionView> session_views(std::span<const ShardView> shards) const;
+  /// Loads of the shards when all clients of their sessions have joined: the greater of measured and expected costs.
+  [[nodiscard]] std::vector<ShardView> expected_loads() const;
+  [[nodiscard]] std::string shard_text(std::size_t shard) const;
   void reply(const SessionOrder& order, rpc::Body body);
   /// Replies to the orders that ended this session.
   void reply_ended(const auth::Id16& id);
@@ -93,7 +111,8 @@ class SessionTable {
   std::vector<std::unique_ptr<SessionInstance>> sessions_;
   std::vector<std::unique_ptr<SessionInstance>> finished_;  ///< completed, but still registered
   std::vector<std::unique_ptr<SessionInstance>> closing_;   ///< over, but a recording is not complete
-  std::vector<Ending> endings_;                             ///< orders to end sessions that are not over yet
+  ShardBalancer balancer_;
+  std::vector<Ending> endings_;  ///< orders to end sessions that are not over yet
   Time began_{};
   bool draining_ = false;
   int exit_code_ = 0;

@@ -3,6 +3,7 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <span>
 
 #include "common/io/clock.h"
 #include "common/io/realtime.h"
@@ -17,6 +18,8 @@ using namespace std::chrono_literals;
 constexpr int kPriority = 70;            // above the device threads, because a late server delays all participants
 constexpr Duration kReadingMax = 200us;  // limit of receiving per tick, so that a flood cannot delay the tick
 constexpr std::size_t kRequestsMax = 256;
+constexpr std::uint64_t kMeasuredTicks = 4;
+constexpr Duration kIdle = 20ms;  // between two ticks without a session
 
 PeerSlots& slots_of(Session& session, ShardRequest::Peers peers) noexcept {
   return peers == ShardRequest::Peers::kWatchers ? session.watchers().slots() : session.link_test_peers().slots();
@@ -27,20 +30,37 @@ PeerSlots& slots_of(Session& session, ShardRequest::Peers peers) noexcept {
 Shard::Shard(io::UdpSocket socket, double tick_hz)
     : socket_(std::move(socket)),
       period_(from_seconds(1.0 / tick_hz)),
+      idle_(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(kIdle / period_))),
       requests_(kRequestsMax),
       completed_(2 * kRequestsMax),
       load_(period_) {}
 
 bool Shard::add_session(LiveSession& session) noexcept {
-  LiveSession*& place = sessions_[session.slot()];
-  if (place != nullptr) return false;
-  place = &session;
+  if (sessions_[session.slot()] != nullptr) return false;
+  serve(session);
   stagger(session);
   return true;
 }
 
-/// Lets the consoles of different sessions get TELEMETRY at different ticks.
-void Shard::stagger(LiveSession& session) noexcept { session.session().watchers().set_phase(ticks_ + session.slot()); }
+void Shard::serve(LiveSession& session) noexcept {
+  sessions_[session.slot()] = served_[count_++] = &session;
+  served_count_.store(count_, std::memory_order_relaxed);
+}
+
+void Shard::forget(const LiveSession& session) noexcept {
+  sessions_[session.slot()] = nullptr;
+  const auto end = served_.begin() + static_cast<std::ptrdiff_t>(count_--);
+  const auto gone = std::find(served_.begin(), end, &session);
+  std::copy(gone + 1, end, gone);
+  served_count_.store(count_, std::memory_order_relaxed);
+}
+
+/// Lets the consoles of different sessions get TELEMETRY at different ticks. A session that passes to another shard
+/// keeps its turn, because the ticks there have the same numbers.
+void Shard::stagger(LiveSession& session) noexcept {
+  session.set_last_tick(tick_);
+  session.session().watchers().set_phase(static_cast<std::uint32_t>(tick_ + session.slot()));
+}
 
 void Shard::stop(wire::CloseReason why) noexcept {
   stop_reason_.store(why, std::memory_order_relaxed);
@@ -58,30 +78,42 @@ ShardRequest* Shard::next_completed() noexcept { return completed_.take().value_
 
 void Shard::clear_completions() noexcept { completions_.clear(); }
 
+void Shard::end_all(wire::CloseReason why) noexcept {
+  for (LiveSession* s : std::span{served_}.first(count_)) s->session().end(why);
+  if (moving_ != nullptr) reject_move();
+}
+
+std::uint64_t Shard::next_tick() const noexcept { return serving() ? tick_ + 1 : (tick_ / idle_ + 1) * idle_; }
+
+/// Ticks that a shard without sessions skips are not missed.
+void Shard::skip_idle_ticks(Time now) noexcept {
+  if (!serving() && now < time_of(next_tick())) tick_ = tick_at(now);
+}
+
 void Shard::run() noexcept {
   load_.set_realtime(io::request_realtime(kPriority));
-  Time due = io::monotonic_now() + period_;
-  const auto serving = [&] {
-    return std::ranges::any_of(sessions_, [](const LiveSession* s) { return s != nullptr; });
-  };
+  tick_ = tick_at(io::monotonic_now());
+  for (LiveSession* s : std::span{served_}.first(count_)) stagger(*s);
+  open_arrivals();
   while (true) {
-    wait_until(due);
+    wait_until(time_of(next_tick()));
+    skip_idle_ticks(io::monotonic_now());
+    serve_arrival();
     execute_requests(io::monotonic_now());
     if (stop_.load(std::memory_order_acquire)) {
-      if (!serving()) break;
-      for (LiveSession* s : sessions_)
-        if (s != nullptr) s->session().end(stop_reason_.load(std::memory_order_relaxed));
+      if (!serving() && close_arrivals()) break;
+      end_all(stop_reason_.load(std::memory_order_relaxed));
     }
     Time now = io::monotonic_now();
-    if (now < due) continue;
+    if (now < time_of(next_tick())) continue;
     receive();
     now = io::monotonic_now();
-    const std::uint32_t missed = load_.begin_tick(now, now - due, serving());
+    const std::uint64_t next = next_tick();
+    tick_ = next + load_.begin_tick(now, now - time_of(next), serving());
     const Duration before = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
-    tick(now, due + missed * period_, missed);
+    tick(now);
     load_.end_tick(now, before, io::read_clock(CLOCK_THREAD_CPUTIME_ID));
-    due += (missed + 1) * period_;
-    ticks_ += missed + 1;
+    if (moving_ != nullptr) pass_on();
   }
   execute_requests(io::monotonic_now());  // reply to pending requests that the session is over
   completions_.signal();
@@ -127,20 +159,22 @@ void Shard::execute_requests(Time now) noexcept {
   bool any = false;
   while (const auto request = requests_.take()) {
     execute(now, **request);
-    any = completed_.push(*request) || any;
+    any = (*request != moving_ && completed_.push(*request)) || any;
   }
   if (any) completions_.signal();
 }
 
+void Shard::complete(ShardRequest& request) noexcept {
+  completed_.push(&request);
+  completions_.signal();
+}
+
 void Shard::execute(Time now, ShardRequest& request) noexcept {
   LiveSession* const live = request.session;
-  LiveSession*& place = sessions_[live->slot()];
+  const LiveSession* const place = sessions_[live->slot()];
   const bool stopping = stop_.load(std::memory_order_relaxed);
   if (request.what == ShardRequest::What::kAddSession) {
-    request.result = stopping || place != nullptr ? JoinResult::kSessionOver : JoinResult::kAccepted;
-    if (request.result != JoinResult::kAccepted) return;
-    place = live;
-    stagger(*live);
+    request.result = !stopping && add_session(*live) ? JoinResult::kAccepted : JoinResult::kSessionOver;
     return;
   }
   request.result = place == live ? JoinResult::kAccepted : JoinResult::kSessionOver;
@@ -178,23 +212,40 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
     case ShardRequest::What::kEndSession:
       live->session().end(wire::CloseReason::kServerStops);
       break;
+    case ShardRequest::What::kMoveSession:
+      begin_move(request);
+      break;
     case ShardRequest::What::kAddSession:
       break;
   }
 }
 
-void Shard::tick(Time now, Time due, std::uint32_t missed) noexcept {
+void Shard::tick(Time now) noexcept {
+  // Reading the clock is a system call, so few ticks measure, and each of them one session.
+  const bool measures = tick_ % kMeasuredTicks == 0;
   bool ended = false;
-  for (LiveSession*& live : sessions_) {
-    if (live == nullptr) continue;
-    send(live->tick(now, due, missed, load_.machine()), live->session());
-    if (!live->session().over()) continue;
-    live->finish(now, load_.machine());
-    live = nullptr;
+  for (std::size_t i = 0; i < count_;) {
+    LiveSession& live = *served_[i];
+    const auto missed = live.begin_tick(tick_);
+    if (missed) step(now, *missed, live, measures && i == measured_);
+    if (!missed || !live.session().over()) {
+      ++i;
+      continue;
+    }
+    forget(live);
+    live.finish(now, load_.machine());
     ended = true;
   }
+  if (measures) measured_ = measured_ + 1 < count_ ? measured_ + 1 : 0;
   flush();
   if (ended) completions_.signal();
+}
+
+void Shard::step(Time now, std::uint32_t missed, LiveSession& live, bool measured) noexcept {
+  if (measured && 2 * out_.size() > kSendMax) flush();  // so that it does not pay for sending the datagrams of others
+  const Duration before = measured ? io::read_clock(CLOCK_THREAD_CPUTIME_ID) : Duration::zero();
+  send(live.tick(now, time_of(tick_), missed, load_.machine()), live.session());
+  if (measured) live.add_cost(io::read_clock(CLOCK_THREAD_CPUTIME_ID) - before);
 }
 
 void Shard::send(Time now, Session& session) noexcept {

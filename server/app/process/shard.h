@@ -8,6 +8,7 @@
 #include "common/io/event_fd.h"
 #include "common/io/spsc_queue.h"
 #include "common/io/udp_socket.h"
+#include "proto/rpc/rpc_limits.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/shard_load.h"
 #include "server/app/process/shard_request.h"
@@ -17,9 +18,14 @@ namespace tandem::server {
 /// Thread body that serves sessions of one tick rate over one socket. Per tick, on an absolute schedule, it receives a
 /// batch, steps every session and sends a batch. Between ticks it executes the control plane's requests. It uses no
 /// heap and waits for no lock.
+///
+/// Ticks begin at multiples of the period since the zero of the monotonic clock, and that multiple is their number.
+/// Shards of one rate therefore tick at the same times with the same numbers. A session passes from one to another
+/// between two ticks (kMoveSession): the shard changes the kernel's program, reads its socket once more, then passes
+/// the session on. Without sessions a shard wakes 50 times a second only.
 class Shard {
  public:
-  static constexpr std::size_t kSessionsMax = 64;  ///< far more than one core can tick
+  static constexpr std::size_t kSessionsMax = rpc::kSessionsMax;  ///< one per slot
 
   /// @param socket  bound
   Shard(io::UdpSocket socket, double tick_hz);
@@ -45,6 +51,8 @@ class Shard {
   /// Its members for any thread are thread-safe.
   [[nodiscard]] const ShardLoad& load() const noexcept { return load_; }
   [[nodiscard]] Duration period() const noexcept { return period_; }
+  /// Number of sessions that it serves. Thread-safe.
+  [[nodiscard]] std::size_t sessions() const noexcept { return served_count_.load(std::memory_order_relaxed); }
   /// Datagrams so far that belong to no session. Thread-safe.
   [[nodiscard]] std::uint64_t unmatched_datagrams() const noexcept {
     return unmatched_datagrams_.load(std::memory_order_relaxed);
@@ -52,19 +60,53 @@ class Shard {
 
  private:
   void wait_until(Time due) noexcept;
+  [[nodiscard]] Time time_of(std::uint64_t tick) const noexcept {
+    return Time{static_cast<std::int64_t>(tick) * period_};
+  }
+  [[nodiscard]] std::uint64_t tick_at(Time now) const noexcept {
+    return static_cast<std::uint64_t>(now.time_since_epoch() / period_);
+  }
+  [[nodiscard]] std::uint64_t next_tick() const noexcept;
+  void skip_idle_ticks(Time now) noexcept;
+  [[nodiscard]] bool serving() const noexcept { return count_ > 0; }
+  void serve(LiveSession& session) noexcept;
+  void forget(const LiveSession& session) noexcept;
+  void begin_move(ShardRequest& move) noexcept;
+  /// Executes `moving_` after a tick, if enough of the period is left.
+  void pass_on() noexcept;
+  void reject_move() noexcept;
+  /// For the thread of another shard. @return false: this shard has ended, or another session is arriving
+  [[nodiscard]] bool take_over(ShardRequest& move) noexcept;
+  void serve_arrival() noexcept;
+  /// A shard that has ended may run again.
+  void open_arrivals() noexcept;
+  /// From now on no session arrives. @return false: one has arrived before
+  [[nodiscard]] bool close_arrivals() noexcept;
+  void complete(ShardRequest& request) noexcept;
+  void end_all(wire::CloseReason why) noexcept;
   void receive() noexcept;
   void execute_requests(Time now) noexcept;
   void execute(Time now, ShardRequest& request) noexcept;
   void stagger(LiveSession& session) noexcept;
-  void tick(Time now, Time due, std::uint32_t missed) noexcept;
+  void tick(Time now) noexcept;
+  void step(Time now, std::uint32_t missed, LiveSession& live, bool measured) noexcept;
   void send(Time now, Session& session) noexcept;
   void flush() noexcept;
 
   io::UdpSocket socket_;
   io::EventFd wake_, completions_;
   Duration period_;
-  std::uint32_t ticks_ = 0;  ///< so far, with missed ones
-  std::array<LiveSession*, kSessionsMax> sessions_{};
+  std::uint64_t idle_;                                 ///< [ticks] between two ticks without a session
+  std::uint64_t tick_ = 0;                             ///< number of the last tick
+  std::array<LiveSession*, kSessionsMax> sessions_{};  ///< by slot
+  std::array<LiveSession*, kSessionsMax> served_{};    ///< the first `count_`: the same without gaps, in their order
+  std::size_t count_ = 0;
+  std::size_t measured_ = 0;                  ///< place in `served_` of the session whose cost this tick measures
+  std::atomic<std::size_t> served_count_{0};  ///< `count_` for other threads
+  ShardRequest* moving_ = nullptr;            ///< kMoveSession in progress
+  int waited_ticks_ = 0;                      ///< of `moving_`
+  ShardRequest closed_;                       ///< its address in `arrival_`: no session may arrive
+  std::atomic<ShardRequest*> arrival_{nullptr};
   std::atomic<bool> stop_{false};
   std::atomic<wire::CloseReason> stop_reason_{wire::CloseReason::kServerStops};
   io::SpscQueue<ShardRequest*> requests_, completed_;

@@ -18,9 +18,10 @@ constexpr std::uint64_t kLoadTicks = 1000;
 std::uint32_t ShardLoad::begin_tick(Time now, Duration late, bool serving) noexcept {
   const auto missed = static_cast<std::uint32_t>(late / period_);
   lateness_.add(std::max(late, Duration::zero()));
+  machine_.late = late > kLateTick;
   if (serving) {
-    if (late > kLateTick) late_ticks_.fetch_add(1, std::memory_order_relaxed);
-    machine_.late_ticks += late > kLateTick ? 1 : 0;
+    if (machine_.late) late_ticks_.fetch_add(1, std::memory_order_relaxed);
+    machine_.late_ticks += machine_.late ? 1 : 0;
     machine_.missed_ticks += missed;
   }
   machine_.load_state = shedder_.step(now, machine_.realtime ? late : late / kLateUnpromised, used_);

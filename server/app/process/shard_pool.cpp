@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/io/processors.h"
 #include "common/transport/datagram.h"
 #include "server/session/connection_id.h"
 
@@ -19,22 +20,37 @@ constexpr double kPunctual = 1e-3;  // [s]
 
 }  // namespace
 
-ShardPool::ShardPool(std::span<const double> tick_hz) {
+ShardPool::ShardPool(const ServerOptions& options) {
+  std::vector<SessionDemand> sessions;
+  for (const SessionOptions& session : options.sessions)
+    sessions.push_back({session.scene.tick_hz, session.scene.seats.size()});
+  const std::size_t threads = options.threads > 0 ? options.threads : io::available_processors();
+  rates_ = shard_rates(sessions, std::min(threads, io::Steering::kSocketsMax), options.created_max);
+  const std::vector<std::size_t> placed = first_placement(sessions, rates_);
   steering_.byte = kSlotAt;
-  for (std::size_t slot = 0; slot < tick_hz.size(); ++slot) {
-    auto found = std::ranges::find(rates_, tick_hz[slot]);
-    if (found == rates_.end()) found = rates_.insert(rates_.end(), tick_hz[slot]);
-    steering_.socket_of[slot] = static_cast<std::uint8_t>(found - rates_.begin());
-  }
   steering_.sockets = rates_.size();
-  // The kernel's program is fixed once the sockets are bound, so free slots are shared out now.
-  for (std::size_t slot = tick_hz.size(); !rates_.empty() && slot < Shard::kSessionsMax; ++slot)
-    steering_.socket_of[slot] = static_cast<std::uint8_t>(slot % rates_.size());
+  for (std::size_t slot = 0; slot < placed.size(); ++slot)
+    steering_.socket_of[slot] = static_cast<std::uint8_t>(placed[slot]);
 }
 
 void ShardPool::take_sockets(std::vector<io::UdpSocket> sockets) {
+  socket_ = io::duplicate(sockets.front());
   for (std::size_t i = 0; i < rates_.size(); ++i)
     shards_.push_back(std::make_unique<Shard>(std::move(sockets[i]), rates_[i]));
+}
+
+io::Steering ShardPool::steering_with(std::size_t slot, std::size_t shard) const noexcept {
+  io::Steering changed = steering_;
+  changed.socket_of[slot] = static_cast<std::uint8_t>(shard);
+  return changed;
+}
+
+bool ShardPool::assign(std::size_t slot, std::size_t shard) {
+  if (shard_of_slot(slot) == shard) return true;
+  const io::Steering changed = steering_with(slot, shard);
+  if (!io::SteeringProgram{changed}.attach(socket_.fd.get())) return false;
+  steering_ = changed;
+  return true;
 }
 
 void ShardPool::run() {

@@ -1,32 +1,42 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <thread>
 #include <vector>
 
+#include "common/io/datagram_steering.h"
+#include "server/app/process/server_process.h"
 #include "server/app/process/shard.h"
+#include "server/policy/shard_plan.h"
 
 namespace tandem::server {
 
-/// The tick threads: one shard per tick rate, each with its own socket on the shared port. The kernel distributes
-/// datagrams by the session's slot, which is a byte of every connection id.
+/// The tick threads: shards of each tick rate, each with its own socket on the shared port. The kernel distributes
+/// datagrams by the session's slot, which is a byte of every connection id. Only one thread changes the assignment.
 class ShardPool {
  public:
-  /// @param tick_hz  of the session in each slot; sessions that are created later have one of these rates
-  explicit ShardPool(std::span<const double> tick_hz);
+  /// Plans the shards for the sessions of the options, which take the first slots in their order.
+  explicit ShardPool(const ServerOptions& options);
   ~ShardPool() { join(); }
 
   /// Assignment of slots to sockets.
   [[nodiscard]] const io::Steering& steering() const noexcept { return steering_; }
   /// @param sockets  one per shard, as `steering` requires
   void take_sockets(std::vector<io::UdpSocket> sockets);
-  [[nodiscard]] Shard& of_slot(std::size_t slot) noexcept { return *shards_[steering_.socket_of[slot]]; }
-  /// Tick rate of the sessions in a slot [Hz]. Slots beyond those of the constructor are shared out among the rates.
-  [[nodiscard]] double rate_of_slot(std::size_t slot) const noexcept { return rates_[steering_.socket_of[slot]]; }
+  [[nodiscard]] std::size_t shard_of_slot(std::size_t slot) const noexcept { return steering_.socket_of[slot]; }
+  [[nodiscard]] Shard& of_slot(std::size_t slot) noexcept { return *shards_[shard_of_slot(slot)]; }
+  /// Tick rate of each shard [Hz].
   [[nodiscard]] const std::vector<double>& rates() const noexcept { return rates_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Shard>>& all() const noexcept { return shards_; }
+
+  /// The assignment with one slot at another shard.
+  [[nodiscard]] io::Steering steering_with(std::size_t slot, std::size_t shard) const noexcept;
+  /// Records that the kernel distributes by this assignment now.
+  void set_steering(const io::Steering& steering) noexcept { steering_ = steering; }
+  /// Assigns a slot without a session to a shard, from now on. @return false if the kernel rejects it
+  [[nodiscard]] bool assign(std::size_t slot, std::size_t shard);
 
   void run();
   /// Ends all sessions; they release their hands first. @param why reason in the clients' CLOSE
@@ -38,6 +48,7 @@ class ShardPool {
  private:
   std::vector<double> rates_;  ///< one per shard
   io::Steering steering_;
+  io::UdpSocket socket_;  ///< one of the sockets, for `assign`
   std::vector<std::unique_ptr<Shard>> shards_;
   std::vector<std::thread> threads_;
 };

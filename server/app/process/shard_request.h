@@ -3,26 +3,29 @@
 #include <cstdint>
 #include <functional>
 
+#include "common/io/datagram_steering.h"
 #include "server/session/seat_catalogue.h"
 #include "server/session/session_command.h"
 
 namespace tandem::server {
 
 class LiveSession;
+class Shard;
 
 /// Request from the control plane to a shard. The control plane creates, fills and frees it; the shard executes it
 /// between two ticks.
 struct ShardRequest {
   enum class What : std::uint8_t {
-    kAddSession,  ///< serve `session` from now on, in its slot
-    kQuerySeat,   ///< whether `seat` is available
-    kAdmit,       ///< attach `connection` to `seat`
-    kAdmitPeer,   ///< admit `connection.link` as a peer without a seat
-    kEndSession,  ///< end the session: release all hands, then send CLOSE
-    kCommand,     ///< execute `command` of a control connection; result in `outcome`
-    kRevokeSeat,  ///< remove the client `cid` from `seat`; result and tick in `outcome`
-    kQueryPeers,  ///< number of free slots of `peers`, in `place`
-    kRemovePeer,  ///< remove the peer `cid` in slot `place` of `peers`
+    kAddSession,   ///< serve `session` from now on, in its slot
+    kQuerySeat,    ///< whether `seat` is available
+    kAdmit,        ///< attach `connection` to `seat`
+    kAdmitPeer,    ///< admit `connection.link` as a peer without a seat
+    kEndSession,   ///< end the session: release all hands, then send CLOSE
+    kCommand,      ///< execute `command` of a control connection; result in `outcome`
+    kRevokeSeat,   ///< remove the client `cid` from `seat`; result and tick in `outcome`
+    kQueryPeers,   ///< number of free slots of `peers`, in `place`
+    kRemovePeer,   ///< remove the peer `cid` in slot `place` of `peers`
+    kMoveSession,  ///< pass the session to shard `target` after one of the next ticks; completed by the target
   };
   enum class Peers : std::uint8_t { kLinkTests, kWatchers };
   What what = What::kAdmit;
@@ -39,6 +42,9 @@ struct ShardRequest {
   bool every_tick = true;  ///< kAdmitPeer: the watcher records the session
   std::size_t place = 0;   ///< slot of a peer, or number of free slots; kAdmitPeer, out: the peer's slot
   std::uint32_t cid = 0;
+  Shard* target = nullptr;  ///< kMoveSession: of the same tick rate, with a socket of the same port
+  /// kMoveSession: the kernel's program that gives the session's datagrams to the target, and the one in force.
+  const io::SteeringProgram *steering = nullptr, *steering_before = nullptr;
   std::function<void(ShardRequest&)> done = [](ShardRequest&) {};  ///< called on the control plane's thread
 };
 

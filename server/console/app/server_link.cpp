@@ -5,6 +5,7 @@
 
 #include "client/app/console_commands.h"
 #include "common/auth/io/control_client.h"
+#include "proto/rpc/session_pages.h"
 #include "server/console/live_json.h"
 #include "server/console/state_json.h"
 #include "server/policy/roles.h"
@@ -204,12 +205,18 @@ bool ServerLink::ask_status() {
 }
 
 void ServerLink::ask_sessions() {
-  auto answer = console_.connection->ask(rpc::SessionListRequest{}, kReplyTimeout);
-  if (!answer) return lose(answer.error().text);
-  if (auto* list = std::get_if<rpc::SessionList>(&*answer)) {
-    auto sessions = std::make_shared<const std::vector<rpc::ListedSession>>(std::move(list->sessions));
-    update([&](LivePicture& picture) { picture.sessions = std::move(sessions); });
-  }
+  std::string lost;
+  const auto ask = [&](const rpc::Body& page) -> std::optional<rpc::SessionList> {
+    auto answer = console_.connection->ask(page, kReplyTimeout);
+    if (!answer) lost = answer.error().text;
+    auto* const list = answer ? std::get_if<rpc::SessionList>(&*answer) : nullptr;
+    return list == nullptr ? std::nullopt : std::optional(std::move(*list));  // after a refusal, the next period asks
+  };
+  auto list = rpc::all_sessions(ask);
+  if (!lost.empty()) return lose(lost);
+  if (!list) return;
+  auto sessions = std::make_shared<const std::vector<rpc::ListedSession>>(std::move(list->sessions));
+  update([&](LivePicture& picture) { picture.sessions = std::move(sessions); });
 }
 
 void ServerLink::ask_scenes() {

@@ -55,13 +55,15 @@ TEST(RpcCodec, EncodesAPingToKnownBytes) {
 
 TEST(RpcCodec, TheLargestListFitsAFrame) {
   SessionList list;
-  for (std::size_t i = 0; i < kSessionsMax; ++i) {
+  for (std::size_t i = 0; i < kListedSessionsMax; ++i) {
     ListedSession& s = list.sessions.emplace_back();
     s.name = std::string(kNameMax, 'n');
     s.phase = SessionPhase::kEnding;
     for (std::size_t k = 0; k < kListedSeatsMax; ++k)
       s.seats.push_back({std::string(kNameMax, 's'), AccessRole::kRecorder, true, true});
   }
+  list.more = true;
+  list.last = 0xffffffff;
   EXPECT_TRUE(encode({0xffffffff, list}));
   list.sessions.emplace_back(list.sessions.front());
   EXPECT_FALSE(encode({0, list}));

@@ -113,7 +113,8 @@ inline Welcome welcome(RandomStream& r) {
 inline SessionList session_list(RandomStream& r) {
   SessionList m;
   m.more = r.below(2) == 0;
-  for (std::uint64_t i = r.below(kSessionsMax + 1); i > 0; --i) {
+  m.last = static_cast<std::uint32_t>(r.bits());
+  for (std::uint64_t i = r.below(kListedSessionsMax + 1); i > 0; --i) {
     ListedSession& s = m.sessions.emplace_back();
     fill(r, s.id);
     s.name = name(r);
@@ -229,7 +230,7 @@ inline Frame frame(RandomStream& r, Kind kind) {
       f.body = EnrollAck{name(r)};
       break;
     case Kind::kSessionListRequest:
-      f.body = SessionListRequest{};
+      f.body = SessionListRequest{static_cast<std::uint32_t>(r.bits())};
       break;
     case Kind::kSessionList:
       f.body = session_list(r);

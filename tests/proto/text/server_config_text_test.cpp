@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "proto/rpc/rpc_limits.h"
+
 namespace tandem {
 namespace {
 
@@ -41,13 +43,25 @@ TEST(ServerConfig, ReportsAllMistakesWithTheirPlaces) {
 }
 
 TEST(ServerConfig, RejectsLimitsLooserThanTheDefaults) {
-  for (const char* limit : {"accepts_per_s: 10.1", "accepts_burst: 101", "accepts_per_s_all: 301", "connections: 2049",
-                            "deadline_s: 5.1", "load_percent: 60.1", "core_percent: 80.1", "created_sessions: 49"})
-    EXPECT_NE(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
   for (const char* limit :
-       {"accepts_per_s: 10", "accepts_burst: 100", "accepts_per_s_all: 300", "connections: 2048", "deadline_s: 5",
-        "load_percent: 60", "core_percent: 80", "created_sessions: 48", "created_sessions: 0"})
+       {"accepts_per_s: 10.1", "accepts_burst: 101", "accepts_per_s_all: 301", "connections: 2049", "deadline_s: 5.1",
+        "load_percent: 60.1", "core_percent: 80.1", "created_sessions: 257", "threads: 65"})
+    EXPECT_NE(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
+  for (const char* limit : {"accepts_per_s: 10", "accepts_burst: 100", "accepts_per_s_all: 300", "connections: 2048",
+                            "deadline_s: 5", "load_percent: 60", "core_percent: 80", "created_sessions: 256",
+                            "created_sessions: 0", "threads: 64", "threads: 0"})
     EXPECT_EQ(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
+}
+
+TEST(ServerConfig, NamesAtMost256Sessions) {
+  std::string text = "version: 1 listen: \"127.0.0.1:0\"\n";
+  for (std::size_t i = 0; i < rpc::kSessionsMax; ++i)
+    text += "session { name: \"s" + std::to_string(i) + "\" scene: \"contact\" }\n";
+  const auto full = parse_server_config(text, "s.textproto");
+  ASSERT_TRUE(full) << to_text(full.error());
+  EXPECT_EQ(full->sessions.size(), 256U);
+  const std::string told = mistakes_of(text + "session { name: \"beyond\" scene: \"contact\" }\n");
+  EXPECT_NE(told.find("at most 256 are allowed, here are 257"), std::string::npos) << told;
 }
 
 TEST(ServerConfig, ReadsSizeAndCountOfTheAuditLog) {

@@ -53,6 +53,32 @@ TEST(SessionRegistry, ListsASeatAsTakenFromTheBeginOfAJoin) {
       << "commands on this computer see clients only";
 }
 
+TEST(SessionRegistry, ListsManySessionsInPages) {
+  RegistryFixture f;
+  const unsigned sessions = 2 * rpc::kListedSessionsMax + 5;
+  for (unsigned i = 0; i < sessions; ++i) f.add("s" + std::to_string(i), i);
+  std::vector<std::string> names;
+  rpc::SessionList page = f.registry.list();
+  for (const rpc::ListedSession& s : page.sessions) names.push_back(s.name);
+  EXPECT_EQ(names.size(), rpc::kListedSessionsMax);
+  f.registry.entries().front().closing = true;  // earlier ones do not matter any more
+  while (page.more) {
+    page = f.registry.list(page.last);
+    for (const rpc::ListedSession& s : page.sessions) names.push_back(s.name);
+  }
+  ASSERT_EQ(names.size(), sessions);
+  for (unsigned i = 0; i < sessions; ++i) EXPECT_EQ(names[i], "s" + std::to_string(i));
+}
+
+TEST(SessionRegistry, NamesAFewOfManySessionsInARejection) {
+  RegistryFixture f;
+  for (unsigned i = 0; i < 60; ++i) f.add("session_of_a_long_name_number_" + std::to_string(i), i);
+  const rpc::ErrorReply reply = error_of(f.registry.choose({}));
+  EXPECT_EQ(reply.code, ErrorCode::kNoSession);
+  EXPECT_LE(reply.text.size(), rpc::kTextMax) << "a longer text could not be sent";
+  EXPECT_NE(reply.text.find("number_7 and 52 more; choose one with --session"), std::string::npos) << reply.text;
+}
+
 /// Fills the queue of the shard; `begun` requests of the session wait in it then.
 void fill_queue(RegistryFixture& f, const SessionEntry& entry) {
   bool full = false;

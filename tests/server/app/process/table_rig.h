@@ -38,7 +38,7 @@ inline ServerOptions options_with(std::vector<SessionOptions> sessions) {
 /// The table with all parts that a server process has around it.
 class TableRig {
  public:
-  explicit TableRig(ServerOptions given) : options(std::move(given)), shards(rates(options)) {
+  explicit TableRig(ServerOptions given) : options(std::move(given)), shards(options) {
     std::filesystem::create_directories(folder_);
     setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);  // keys for clients of this user
     control = *ControlServer::open(options.control, shards.steering(), {});
@@ -105,11 +105,6 @@ class TableRig {
   std::optional<SessionTable> table;
 
  private:
-  static std::vector<double> rates(const ServerOptions& options) {
-    std::vector<double> all;
-    for (const SessionOptions& session : options.sessions) all.push_back(session.scene.tick_hz);
-    return all;
-  }
   std::string folder_ = testing::TempDir() + "session_table_" + std::to_string(::getpid());
 };
 
