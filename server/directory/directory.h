@@ -101,7 +101,7 @@ struct Reply {
   LeaseId lease = 0;       ///< Grant: the new lease
   Duration ttl{};          ///< Grant, Renew: time for which the lease holds from the moment of execution
   bool held = false;       ///< Transaction: all conditions held
-  std::vector<std::vector<KeyValue>> found;  ///< Transaction: what each Read of the executed branch found
+  std::vector<std::vector<KeyValue>> found;  ///< Transaction: entries of each Read of the executed branch
   std::vector<Change> changes;               ///< Watch
   std::string reason;                        ///< kUnknown, kRefused: in words
 };

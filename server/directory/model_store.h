@@ -39,7 +39,7 @@ class ModelStore {
   [[nodiscard]] std::uint64_t term() const noexcept { return term_; }
   [[nodiscard]] const std::map<std::string, KeyValue>& entries() const noexcept { return entries_; }
   [[nodiscard]] std::size_t leases() const noexcept { return leases_.size(); }
-  /// Transactions that wrote, and ends of leases: what the store has to put on its disk.
+  /// Transactions that wrote, and ends of leases: the entries that the store has to put on its disk.
   [[nodiscard]] std::uint64_t writes() const noexcept { return writes_; }
 
  private:

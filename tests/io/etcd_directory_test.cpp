@@ -4,7 +4,6 @@
 #include <ctime>
 
 #include "common/auth/tls_key.h"
-#include "common/io/clock.h"
 #include "server/directory/ownership.h"
 #include "tests/io/etcd_process.h"
 
@@ -104,16 +103,18 @@ TEST_F(EtcdDirectoryTest, CarriesOwnershipMovesTicketsAndTheDeathOfAServer) {
 }
 
 TEST_F(EtcdDirectoryTest, GoesToTheNextEndpointAndReportsWhatItDoesNotKnow) {
-  auto first = std::make_unique<Etcd>();
-  Etcd second;
-  EtcdDirectory directory(to({first->endpoint(), second.endpoint()}));
-  OperationId next = first->wait_until_ready(directory);
-  directory.begin(next, Watch{"", 0});
-  EXPECT_EQ(wait_for_reply(directory, next).outcome, Outcome::kDone);
-  first->process().signal(SIGKILL);
+  Etcd first, second;
+  for (Etcd* member : {&first, &second}) {
+    EtcdDirectory alone(to({member->endpoint()}));
+    member->wait_until_ready(alone);
+  }
+  EtcdDirectory directory(to({first.endpoint(), second.endpoint()}));
+  directory.begin(1, Watch{"", 0});
+  EXPECT_EQ(wait_for_reply(directory, 1).outcome, Outcome::kDone);
+  first.process().signal(SIGKILL);
   // The watch ends. Calls succeed after some tries, at the other member; here it has a store of its own.
-  EXPECT_EQ(wait_for_reply(directory, next).outcome, Outcome::kUnknown);
-  second.wait_until_ready(directory, next + 1);
+  EXPECT_EQ(wait_for_reply(directory, 1).outcome, Outcome::kUnknown);
+  second.wait_until_ready(directory, 2);
   EXPECT_GT(directory.counters().endpoint_changes, 0U);
   EXPECT_GT(directory.counters().unknown, 0U);
 }

@@ -1,5 +1,7 @@
 #include "server/directory/io/etcd_directory.h"
 
+#include <grpc/grpc.h>
+#include <grpc/support/log.h>
 #include <grpc/support/time.h>
 
 #include <charconv>
@@ -64,6 +66,13 @@ class EtcdDirectory::Core {
   explicit Core(EtcdOptions options) : options_(std::move(options)) {}
 
   void start() {
+    // gRPC stays until the program ends: its threads may still be leaving a callback when the last connection ends.
+    static const bool once = [] {
+      grpc_init();
+      gpr_set_log_function([](gpr_log_func_args*) {});  // it would write to standard error; replies have the reasons
+      return true;
+    }();
+    static_cast<void>(once);
     thread_ = std::thread([this] { run(); });
   }
   void stop() {
@@ -109,9 +118,10 @@ class EtcdDirectory::Core {
     contexts_.insert(context);
     return true;
   }
-  void close(const Context& context) {
+  void close(Context context) {
     const std::lock_guard lock(mutex_);
     contexts_.erase(context);
+    context.reset();
     wake_.notify_all();
   }
   /// Queues a reply. Returns false if the queue is full: the result is then unknown, and a watch ends.
@@ -177,7 +187,7 @@ using Core = EtcdDirectory::Core;
 template <class AnyCall>
 void end_call(Core& core, const AnyCall* call, Context context) {
   delete call;
-  core.close(context);
+  core.close(std::move(context));
 }
 
 /// One call with one answer. It deletes itself after its end.

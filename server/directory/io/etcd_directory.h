@@ -32,7 +32,7 @@ class EtcdDirectory final : public Directory {
   [[nodiscard]] std::optional<Reply> poll() override;
   [[nodiscard]] Counters counters() const;
 
-  class Core;  ///< what the threads share
+  class Core;  ///< state that the threads share
 
  private:
   std::unique_ptr<Core> core_;

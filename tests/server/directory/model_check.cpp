@@ -9,6 +9,8 @@
 #include "common/base/rng.h"
 #include "server/directory/model_store.h"
 #include "server/directory/ownership.h"
+#include "tests/server/directory/guard_removal.h"
+#include "tests/server/directory/simulated_world.h"
 
 namespace tandem::directory::test {
 
@@ -17,45 +19,11 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kClientsPerSession = 2;
-constexpr Duration kRamp = 200ms;
-
-std::string server_name(std::size_t n) { return format("server-%zu", n); }
-std::string session_name(std::size_t n) { return format("session-%zu", n); }
-
-/// A server's process and machine.
-struct Node {
-  std::unique_ptr<Ownership> core;  ///< null: the process has ended
-  std::uint64_t incarnation = 0;
-  double rate = 1;
-  Duration offset{}, wall_offset{};
-  Time paused_until{}, cut_store_until{}, cut_clients_until{}, deposed_until{};
-  Time last_watch_delivery{};
-  std::map<OperationId, OperationId> watches;  ///< at the store -> at the core
-  std::vector<Time> last_acted;
-  std::vector<Revision> acted_as;  ///< revisions at the begin of a pause; 0: did not act
-};
-
-struct Client {
-  std::size_t session = 0;
-  std::optional<std::size_t> server;
-  Time last_force{};
-  Revision highest = 0, obeyed = 0;
-};
-
-class Run {
+class Run : SimulatedWorld {
  public:
-  Run(const Schedule& schedule, Guard removed)
-      : schedule_(schedule), removed_(removed), draws_(RandomKey{schedule.seed}.derive(0xd2)) {
-    times_.answer_limit = schedule.answer_limit;
-    if (removed == Guard::kHold) times_.hold_after = 10s;
-    if (removed == Guard::kRamp) times_.ramp = 1ns;
+  Run(const Schedule& schedule, Guard removed) : SimulatedWorld(schedule, removed) {
     store_rate_ = 1 + schedule.drift[0];
-    nodes_.resize(schedule.servers);
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      nodes_[n].rate = 1 + schedule.drift[n + 1];
-      nodes_[n].offset = draw(0s, 1000s);
-      nodes_[n].last_acted.resize(schedule.sessions, Time::min() + 1h);
-      nodes_[n].acted_as.resize(schedule.sessions);
       start(n);
       tick(n);
     }
@@ -71,19 +39,15 @@ class Run {
   Verdict run() {
     const Time calm = Time{} + schedule_.calm;
     while (verdict_.violation.empty()) {
-      std::ranges::pop_heap(events_, later);
-      Event event = std::move(events_.back());
-      events_.pop_back();
-      now_ = event.at;
-      event.run();
+      events_.step();
       ++verdict_.events;
       check_owners();
-      if (now_ <= calm) continue;
+      if (now() <= calm) continue;
       if (not_served().empty()) {
-        verdict_.recovered = now_ - calm;
+        verdict_.recovered = now() - calm;
         break;
       }
-      if (now_ > calm + kCalmLimit) fail(not_served());
+      if (now() > calm + kCalmLimit) fail(not_served());
     }
     for (const Node& node : nodes_)
       if (node.core) verdict_.doubtful += node.core->keeper().doubtful_renewals();
@@ -91,40 +55,7 @@ class Run {
   }
 
  private:
-  struct Event {
-    Time at;
-    std::uint64_t order;
-    std::function<void()> run;
-  };
-  static bool later(const Event& a, const Event& b) { return a.at != b.at ? a.at > b.at : a.order > b.order; }
-
-  void at(Time when, std::function<void()> what) {
-    events_.push_back({when, ++order_, std::move(what)});
-    std::ranges::push_heap(events_, later);
-  }
-  void after(Duration wait, std::function<void()> what) { at(now_ + wait, std::move(what)); }
-  Duration draw(Duration lo, Duration hi) {
-    return lo + Duration{static_cast<std::int64_t>(draws_.uniform() * static_cast<double>((hi - lo).count()))};
-  }
-  bool chance(double p) { return draws_.uniform() < p; }
-  bool calm() const { return now_ >= Time{} + schedule_.calm; }
-  Duration delay(std::size_t n) {
-    const bool slow = !calm() && (!schedule_.slow || *schedule_.slow == n);
-    return draw(10us, slow ? schedule_.delay_max : std::min<Duration>(20ms, schedule_.delay_max));
-  }
-  bool lost() { return chance(schedule_.loss) && !calm(); }
-  void fail(const std::string& what) {
-    if (verdict_.violation.empty()) verdict_.violation = format("%.3f s: %s", seconds(now_), what.c_str());
-  }
-
   // ---- servers ----
-  bool runs(const Node& node) const { return node.core && now_ >= node.paused_until; }
-  Time clock(const Node& node) const {
-    const Time monotonic =
-        Time{} + node.offset +
-        Duration{static_cast<std::int64_t>(static_cast<double>(now_.time_since_epoch().count()) * node.rate)};
-    return removed_ == Guard::kMonotonicClock ? monotonic + node.wall_offset : monotonic;
-  }
   void start(std::size_t n) {
     Node& node = nodes_[n];
     ++node.incarnation;
@@ -141,7 +72,7 @@ class Run {
   void deliver(std::size_t n, std::uint64_t incarnation, std::function<void()> what) {
     Node& node = nodes_[n];
     if (!node.core || node.incarnation != incarnation) return;
-    if (now_ < node.paused_until) {
+    if (now() < node.paused_until) {
       at(node.paused_until, [this, n, incarnation, what = std::move(what)] { deliver(n, incarnation, what); });
       return;
     }
@@ -180,9 +111,9 @@ class Run {
   // ---- the store ----
   Time store_clock() const {
     return Time{} +
-           Duration{static_cast<std::int64_t>(static_cast<double>(now_.time_since_epoch().count()) * store_rate_)};
+           Duration{static_cast<std::int64_t>(static_cast<double>(now().time_since_epoch().count()) * store_rate_)};
   }
-  bool store_up() const { return now_ >= store_down_until_; }
+  bool store_up() const { return now() >= store_down_until_; }
   void store_tick() {
     after(draw(10ms, 500ms), [this] {
       if (store_up()) {
@@ -194,12 +125,14 @@ class Run {
   }
   void send(std::size_t n, OperationId id, Request request, Duration out, Duration back) {
     const Node& node = nodes_[n];
-    weaken(node, request);
+    if (const auto own = answer_without_store(removed_, server_name(n), node.core->keeper().lease(), id, request))
+      return reply(n, node.incarnation, *own, back);
+    weaken(removed_, immortal_, request);
     const bool watch = std::holds_alternative<Watch>(request);
-    if (watch && (now_ < node.cut_store_until || now_ < node.deposed_until || lost())) {
+    if (watch && (now() < node.cut_store_until || now() < node.deposed_until || lost())) {
       return after(1s, [this, n, id, i = node.incarnation] { reply(n, i, broken(id), 0s); });
     }
-    if (now_ < node.cut_store_until || lost()) return;
+    if (now() < node.cut_store_until || lost()) return;
     const int copies = !watch && chance(schedule_.duplicate) && !calm() ? 2 : 1;
     for (int copy = 0; copy < copies; ++copy) {
       const Duration extra = copy == 0 ? Duration{} : draw(0s, 5s);
@@ -214,9 +147,11 @@ class Run {
   }
   void execute(std::size_t n, std::uint64_t incarnation, OperationId id, const Request& request, Duration back) {
     Node& node = nodes_[n];
-    if (now_ < node.deposed_until) {
+    if (now() < node.deposed_until) {
       if (std::holds_alternative<Watch>(request)) return reply(n, incarnation, broken(id), back);
-      if (const auto answer = store_.execute_deposed(id, request)) reply(n, incarnation, *answer, back);
+      if (const auto answer = store_.execute_deposed(id, request)) return reply(n, incarnation, *answer, back);
+      // The member keeps the request until it learns of the new leader, or drops it.
+      if (chance(0.5)) at(node.deposed_until, [=, this] { execute(n, incarnation, id, request, back); });
       return;
     }
     if (!store_up()) {
@@ -242,12 +177,12 @@ class Run {
   void reply(std::size_t n, std::uint64_t incarnation, Reply answer, Duration back) {
     // The end of a watch is always reported, by the store or by the adapter.
     const bool end_of_watch = answer.outcome == Outcome::kUnknown || answer.outcome == Outcome::kCompacted;
-    if (!end_of_watch && (now_ < nodes_[n].cut_store_until || lost())) return;
-    if (slow_until_ > now_) back += draw(0s, 1s);
+    if (!end_of_watch && (now() < nodes_[n].cut_store_until || lost())) return;
+    if (slow_until_ > now()) back += draw(0s, 1s);
     after(back, [this, n, incarnation, answer = std::move(answer)] {
       deliver(n, incarnation, [this, n, answer] {
         Reply changed = answer;
-        weaken(n, changed);
+        weaken(removed_, server_name(n), nodes_[n].core->keeper().lease(), changed);
         nodes_[n].core->on_reply(clock(nodes_[n]), changed);
       });
     });
@@ -262,9 +197,9 @@ class Run {
           continue;
         }
         changes->operation = watch->second;
-        const bool cut = now_ < node.cut_store_until || now_ < node.deposed_until || lost();
+        const bool cut = now() < node.cut_store_until || now() < node.deposed_until || lost();
         if (cut) *changes = broken(watch->second);
-        const Time arrival = std::max(now_ + (cut ? Duration{1s} : delay(n)), node.last_watch_delivery + 1ns);
+        const Time arrival = std::max(now() + (cut ? Duration{1s} : delay(n)), node.last_watch_delivery + 1ns);
         node.last_watch_delivery = arrival;
         at(arrival, [this, n, i = node.incarnation, reply = *changes] {
           deliver(n, i, [this, n, reply] { nodes_[n].core->on_reply(clock(nodes_[n]), reply); });
@@ -279,35 +214,10 @@ class Run {
     }
   }
 
-  // ---- guards that a run leaves out ----
-  void weaken(const Node& node, Request& request) const {
-    auto* transaction = std::get_if<Transaction>(&request);
-    if (!transaction || transaction->then.empty()) return;
-    auto* put = std::get_if<Put>(&transaction->then[0]);
-    const auto* erase = std::get_if<Erase>(&transaction->then[0]);
-    const bool owner_put = put && put->key.ends_with("/owner"), standby_put = put && put->key.ends_with("/standby");
-    const bool ticket = put && put->key.contains("/tickets/");
-    if (removed_ == Guard::kClaimCondition && owner_put) transaction->conditions.clear();
-    if (removed_ == Guard::kReleaseCondition && erase) transaction->conditions.clear();
-    if (removed_ == Guard::kTicketCondition && ticket) transaction->conditions.pop_back();
-    if (removed_ == Guard::kKeyUnderLease && owner_put) put->lease = 0;
-    if (removed_ == Guard::kStandbyUnderLease && standby_put) put->lease = node.core->keeper().lease();
-  }
-  void weaken(std::size_t n, Reply& reply) const {
-    if (removed_ == Guard::kConfirmedRenewal) reply.term = 1;
-    for (auto& found : reply.found)
-      for (KeyValue& entry : found) {
-        const bool owner = entry.key.ends_with("/owner") && entry.value == server_name(n);
-        const bool ours = owner || entry.key.ends_with("/" + server_name(n));
-        if (removed_ == Guard::kLeaseIdentity && ours) entry.lease = nodes_[n].core->keeper().lease();
-        if (removed_ == Guard::kAdoption && owner) entry.lease = -1;
-      }
-  }
-
   // ---- faults ----
   void begin(const Fault& fault) {
     Node& node = nodes_[fault.kind == Fault::Kind::kMove ? 0 : fault.who];
-    const Time end = now_ + fault.length;
+    const Time end = now() + fault.length;
     switch (fault.kind) {
       case Fault::Kind::kSuspend:
         if (removed_ == Guard::kSuspendedClock) at(end, [&node, length = fault.length] { node.offset -= length; });
@@ -346,9 +256,10 @@ class Run {
         store_.elect();
         // The connection to the old leader stands for a time. Only what needs the quorum does not get through.
         node.deposed_until = std::min(end + 500ms, Time{} + schedule_.calm);
-        return at(node.deposed_until, [this, &node, end = std::min(end + 3500ms, Time{} + schedule_.calm)] {
-          node.cut_store_until = std::max(node.cut_store_until, end);
-        });
+        return at(node.deposed_until + draw(10ms, 500ms),
+                  [this, &node, end = std::min(end + 3500ms, Time{} + schedule_.calm)] {
+                    node.cut_store_until = std::max(node.cut_store_until, end);
+                  });
       case Fault::Kind::kSlowDisk:
         slow_until_ = std::max(slow_until_, end);
         return;
@@ -373,7 +284,6 @@ class Run {
   }
 
   // ---- clients ----
-  bool clients_cut(std::size_t n) const { return now_ < nodes_[n].cut_clients_until; }
   void to_server(std::size_t n, std::function<void()> what) {
     if (clients_cut(n) || lost()) return;
     after(delay(n), [this, n, what = std::move(what)] { deliver(n, nodes_[n].incarnation, what); });
@@ -381,7 +291,7 @@ class Run {
   void ask_around(std::size_t c) {
     after(draw(100ms, 400ms), [this, c] {
       Client& client = clients_[c];
-      if (!client.server || now_ - client.last_force > 1s) client.server = draws_.below(nodes_.size());
+      if (!client.server || now() - client.last_force > 1s) client.server = draws_.below(nodes_.size());
       ask(c);
       ask_around(c);
     });
@@ -409,7 +319,7 @@ class Run {
       if (revision < client.obeyed)
         fail(format("client %zu obeys revision %lld after a higher one", c, static_cast<long long>(revision)));
       client.highest = client.obeyed = std::max(client.obeyed, revision);
-      client.last_force = now_;
+      client.last_force = now();
       client.server = n;
     });
   }
@@ -421,7 +331,7 @@ class Run {
     for (std::size_t c = 0; c < clients_.size(); ++c) {
       if (session_name(clients_[c].session) != notice.session || clients_cut(n) || lost()) continue;
       after(delay(n), [this, c, other = notice.other] {
-        if (now_ - clients_[c].last_force < 1s) return;
+        if (now() - clients_[c].last_force < 1s) return;
         for (std::size_t to = 0; to < nodes_.size(); ++to)
           if (server_name(to) == other) clients_[c].server = to;
         ask(c);
@@ -435,7 +345,7 @@ class Run {
       // An honest client in the calm phase goes to the owner.
       for (std::size_t owner = 0; calm() && owner < nodes_.size(); ++owner)
         if (acts(nodes_[owner], s)) n = owner;
-      const std::string ticket = calm() ? format("calm-%llu", static_cast<unsigned long long>(++order_))
+      const std::string ticket = calm() ? format("calm-%llu", static_cast<unsigned long long>(++calm_ticket_))
                                         : format("ticket-%llu", static_cast<unsigned long long>(draws_.below(12)));
       to_server(n, [this, n, s, ticket] { nodes_[n].core->use_ticket(session_name(s), ticket); });
       present_tickets(s);
@@ -443,17 +353,14 @@ class Run {
   }
 
   // ---- checks ----
-  bool acts(const Node& node, std::size_t s) const {
-    return runs(node) && node.core->may_act(session_name(s), clock(node));
-  }
   void check_owners() {
     for (std::size_t s = 0; s < schedule_.sessions; ++s) {
       int acting = 0;
       for (Node& node : nodes_) {
         const bool really = acts(node, s);
-        if (really) node.last_acted[s] = now_;
+        if (really) node.last_acted[s] = now();
         // The hands take kRamp, whatever the core was given.
-        if (really || (runs(node) && now_ - node.last_acted[s] < kRamp - times_.ramp)) ++acting;
+        if (really || (runs(node) && now() - node.last_acted[s] < kRamp - times_.ramp)) ++acting;
       }
       if (acting > 1) fail(format("%d servers act for session %zu", acting, s));
     }
@@ -466,31 +373,19 @@ class Run {
       if (!calm_tickets_.contains(session_name(s))) return format("session %zu takes no ticket in the calm phase", s);
     }
     for (std::size_t c = 0; c < clients_.size(); ++c)
-      if (clients_[c].last_force <= Time{} + schedule_.calm || now_ - clients_[c].last_force >= 1s)
+      if (clients_[c].last_force <= Time{} + schedule_.calm || now() - clients_[c].last_force >= 1s)
         return format("client %zu gets no force in the calm phase", c);
     return {};
   }
-  void mix(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-    verdict_.fingerprint =
-        mix64(verdict_.fingerprint ^
-              mix64(a ^ mix64(b ^ mix64(c ^ static_cast<std::uint64_t>(now_.time_since_epoch().count())))));
-  }
-
-  const Schedule& schedule_;
-  Guard removed_;
-  RandomStream draws_;
-  LeaseTimes times_;
   ModelStore store_;
   double store_rate_ = 1;
-  Time now_{}, store_down_until_{}, slow_until_{};
+  Time store_down_until_{}, slow_until_{};
   OperationId watch_ids_ = 0;
-  std::vector<Node> nodes_;
+  LeaseId immortal_ = store_.execute(0, Grant{24h}).lease;
   std::vector<Client> clients_;
-  std::vector<Event> events_;
-  std::uint64_t order_ = 0;
+  std::uint64_t calm_ticket_ = 0;
   std::map<std::string, int> accepted_;
   std::set<std::string> calm_tickets_;
-  Verdict verdict_;
 };
 
 }  // namespace

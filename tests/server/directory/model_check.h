@@ -22,11 +22,12 @@ enum class Guard {
   kTicketCondition,    ///< a ticket is used without asking whether it was
   kLeaseIdentity,      ///< keys with the server's name count as its own, whatever their lease
   kKeyUnderLease,      ///< owner keys have no lease
-  kConfirmedRenewal,   ///< renewals count without a transaction in the same term
+  kConfirmedRenewal,   ///< renewals count without a transaction after them
+  kSameTerm,           ///< renewals count whatever the term of that transaction
   kMonotonicClock,     ///< the wall clock measures leases
   kSuspendedClock,     ///< the clock stops while the machine is suspended
   kAdoption,           ///< a server does not recognise its own key after a lost answer
-  kStandbyUnderLease,  ///< standby keys are under the owner's lease
+  kStandbyUnderLease,  ///< standby keys outlive their server
   kHighestRevision,    ///< clients obey every revision
 };
 inline constexpr Guard kGuards[] = {Guard::kSendingTime,
@@ -38,6 +39,7 @@ inline constexpr Guard kGuards[] = {Guard::kSendingTime,
                                     Guard::kLeaseIdentity,
                                     Guard::kKeyUnderLease,
                                     Guard::kConfirmedRenewal,
+                                    Guard::kSameTerm,
                                     Guard::kMonotonicClock,
                                     Guard::kSuspendedClock,
                                     Guard::kAdoption,

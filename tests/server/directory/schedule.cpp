@@ -36,11 +36,13 @@ Schedule draw_schedule(std::uint64_t seed) {
   out.calm = between(d, 8s, 16s);
   for (std::size_t n = d.below(7); n > 0; --n) {
     Fault fault;
-    fault.kind = static_cast<Fault::Kind>(d.below(kNames.size()));
+    // Loss of the store is the fault that leases are for: as frequent as three others.
+    const std::size_t kind = d.below(kNames.size() + 2);
+    fault.kind = kind < kNames.size() ? static_cast<Fault::Kind>(kind) : Fault::Kind::kCutStore;
     fault.who = d.below(out.servers);
     fault.to = d.below(out.servers);
     fault.at = between(d, 1s, out.calm);
-    fault.length = d.uniform() < 0.5 ? between(d, 1ms, 1s) : between(d, 1s, 6s);
+    fault.length = d.uniform() < 0.5 ? between(d, 1ms, 1s) : between(d, 2s, 6s);
     if (fault.kind == Fault::Kind::kMove) fault.who = d.below(out.sessions);
     fault.length = std::min(fault.length, out.calm - fault.at);
     out.faults.push_back(fault);
@@ -84,7 +86,8 @@ const char* to_text(Guard guard) {
                               "ticket compares",
                               "identity by lease",
                               "owner key under a lease",
-                              "renewal confirmed in its term",
+                              "renewal confirmed",
+                              "confirmed in its term",
                               "monotonic clock",
                               "clock counts suspension",
                               "own key recognised",
