@@ -1,5 +1,7 @@
 #include "server/directory/directory_view.h"
 
+#include <algorithm>
+
 namespace tandem::directory {
 
 std::optional<Request> DirectoryView::poll_request(Time now, OperationId operation, Duration retry_after) {

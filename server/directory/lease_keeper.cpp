@@ -1,5 +1,8 @@
 #include "server/directory/lease_keeper.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace tandem::directory {
 
 LeaseKeeper::LeaseKeeper(std::string server, std::string text, LeaseTimes times, DirectoryKeys keys)

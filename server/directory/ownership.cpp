@@ -104,7 +104,7 @@ std::optional<Request> Ownership::request_of(Work& work) {
   if (work.kind == Work::Kind::kStandby) {
     const DirectoryView::ServerEntry* target = view_.server(work.other);
     if (target == nullptr) {
-      found->second.moves = false;
+      if (entry->target == work.other) found->second.moves = false;
       notify(Notice::Kind::kStandbyRefused, work.session, work.other);
       return std::nullopt;
     }
@@ -175,7 +175,7 @@ void Ownership::on_standby(Time now, const Work& work, const Reply& reply) {
   Entry* entry = owned(work.session);
   if (entry == nullptr || entry->revision != work.revision) return;
   if (reply.outcome == Outcome::kNoLease) {
-    entry->moves = false;
+    if (entry->target == work.other) entry->moves = false;
     return notify(Notice::Kind::kStandbyRefused, work.session, work.other);
   }
   if (!reply.held) return lose(work.session, *entry);

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
+#include <utility>
 
 #include "common/base/rng.h"
 #include "server/directory/directory_keys.h"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "server/directory/model_store.h"
 
 namespace tandem::directory {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "common/base/format.h"
 #include "common/base/rng.h"
@@ -136,6 +137,8 @@ class Run : SimulatedWorld {
     const int copies = !watch && chance(schedule_.duplicate) && !calm() ? 2 : 1;
     for (int copy = 0; copy < copies; ++copy) {
       const Duration extra = copy == 0 ? Duration{} : draw(0s, 5s);
+      // No copy arrives in the calm phase: a late renewal would keep the lease of a server that is gone.
+      if (copy > 0 && now() + out + extra > Time{} + schedule_.calm) continue;
       after(out + extra, [this, n, id, request, back, i = node.incarnation] { execute(n, i, id, request, back); });
     }
   }

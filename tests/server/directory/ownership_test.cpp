@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "server/directory/model_store.h"
 
@@ -19,7 +22,7 @@ class OwnershipTest : public testing::Test {
     Ownership core;
     ModelDirectory directory;
     std::vector<Notice> notices;
-    bool reaches_store = true;
+    bool reaches_store = true, sees_changes = true;
   };
   Server& start(const std::string& name) {
     servers_.push_back(std::make_unique<Server>(store_, name));
@@ -35,7 +38,7 @@ class OwnershipTest : public testing::Test {
         while (server->reaches_store) {
           auto reply = server->directory.poll();
           if (!reply) break;
-          server->core.on_reply(now_, *reply);
+          if (server->sees_changes || reply->changes.empty()) server->core.on_reply(now_, *reply);
         }
         while (auto notice = server->core.poll_notice()) server->notices.push_back(*notice);
       }
@@ -152,6 +155,23 @@ TEST_F(OwnershipTest, ADeadStandbyDelaysNoClaim) {
   c.core.claim("s");
   settle();
   EXPECT_EQ(state(c), SessionState::kServing);
+}
+
+TEST_F(OwnershipTest, AnOldViewDelaysNoClaim) {
+  Server& a = start("a");
+  Server& b = start("b");
+  a.core.claim("s");
+  settle();
+  a.core.set_standby("s", "b");
+  settle();
+  b.sees_changes = false;
+  a.reaches_store = false;
+  const DirectoryKeys keys;
+  (void)store_.execute(9999, Transaction{{}, {Erase{keys.owner("s")}, Erase{keys.standby("s")}}, {}});
+  ASSERT_TRUE(b.core.view().session("s")->standby);  // which is no longer true
+  b.core.claim("s");
+  pass(200ms);
+  EXPECT_EQ(state(b), SessionState::kServing);
 }
 
 TEST_F(OwnershipTest, AMoveRampsOutBeforeTheTargetBegins) {

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "common/base/format.h"
 #include "server/directory/model_store.h"
