@@ -25,6 +25,8 @@ TANDEM_PACKAGES=(
   "libzstd-dev: compresses recordings"
   "zlib1g-dev: checksums of recordings"
   "prometheus-cpp-dev: writes the server's metrics"
+  "libgrpc++-dev: talks to etcd, the directory of several servers"
+  "protobuf-compiler-grpc: turns etcd's interface into C++"
   "libusb-1.0-0-dev: talks to USB devices"
   "libhidapi-dev: talks to HID devices"
   "libudev-dev: finds devices and notices plugging"
@@ -43,6 +45,8 @@ TANDEM_PACKAGES_TEST=(
   "clang-tidy-19: checks the sources for frequent mistakes"
   "doxygen: API documents of the public headers"
   "valgrind: counts instructions"
+  "etcd-server: the directory of several servers, compared with its model"
+  "etcd-client: reads what the directory wrote"
 )
 
 # Further packages of the label web. Without them its tests are skipped.
@@ -71,8 +75,6 @@ TANDEM_PACKAGES_FULL=(
   "libzmq3-dev: the same"
   "cyclonedds-dev: the same"
   "cyclonedds-tools: its compiler of message definitions"
-  "libgrpc++-dev: the same, with TLS"
-  "protobuf-compiler-grpc: its compiler of message definitions"
 )
 
 # Further packages of ./test --fuzz.

@@ -16,7 +16,7 @@ struct Library {
   std::string_view prefix;
   std::string_view name;
 };
-constexpr std::array<Library, 24> kLibraries{{{"Eigen/", "Eigen"},
+constexpr std::array<Library, 26> kLibraries{{{"Eigen/", "Eigen"},
                                               {"unsupported/Eigen/", "Eigen"},
                                               {"asio/", "asio"},
                                               {"asio.hpp", "asio"},
@@ -39,6 +39,8 @@ constexpr std::array<Library, 24> kLibraries{{{"Eigen/", "Eigen"},
                                               {"sqlite3.h", "sqlite"},
                                               {"libqhull_r/", "qhull"},
                                               {"prometheus/", "prometheus"},
+                                              {"grpcpp/", "grpc"},
+                                              {"etcd.grpc.pb.h", "grpc"},
                                               {"boost/", "boost"}}};
 constexpr std::string_view kSystem = "system";
 

@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 53> kLayers{{
+const std::array<Layer, 55> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -151,6 +151,15 @@ const std::array<Layer, 53> kLayers{{
      {},
      "server/recording/io has the files of recordings, for the programs that write and repair them: no session, no "
      "network"},
+    {"server/directory",
+     {"common/base", "server/directory"},
+     {},
+     "server/directory decides about ownership and placement from plain values and times: no session, no clock, no "
+     "socket; etcd belongs to server/directory/io"},
+    {"server/directory/io",
+     {"common/base", "server/directory"},
+     {"grpc"},
+     "server/directory/io has the connection to etcd: gRPC and its generated code, no session"},
     {"server/session",
      {"common/base", "common/control", "common/setup", "common/transport", "proto", "hal/core/device.h",
       "hal/core/port_map.h", "server/policy", "server/report", "server/session"},

@@ -1,0 +1,369 @@
+#include "server/directory/ownership.h"
+
+#include <algorithm>
+
+namespace tandem::directory {
+
+namespace {
+
+/// Returns the entry that the n-th Read of a reply found, or an empty one.
+KeyValue found_at(const Reply& reply, std::size_t n) {
+  return n < reply.found.size() && !reply.found[n].empty() ? reply.found[n][0] : KeyValue{};
+}
+
+}  // namespace
+
+const char* to_text(SessionState state) noexcept {
+  switch (state) {
+    case SessionState::kNone:
+      return "none";
+    case SessionState::kClaiming:
+      return "claiming";
+    case SessionState::kServing:
+      return "serving";
+    case SessionState::kHolding:
+      return "holding";
+    case SessionState::kReleasing:
+      return "releasing";
+    case SessionState::kLost:
+      return "lost";
+  }
+  return "?";
+}
+
+Ownership::Ownership(std::string server, std::string text, LeaseTimes times, DirectoryKeys keys)
+    : server_(std::move(server)),
+      times_(times),
+      keys_(std::move(keys)),
+      keeper_(server_, std::move(text), times, keys_),
+      view_(keys_) {}
+
+std::optional<Ownership::Operation> Ownership::poll_operation(Time now) {
+  follow_view();
+  expire_requests(now);
+  begin_releases(now);
+  const OperationId id = newest_operation_ + 1;
+  const auto begin = [&](std::optional<Request> request) -> std::optional<Operation> {
+    if (!request) return std::nullopt;
+    newest_operation_ = id;
+    return Operation{id, std::move(*request)};
+  };
+  if (auto operation = begin(keeper_.poll_request(now, id))) return operation;
+  if (auto operation = begin(view_.poll_request(now, id, times_.answer_limit))) return operation;
+  if (!keeper_.registered()) return std::nullopt;
+  for (std::size_t n = waiting_.size(); n > 0; --n) {
+    Work work = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (work.begin > now) {
+      waiting_.push_back(std::move(work));
+      continue;
+    }
+    work.sent = now;
+    work.lease = keeper_.lease();
+    if (auto request = request_of(work)) {
+      sent_.emplace(id, std::move(work));
+      return begin(std::move(request));
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Request> Ownership::claim_request(Work& work) const {
+  const auto entry = entries_.find(work.session);
+  if (entry == entries_.end() || entry->second.phase != Phase::kClaiming) return std::nullopt;
+  const DirectoryView::SessionEntry* seen = view_.session(work.session);
+  // The store's own answer counts for more than the view, which may be old.
+  if (!work.as_standby) work.as_standby = seen && seen->standby && seen->standby->lease == work.lease;
+  const bool standby = *work.as_standby;
+  return Transaction{{{keys_.owner(work.session), Condition::Of::kCreated, 0},
+                      {keys_.standby(work.session), Condition::Of::kLease, standby ? work.lease : 0}},
+                     {Put{keys_.owner(work.session), server_, work.lease}, Erase{keys_.standby(work.session)}},
+                     {Read{keys_.owner(work.session)}, Read{keys_.standby(work.session)}}};
+}
+
+std::optional<Request> Ownership::request_of(Work& work) {
+  if (work.kind == Work::Kind::kClaim) return claim_request(work);
+  const auto found = entries_.find(work.session);
+  const Entry* entry = found == entries_.end() ? nullptr : &found->second;
+  const bool fits =
+      entry && (work.kind == Work::Kind::kRelease ? entry->phase == Phase::kReleasing : entry->phase == Phase::kOwned);
+  if (!fits) {
+    if (work.kind == Work::Kind::kTicket) {
+      --tickets_;
+      notify(Notice::Kind::kTicketRefused, work.session, work.other);
+    }
+    return std::nullopt;
+  }
+  work.revision = entry->revision;
+  const Condition still_owner{keys_.owner(work.session), Condition::Of::kCreated, entry->revision};
+  if (work.kind == Work::Kind::kRelease) {
+    Transaction release{{still_owner}, {Erase{keys_.owner(work.session)}}, {}};
+    if (entry->ends) release.then.push_back(Erase{keys_.standby(work.session)});
+    return release;
+  }
+  if (work.kind == Work::Kind::kStandby) {
+    const DirectoryView::ServerEntry* target = view_.server(work.other);
+    if (target == nullptr) {
+      if (entry->target == work.other) found->second.moves = false;
+      notify(Notice::Kind::kStandbyRefused, work.session, work.other);
+      return std::nullopt;
+    }
+    return Transaction{{still_owner},
+                       {Put{keys_.standby(work.session), work.other, target->lease}},
+                       {Read{keys_.owner(work.session)}}};
+  }
+  return Transaction{{still_owner, {keys_.ticket(work.other), Condition::Of::kCreated, 0}},
+                     {Put{keys_.ticket(work.other), work.token, 0}},
+                     {Read{keys_.owner(work.session)}, Read{keys_.ticket(work.other)}}};
+}
+
+void Ownership::on_reply(Time now, const Reply& reply) {
+  if (keeper_.on_reply(now, reply)) return take_keeper_events();
+  if (view_.on_reply(reply)) return follow_view();
+  const auto found = sent_.find(reply.operation);
+  if (found == sent_.end()) return;
+  Work work = std::move(found->second);
+  sent_.erase(found);
+  if (reply.outcome == Outcome::kNoLease && work.kind == Work::Kind::kClaim) {
+    keeper_.on_no_lease(work.lease);
+    take_keeper_events();
+    return again(now, std::move(work));
+  }
+  if (reply.outcome == Outcome::kRefused) return again(now + times_.answer_limit, std::move(work));
+  if (reply.outcome == Outcome::kUnknown || reply.outcome == Outcome::kCompacted) return again(now, std::move(work));
+  switch (work.kind) {
+    case Work::Kind::kClaim:
+      return on_claim(now, std::move(work), reply);
+    case Work::Kind::kStandby:
+      return on_standby(now, work, reply);
+    case Work::Kind::kTicket:
+      return on_ticket(work, reply);
+    case Work::Kind::kRelease:
+      if (const auto entry = entries_.find(work.session);
+          entry != entries_.end() && entry->second.phase == Phase::kReleasing) {
+        released_[work.session] = entry->second.revision;
+        entries_.erase(entry);
+        notify(Notice::Kind::kReleased, work.session);
+      }
+  }
+}
+
+void Ownership::on_claim(Time now, Work work, const Reply& reply) {
+  const auto found = entries_.find(work.session);
+  if (found == entries_.end() || found->second.phase != Phase::kClaiming) return;
+  if (work.lease != keeper_.lease()) return again(now, std::move(work));  // a claim under an older lease
+  const KeyValue owner = found_at(reply, 0), standby = found_at(reply, 1);
+  if (reply.held || owner.lease == work.lease) {
+    // The second case: an earlier claim of ours succeeded, and its answer was lost.
+    found->second.phase = Phase::kOwned;
+    found->second.revision = reply.held ? reply.revision : owner.created;
+    return notify(Notice::Kind::kOwned, work.session, {}, found->second.revision);
+  }
+  if (owner.created == 0 && standby.lease == work.lease && work.as_standby != true) {
+    work.as_standby = true;  // the view did not know it yet
+    return again(now, std::move(work));
+  }
+  if (owner.created == 0 && standby.created == 0) {
+    work.as_standby = false;  // the standby has gone since
+    return again(now, std::move(work));
+  }
+  entries_.erase(found);
+  notify(Notice::Kind::kElsewhere, work.session, owner.created != 0 ? owner.value : standby.value, owner.created);
+}
+
+void Ownership::on_standby(Time now, const Work& work, const Reply& reply) {
+  Entry* entry = owned(work.session);
+  if (entry == nullptr || entry->revision != work.revision) return;
+  if (reply.outcome == Outcome::kNoLease) {
+    if (entry->target == work.other) entry->moves = false;
+    return notify(Notice::Kind::kStandbyRefused, work.session, work.other);
+  }
+  if (!reply.held) return lose(work.session, *entry);
+  notify(Notice::Kind::kStandbySet, work.session, work.other);
+  if (entry->moves && entry->target == work.other) ramp(now, *entry);
+}
+
+void Ownership::on_ticket(const Work& work, const Reply& reply) {
+  --tickets_;
+  // An earlier attempt of ours may have succeeded while its answer was lost.
+  const bool accepted =
+      reply.held || (found_at(reply, 1).value == work.token && found_at(reply, 0).created == work.revision);
+  notify(accepted ? Notice::Kind::kTicketAccepted : Notice::Kind::kTicketRefused, work.session, work.other,
+         work.revision);
+}
+
+void Ownership::again(Time now, Work work) {
+  constexpr Duration kPause = std::chrono::milliseconds(50);
+  work.begin = now + kPause;
+  waiting_.push_back(std::move(work));
+}
+
+void Ownership::expire_requests(Time now) {
+  for (auto work = sent_.begin(); work != sent_.end();) {
+    if (now - work->second.sent >= times_.answer_limit) {
+      waiting_.push_back(std::move(work->second));
+      work = sent_.erase(work);
+    } else {
+      ++work;
+    }
+  }
+}
+
+void Ownership::ramp(Time now, Entry& entry) {
+  entry.phase = Phase::kRamping;
+  entry.ramped = now + times_.ramp;
+  ++ramping_;
+}
+
+void Ownership::begin_releases(Time now) {
+  if (ramping_ == 0) return;
+  for (auto& [session, entry] : entries_) {
+    if (entry.phase != Phase::kRamping || now < entry.ramped) continue;
+    entry.phase = Phase::kReleasing;
+    --ramping_;
+    waiting_.push_back({Work::Kind::kRelease, session});
+  }
+}
+
+void Ownership::take_keeper_events() {
+  while (const auto event = keeper_.poll_event()) {
+    if (*event == LeaseKeeper::Event::kGranted) {
+      notify(Notice::Kind::kLeased);
+    } else if (*event == LeaseKeeper::Event::kNameTaken) {
+      notify(Notice::Kind::kNameTaken);
+    } else {
+      notify(Notice::Kind::kLeaseLost);
+      for (auto& [session, entry] : entries_)
+        if (entry.phase != Phase::kClaiming && entry.phase != Phase::kLost) lose(session, entry);
+    }
+  }
+}
+
+void Ownership::follow_view() {
+  while (const auto session = view_.poll_changed()) {
+    const DirectoryView::SessionEntry* seen = view_.session(*session);
+    const auto found = entries_.find(*session);
+    if (found != entries_.end() && found->second.phase != Phase::kClaiming && found->second.phase != Phase::kLost) {
+      Entry& entry = found->second;
+      const bool other = seen && seen->owner && seen->owner->created > entry.revision;
+      const bool erased = !(seen && seen->owner) && view_.revision() >= entry.revision;
+      if (other || (erased && entry.phase != Phase::kReleasing)) lose(*session, entry);
+      continue;
+    }
+    const auto released = released_.find(*session);
+    if (released != released_.end() && (!seen || !seen->owner || seen->owner->created > released->second))
+      released_.erase(released);
+    if (seen == nullptr || keeper_.lease() == 0) continue;
+    const bool takes_over = !seen->owner && seen->standby && seen->standby->lease == keeper_.lease();
+    // A late copy of an earlier claim has created the key. A claim finds it and makes the session ours.
+    const bool unknown_to_us = seen->owner && seen->owner->lease == keeper_.lease() && !released_.contains(*session);
+    if (takes_over || unknown_to_us) claim(*session);
+  }
+}
+
+void Ownership::lose(const std::string& session, Entry& entry) {
+  if (entry.phase == Phase::kRamping) --ramping_;
+  entry = {};
+  entry.phase = Phase::kLost;
+  notify(Notice::Kind::kLost, session);
+}
+
+bool Ownership::claim(const std::string& session) {
+  if (!DirectoryKeys::valid_name(session)) return false;
+  const auto found = entries_.find(session);
+  if (found == entries_.end() && entries_.size() >= kSessionsMax) return false;
+  if (found != entries_.end() && found->second.phase != Phase::kLost) return true;
+  entries_[session] = {};
+  waiting_.push_back({Work::Kind::kClaim, session});
+  return true;
+}
+
+Ownership::Entry* Ownership::owned(const std::string& session) {
+  const auto found = entries_.find(session);
+  return found != entries_.end() && found->second.phase == Phase::kOwned ? &found->second : nullptr;
+}
+
+bool Ownership::set_standby(const std::string& session, const std::string& server) {
+  if (owned(session) == nullptr || server == server_ || !DirectoryKeys::valid_name(server)) return false;
+  waiting_.push_back({Work::Kind::kStandby, session, server});
+  return true;
+}
+
+bool Ownership::move(const std::string& session, const std::string& server) {
+  if (!set_standby(session, server)) return false;
+  Entry* entry = owned(session);
+  entry->moves = true;
+  entry->target = server;
+  return true;
+}
+
+bool Ownership::release(Time now, const std::string& session) {
+  Entry* entry = owned(session);
+  if (entry == nullptr) return false;
+  entry->ends = true;
+  ramp(now, *entry);
+  return true;
+}
+
+bool Ownership::use_ticket(const std::string& session, const std::string& ticket) {
+  if (owned(session) == nullptr || !DirectoryKeys::valid_name(ticket) || tickets_ >= kTicketsMax) return false;
+  ++tickets_;
+  Work work{Work::Kind::kTicket, session, ticket};
+  // No other attempt of any server has this text: the store gives a lease id once.
+  work.token = server_ + "/" + std::to_string(keeper_.lease()) + "/" + std::to_string(++attempts_);
+  waiting_.push_back(std::move(work));
+  return true;
+}
+
+void Ownership::forget(const std::string& session) {
+  const auto found = entries_.find(session);
+  if (found != entries_.end() && found->second.phase == Phase::kLost) entries_.erase(found);
+}
+
+SessionState Ownership::state(std::string_view session, Time now) const {
+  const auto found = entries_.find(session);
+  if (found == entries_.end()) return SessionState::kNone;
+  switch (found->second.phase) {
+    case Phase::kClaiming:
+      return SessionState::kClaiming;
+    case Phase::kOwned:
+      return now < keeper_.hold_at() ? SessionState::kServing : SessionState::kHolding;
+    case Phase::kRamping:
+      return SessionState::kHolding;
+    case Phase::kReleasing:
+      return SessionState::kReleasing;
+    case Phase::kLost:
+      return SessionState::kLost;
+  }
+  return SessionState::kNone;
+}
+
+bool Ownership::may_act(std::string_view session, Time now) const {
+  const auto found = entries_.find(session);
+  if (found == entries_.end() || now >= keeper_.quiet_at()) return false;
+  return found->second.phase == Phase::kOwned || (found->second.phase == Phase::kRamping && now < found->second.ramped);
+}
+
+Revision Ownership::revision(std::string_view session) const {
+  const auto found = entries_.find(session);
+  return found == entries_.end() ? 0 : found->second.revision;
+}
+
+std::vector<std::string> Ownership::sessions() const {
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : entries_) names.push_back(name);
+  return names;
+}
+
+std::optional<Notice> Ownership::poll_notice() {
+  if (notices_.empty()) return std::nullopt;
+  Notice notice = std::move(notices_.front());
+  notices_.pop_front();
+  return notice;
+}
+
+void Ownership::notify(Notice::Kind kind, const std::string& session, const std::string& other, Revision revision) {
+  notices_.push_back({kind, session, other, revision});
+}
+
+}  // namespace tandem::directory

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "common/base/format.h"
+#include "common/io/tcp_listener.h"
+#include "server/directory/io/etcd_directory.h"
+#include "tests/io/programs.h"
+
+namespace tandem::test {
+
+/// Path of a program of Debian's etcd packages; empty if it is missing.
+inline std::string etcd_program(const char* name) {
+  const std::string path = std::string("/usr/bin/") + name;
+  return std::filesystem::exists(path) ? path : "";
+}
+
+inline constexpr const char* kNoEtcd = "etcd is not installed (Debian: etcd-server, etcd-client)";
+
+/// A directory with a thread-free interface for tests: begins an operation and waits for its reply.
+inline directory::Reply wait_for_reply(directory::Directory& in, directory::OperationId operation,
+                                       std::vector<directory::Reply>* others = nullptr) {
+  const auto end = std::chrono::steady_clock::now() + Process::kTimeout;
+  while (std::chrono::steady_clock::now() < end) {
+    if (auto reply = in.poll()) {
+      if (reply->operation == operation) return *reply;
+      if (others != nullptr) others->push_back(std::move(*reply));
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  ADD_FAILURE() << "operation " << operation << " has no reply";
+  return {};
+}
+
+/// A member of etcd on loopback, with its own ports and data folder, ended at the end of the test.
+class Etcd {
+ public:
+  /// @param tls  further arguments; not empty: clients use TLS
+  explicit Etcd(Words tls = {}) {
+    const std::string scheme = tls.empty() ? "http" : "https";
+    client_ = free_port(), peer_ = free_port();
+    const std::string peers = format("http://127.0.0.1:%d", peer_), clients = scheme + "://" + endpoint();
+    Words command{etcd_program("etcd"),
+                  "--name",
+                  "test",
+                  "--data-dir",
+                  folder_.file("data"),
+                  "--listen-client-urls",
+                  clients,
+                  "--advertise-client-urls",
+                  clients,
+                  "--listen-peer-urls",
+                  peers,
+                  "--initial-advertise-peer-urls",
+                  peers,
+                  "--initial-cluster",
+                  "test=" + peers,
+                  "--logger",
+                  "zap",
+                  "--log-level",
+                  "error"};
+    command.insert(command.end(), tls.begin(), tls.end());
+    process_.emplace(std::move(command));
+  }
+  [[nodiscard]] std::string endpoint() const { return format("127.0.0.1:%d", client_); }
+  [[nodiscard]] Process& process() { return *process_; }
+  [[nodiscard]] const Folder& folder() const { return folder_; }
+
+  /// Waits until the member answers. Returns the first operation number that is free.
+  directory::OperationId wait_until_ready(directory::Directory& through, directory::OperationId first = 1) {
+    for (directory::OperationId n = first; n <= first + 300; ++n) {
+      through.begin(n, directory::Transaction{});
+      if (wait_for_reply(through, n).outcome == directory::Outcome::kDone) return n + 1;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    ADD_FAILURE() << "etcd does not answer: " << process_->err();
+    return first + 1000;
+  }
+
+  /// Reads a key, or all with a prefix, by Debian's etcdctl.
+  [[nodiscard]] std::string etcdctl(Words arguments) const {
+    arguments.insert(arguments.begin(), {etcd_program("etcdctl"), "--endpoints", endpoint()});
+    Process process(std::move(arguments));
+    EXPECT_EQ(process.wait(), 0) << process.err();
+    return process.out();
+  }
+
+ private:
+  /// A port that is free at this moment; etcd takes no port 0.
+  static int free_port() {
+    const auto listener = io::listen_tcp(io::parse_address("127.0.0.1:0", 0).value());
+    return listener ? listener->local.port() : 0;
+  }
+
+  Folder folder_;
+  int client_ = 0, peer_ = 0;
+  std::optional<Process> process_;
+};
+
+}  // namespace tandem::test

@@ -1,0 +1,259 @@
+#include "server/directory/ownership.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/directory/model_store.h"
+
+namespace tandem::directory {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Servers over one store that answers at once.
+class OwnershipTest : public testing::Test {
+ protected:
+  struct Server {
+    Server(ModelStore& store, const std::string& name) : core(name, "text", LeaseTimes{}), directory(store) {}
+    Ownership core;
+    ModelDirectory directory;
+    std::vector<Notice> notices;
+    bool reaches_store = true, sees_changes = true;
+  };
+  Server& start(const std::string& name) {
+    servers_.push_back(std::make_unique<Server>(store_, name));
+    settle();
+    return *servers_.back();
+  }
+  void settle() {
+    store_.advance(now_);
+    for (int round = 0; round < 10; ++round)
+      for (const auto& server : servers_) {
+        while (auto operation = server->core.poll_operation(now_))
+          if (server->reaches_store) server->directory.begin(operation->id, operation->request);
+        while (server->reaches_store) {
+          auto reply = server->directory.poll();
+          if (!reply) break;
+          if (server->sees_changes || reply->changes.empty()) server->core.on_reply(now_, *reply);
+        }
+        while (auto notice = server->core.poll_notice()) server->notices.push_back(*notice);
+      }
+  }
+  void pass(Duration time) {
+    for (const Time end = now_ + time; now_ < end;) {
+      now_ += 50ms;
+      settle();
+    }
+  }
+  static bool has(const Server& server, Notice::Kind kind, const std::string& other = {}) {
+    return std::ranges::any_of(server.notices,
+                               [&](const Notice& n) { return n.kind == kind && (other.empty() || n.other == other); });
+  }
+  SessionState state(const Server& server) { return server.core.state("s", now_); }
+
+  ModelStore store_;
+  std::vector<std::unique_ptr<Server>> servers_;
+  Time now_{};
+};
+
+TEST_F(OwnershipTest, OwnsWhatItsTransactionCreated) {
+  Server& a = start("a");
+  Server& b = start("b");
+  EXPECT_EQ(state(a), SessionState::kNone);
+  ASSERT_TRUE(a.core.claim("s"));
+  settle();
+  EXPECT_EQ(state(a), SessionState::kServing);
+  EXPECT_EQ(a.core.revision("s"), store_.entries().at("/tandem/v1/live/sessions/s/owner").created);
+  EXPECT_TRUE(a.core.may_act("s", now_));
+  ASSERT_TRUE(b.core.claim("s"));
+  settle();
+  EXPECT_TRUE(has(b, Notice::Kind::kElsewhere, "a"));
+  EXPECT_EQ(state(b), SessionState::kNone);
+  EXPECT_FALSE(b.core.claim("bad/name"));
+}
+
+TEST_F(OwnershipTest, HoldsAfterTwoThirdsAndServesAgainWhenTheLeaseStood) {
+  Server& a = start("a");
+  a.core.claim("s");
+  settle();
+  a.reaches_store = false;
+  const Time last = a.core.keeper().hold_at() - 2s;
+  now_ = last + 2s - 1ns;
+  EXPECT_EQ(state(a), SessionState::kServing);
+  now_ = last + 2s;
+  EXPECT_EQ(state(a), SessionState::kHolding);
+  EXPECT_TRUE(a.core.may_act("s", now_));  // ramps out
+  now_ = last + 2200ms;
+  EXPECT_FALSE(a.core.may_act("s", now_));
+  a.reaches_store = true;
+  now_ = last + 2900ms;
+  settle();
+  pass(1s);
+  EXPECT_EQ(state(a), SessionState::kServing);
+}
+
+TEST_F(OwnershipTest, LosesItsSessionsWithTheLeaseAndAnyServerTakesOverOnRequestOnly) {
+  Server& a = start("a");
+  Server& b = start("b");
+  a.core.claim("s");
+  settle();
+  const Revision first = a.core.revision("s");
+  a.reaches_store = false;
+  pass(5s);
+  EXPECT_EQ(state(b), SessionState::kNone);  // a missing key is no reason to claim
+  EXPECT_TRUE(store_.entries().contains("/tandem/v1/live/servers/b"));
+  b.core.claim("s");
+  settle();
+  EXPECT_EQ(state(b), SessionState::kServing);
+  EXPECT_GT(b.core.revision("s"), first);
+  EXPECT_EQ(state(a), SessionState::kHolding);
+  a.reaches_store = true;
+  pass(2s);
+  EXPECT_EQ(state(a), SessionState::kLost);
+  EXPECT_TRUE(has(a, Notice::Kind::kLeaseLost));
+  a.core.forget("s");
+  EXPECT_EQ(state(a), SessionState::kNone);
+}
+
+TEST_F(OwnershipTest, AStandbyTakesOverByItselfAndBeforeOthers) {
+  Server& a = start("a");
+  Server& b = start("b");
+  Server& c = start("c");
+  a.core.claim("s");
+  settle();
+  EXPECT_FALSE(a.core.set_standby("s", "a"));
+  ASSERT_TRUE(a.core.set_standby("s", "b"));
+  settle();
+  EXPECT_TRUE(has(a, Notice::Kind::kStandbySet, "b"));
+  a.reaches_store = false;
+  b.reaches_store = false;  // b's lease goes on: it is cut off for a moment only
+  pass(1s);
+  b.reaches_store = true;
+  for (int n = 0; n < 40 && state(b) != SessionState::kServing; ++n) {
+    c.core.claim("s");
+    pass(100ms);
+    EXPECT_NE(state(c), SessionState::kServing);
+  }
+  EXPECT_EQ(state(b), SessionState::kServing);
+  EXPECT_FALSE(store_.entries().contains("/tandem/v1/live/sessions/s/standby"));
+}
+
+TEST_F(OwnershipTest, ADeadStandbyDelaysNoClaim) {
+  Server& a = start("a");
+  Server& b = start("b");
+  Server& c = start("c");
+  a.core.claim("s");
+  settle();
+  a.core.set_standby("s", "b");
+  settle();
+  a.reaches_store = b.reaches_store = false;
+  pass(4s);
+  c.core.claim("s");
+  settle();
+  EXPECT_EQ(state(c), SessionState::kServing);
+}
+
+TEST_F(OwnershipTest, AnOldViewDelaysNoClaim) {
+  Server& a = start("a");
+  Server& b = start("b");
+  a.core.claim("s");
+  settle();
+  a.core.set_standby("s", "b");
+  settle();
+  b.sees_changes = false;
+  a.reaches_store = false;
+  const DirectoryKeys keys;
+  (void)store_.execute(9999, Transaction{{}, {Erase{keys.owner("s")}, Erase{keys.standby("s")}}, {}});
+  ASSERT_TRUE(b.core.view().session("s")->standby);  // which is no longer true
+  b.core.claim("s");
+  pass(200ms);
+  EXPECT_EQ(state(b), SessionState::kServing);
+}
+
+TEST_F(OwnershipTest, AMoveRampsOutBeforeTheTargetBegins) {
+  Server& a = start("a");
+  Server& b = start("b");
+  a.core.claim("s");
+  settle();
+  ASSERT_TRUE(a.core.move("s", "b"));
+  settle();
+  EXPECT_EQ(state(a), SessionState::kHolding);
+  EXPECT_TRUE(a.core.may_act("s", now_));
+  EXPECT_EQ(state(b), SessionState::kNone);
+  now_ += 200ms;
+  settle();
+  EXPECT_FALSE(a.core.may_act("s", now_));
+  EXPECT_TRUE(has(a, Notice::Kind::kReleased));
+  EXPECT_EQ(state(b), SessionState::kServing);
+  EXPECT_FALSE(a.core.move("s", "b"));
+  b.core.move("s", "not-there");
+  settle();
+  EXPECT_TRUE(has(b, Notice::Kind::kStandbyRefused, "not-there"));
+  EXPECT_EQ(state(b), SessionState::kServing);
+}
+
+TEST_F(OwnershipTest, AnEndedSessionLeavesNoKey) {
+  Server& a = start("a");
+  Server& b = start("b");
+  a.core.claim("s");
+  settle();
+  a.core.set_standby("s", "b");
+  settle();
+  ASSERT_TRUE(a.core.release(now_, "s"));
+  pass(1s);
+  EXPECT_EQ(state(a), SessionState::kNone);
+  EXPECT_EQ(state(b), SessionState::kNone);
+  for (const auto& [key, entry] : store_.entries()) EXPECT_EQ(key.find("sessions"), std::string::npos) << key;
+}
+
+TEST_F(OwnershipTest, UsesATicketOnceInTheWholeServiceAndOnlyForItsOwnSession) {
+  Server& a = start("a");
+  Server& b = start("b");
+  a.core.claim("s");
+  b.core.claim("t");
+  settle();
+  EXPECT_TRUE(a.core.use_ticket("s", "1"));
+  EXPECT_FALSE(b.core.use_ticket("s", "1"));
+  settle();
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketAccepted, "1"));
+  EXPECT_TRUE(b.core.use_ticket("t", "1"));
+  EXPECT_TRUE(a.core.use_ticket("s", "1"));
+  settle();
+  EXPECT_TRUE(has(b, Notice::Kind::kTicketRefused, "1"));
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketRefused, "1"));
+  // A server that has lost its session burns no ticket.
+  (void)store_.execute(9999, Transaction{{}, {Erase{"/tandem/v1/live/sessions/s/owner"}}, {}});
+  EXPECT_TRUE(a.core.use_ticket("s", "2"));
+  settle();
+  EXPECT_FALSE(store_.entries().contains("/tandem/v1/tickets/2"));
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketRefused, "2"));
+}
+
+TEST_F(OwnershipTest, LosesASessionWhoseKeyAnOperatorErased) {
+  Server& a = start("a");
+  a.core.claim("s");
+  settle();
+  (void)store_.execute(9999, Transaction{{}, {Erase{"/tandem/v1/live/sessions/s/owner"}}, {}});
+  settle();
+  EXPECT_EQ(state(a), SessionState::kLost);
+  EXPECT_FALSE(a.core.may_act("s", now_));
+}
+
+TEST_F(OwnershipTest, BoundsItsSessionsAndTickets) {
+  Server& a = start("a");
+  for (std::size_t n = 0; n < Ownership::kSessionsMax; ++n) EXPECT_TRUE(a.core.claim("x" + std::to_string(n)));
+  EXPECT_FALSE(a.core.claim("more"));
+  settle();
+  std::size_t taken = 0;
+  while (taken < 5000 && a.core.use_ticket("x0", std::to_string(taken))) ++taken;
+  EXPECT_EQ(taken, Ownership::kTicketsMax);
+  settle();
+  EXPECT_TRUE(a.core.use_ticket("x0", "later"));
+}
+
+}  // namespace
+}  // namespace tandem::directory

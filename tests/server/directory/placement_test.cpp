@@ -1,0 +1,106 @@
+#include "server/directory/placement/placement.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "server/directory/placement/server_record.h"
+#include "tests/common/base/counts.h"
+
+namespace tandem::directory {
+namespace {
+
+TEST(ServerRecord, ReadsWhatItWrites) {
+  const ServerRecord record{"10.0.0.1:7000", "ab12", "1.2", "rack 4", 3.5, 1.25, true};
+  EXPECT_EQ(parse_server_record(to_text(record)), record);
+  EXPECT_EQ(parse_server_record(to_text(record) + "colour blue\n"), record);
+}
+
+TEST(ServerRecord, RefusesTextThatCannotBeUsed) {
+  const std::string good = to_text({"a:1", "k", "v", "", 1, 0, false});
+  ASSERT_TRUE(parse_server_record(good));
+  for (std::size_t cut = 0; cut < good.find("used 0"); ++cut) EXPECT_FALSE(parse_server_record(good.substr(0, cut)));
+  EXPECT_FALSE(parse_server_record(good + good));
+  EXPECT_FALSE(parse_server_record(std::string(kServerRecordMax + 1, 'x')));
+  for (const char* number : {"nan", "inf", "-1", "1x", "", "1e999"}) {
+    std::string bad = good;
+    bad.replace(bad.find("capacity ") + 9, 6, number);
+    EXPECT_FALSE(parse_server_record(bad)) << number;
+  }
+}
+
+TEST(Placement, TakesTheLessUsedShareOfTwo) {
+  // With two candidates, each draw is a, a or b, b or both: the emptier one gets three quarters.
+  const std::vector<Candidate> both{{"a", "", 1, 0.5}, {"b", "", 4, 1.0}};
+  Placement placement(RandomKey{1});
+  int b = 0;
+  for (int n = 0; n < 4000; ++n) b += placement.place(both, 0.1) == "b" ? 1 : 0;
+  EXPECT_NEAR(b, 3000, 150);
+}
+
+TEST(Placement, PlacesNothingWhereThereIsNoRoom) {
+  Placement placement(RandomKey{1});
+  EXPECT_FALSE(placement.place({}, 0.1));
+  EXPECT_FALSE(
+      placement.place(std::vector<Candidate>{{"a", "", 1, 0.95}, {"b", "", 1, 0, true}, {"c", "", 0, 0}}, 0.1));
+  EXPECT_EQ(placement.place(std::vector<Candidate>{{"a", "", 1, 0.95}, {"b", "", 1, 0.9}}, 0.1), "b");
+}
+
+TEST(Placement, AStandbyIsInAnotherZoneIfOneHasRoom) {
+  Placement placement(RandomKey{1});
+  const std::vector<Candidate> candidates{{"a", "x", 1, 0}, {"b", "x", 1, 0}, {"c", "y", 1, 0.5}};
+  for (int n = 0; n < 50; ++n) {
+    EXPECT_EQ(placement.place_standby(candidates, 0.1, "a"), "c");
+    EXPECT_NE(placement.place_standby(candidates, 0.1, "c"), "c");
+    EXPECT_EQ(placement.place_standby(candidates, 0.6, "a"), "b");
+  }
+  EXPECT_FALSE(placement.place_standby(std::vector<Candidate>{{"a", "x", 1, 0}}, 0.1, "a"));
+}
+
+TEST(Placement, MovesAwayUntilTheUseIsNearTheMean) {
+  // Mean (0.9 + 0.3 + 0.3) / 3 = 0.5; a moves until it has at most 0.54: four sessions of 0.1.
+  const std::vector<Candidate> candidates{{"a", "", 1, 0.9}, {"b", "", 1, 0.3}, {"c", "", 1, 0.3}};
+  const std::vector<PlacedSession> sessions(9, {"s", 0.1});
+  Placement placement(RandomKey{1});
+  const auto moves = placement.plan_moves(candidates, "a", sessions, 10);
+  EXPECT_EQ(moves.size(), 4U);
+  std::map<std::string, int> count;
+  for (const PlannedMove& move : moves) ++count[move.server];
+  EXPECT_EQ(count["b"], 2);
+  EXPECT_EQ(count["c"], 2);
+  EXPECT_EQ(placement.plan_moves(candidates, "a", sessions, 1).size(), 1U);
+  EXPECT_TRUE(placement.plan_moves(candidates, "b", sessions, 10).empty());
+  EXPECT_TRUE(placement.plan_moves(candidates, "unknown", sessions, 10).empty());
+}
+
+TEST(Placement, ADrainingServerMovesEverythingAway) {
+  const std::vector<Candidate> candidates{{"a", "", 1, 0.2, true}, {"b", "", 1, 0.8}};
+  Placement placement(RandomKey{1});
+  EXPECT_EQ(placement.plan_moves(candidates, "a", std::vector<PlacedSession>(2, {"s", 0.1}), 10).size(), 2U);
+  EXPECT_DOUBLE_EQ(mean_use(candidates), 1.0);
+  EXPECT_EQ(mean_use({}), 0);
+}
+
+TEST(Placement, KeepsAnyServersWithinTheirCapacity) {
+  for (std::uint64_t seed = 1; seed <= tandem::test::seeds(50); ++seed) {
+    RandomStream d(seed);
+    std::vector<Candidate> servers;
+    for (std::uint64_t n = 1 + d.below(20); n > 0; --n)
+      servers.push_back({std::to_string(n), std::to_string(d.below(3)), d.uniform(0, 4), 0, d.below(5) == 0});
+    Placement placement(RandomKey{seed});
+    for (int n = 0; n < 500; ++n) {
+      const double cost = d.uniform(0, 0.2);
+      const auto chosen = placement.place(servers, cost);
+      const auto fits = [&](const Candidate& c) { return !c.drains && c.capacity > 0 && c.used + cost <= c.capacity; };
+      ASSERT_EQ(chosen.has_value(), std::ranges::any_of(servers, fits)) << "seed " << seed;
+      if (!chosen) continue;
+      Candidate& to = *std::ranges::find(servers, *chosen, &Candidate::server);
+      ASSERT_TRUE(fits(to)) << "seed " << seed;
+      to.used += cost;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tandem::directory
