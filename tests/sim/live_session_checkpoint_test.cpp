@@ -40,7 +40,7 @@ struct HostedHands {
       while (const auto size = hands[i].seat->poll_transmit(now, buffer))
         hosted.session().on_datagram(now, address(i), std::span{buffer}.first(*size));
     }
-    hosted.tick(now, 0, machine);
+    hosted.tick(now, now, 0, machine);
     while (const auto out = hosted.session().poll_transmit(now, buffer))
       hands[std::to_integer<std::size_t>(out->to.bytes[0]) - 1].seat->on_datagram(now,
                                                                                   std::span{buffer}.first(out->size));
@@ -138,7 +138,7 @@ TEST(LiveSession, ReportsThatItWaitsWhileItIsStopped) {
   server::LiveSession restored(scene, std::move(*slaves), 0, records, &from);
   Time now = Time{} + 1ms;
   const auto look = [&] {
-    for (int n = 0; n < 64; ++n, now += 1ms) restored.tick(now, 0, {});
+    for (int n = 0; n < 64; ++n, now += 1ms) restored.tick(now, now, 0, {});
     return restored.status();
   };
   EXPECT_TRUE(look().waiting);
@@ -171,7 +171,7 @@ TEST(LiveSession, CountsEventsThatWereNotTakenInTime) {
     }
   };
   const auto told = [&] {
-    for (int n = 0; n < 64; ++n, now += 1ms) hosted.tick(now, 0, {});
+    for (int n = 0; n < 64; ++n, now += 1ms) hosted.tick(now, now, 0, {});
     return hosted.status().audit_dropped;
   };
   stops(100);
@@ -180,7 +180,8 @@ TEST(LiveSession, CountsEventsThatWereNotTakenInTime) {
   EXPECT_EQ(told(), 10u);
   for (int n = 0; n < 10; ++n) {  // no thread takes the events
     stops(100);
-    hosted.tick(now += 1ms, 0, {});
+    now += 1ms;
+    hosted.tick(now, now, 0, {});
   }
   EXPECT_GT(told(), 10u + 1000u);
 }
