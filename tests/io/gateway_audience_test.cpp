@@ -1,7 +1,10 @@
 // The audience of tandem-console: many pages that watch without a ticket. Real programs on loopback.
 #include <gtest/gtest.h>
+#include <signal.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 #include <vector>
 
 #include "tests/io/multi_client_fixture.h"
@@ -90,6 +93,41 @@ TEST(GatewayAudience, WatchesWhereEachPersonSignsIn) {
   // Persons may stay away for 1 s. The audience stays longer.
   unsigned seen = 0;
   EXPECT_TRUE(is_live(state_where(page, [&](const Json& s) { return is_live(s) && ++seen == 200; })));
+}
+
+TEST(GatewayAudience, GivesThePlaceOfAPageThatVanishedToAnother) {
+  const Process host = hosting("one_axis");
+  const WebGateway gateway(address_of(host), {"--audience", "1"});
+  const std::string cookie = cookie_of(watch(gateway.at));
+  const WebPage vanished(gateway.at, cookie);  // it reads nothing, as a computer that sleeps
+  ASSERT_EQ(vanished.status(), 101U);
+  EXPECT_EQ(WebPage(gateway.at, cookie).status(), 503U);
+  unsigned status = 0;
+  for (int attempt = 0; attempt < 120 && status != 101; ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{500});
+    status = WebPage(gateway.at, cookie).status();
+  }
+  EXPECT_EQ(status, 101U);
+}
+
+TEST(GatewayAudience, SaysThatItsConnectionIsLost) {
+  const MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
+  Process made({TANDEM_SERVER, "ticket", "--session", "a", "--workstation", "desk", "--role", "observer", "--state",
+                fixture.state});
+  EXPECT_EQ(made.wait(), 0) << made.err();
+  fixture.folder.write("observer.ticket", made.out());
+  WebGateway gateway(fixture.address, {"--sign-in", "--state", fixture.own, "--audience", "5", "--audience-ticket",
+                                       fixture.folder.file("observer.ticket")});
+  ASSERT_EQ(watch(gateway.at).status, 303U);
+  fixture.host.signal(SIGKILL);
+  HttpReply reply;
+  for (int attempt = 0; attempt < 300 && reply.status != 503; ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{100});
+    reply = watch(gateway.at);
+  }
+  EXPECT_EQ(reply.status, 503U);
+  EXPECT_NE(reply.body.find("must start it again with a new ticket"), std::string::npos) << reply.body;
+  EXPECT_TRUE(gateway.process.wait_for("the audience has lost its connection")) << gateway.process.err();
 }
 
 TEST(GatewayAudience, IsNoneUnlessItIsAllowed) {

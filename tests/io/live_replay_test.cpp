@@ -180,7 +180,9 @@ TEST(LiveReplay, GivesTheFilesOfALongSessionBitForBit) {
   EXPECT_EQ(named.code, 0) << named.out << named.err;
   EXPECT_EQ(Json::parse(named.out)["rows"], rows);
   // Any file gives the scores of the whole session, and so does the folder.
-  const auto scores = [](const std::string& what) { return Json::parse(netsim({"score", "--quiet", "--json", "-", what}).out); };
+  const auto scores = [](const std::string& what) {
+    return Json::parse(netsim({"score", "--quiet", "--json", "-", what}).out);
+  };
   const Json scored = scores(files[1]);
   ASSERT_EQ(scored["lessons"].size(), 1u);
   const Json& lesson = scored["lessons"][0];

@@ -127,7 +127,7 @@ std::string ControlServer::write_serving_file() {
 void ControlServer::schedule_serving_file() {
   serving_timer_.expires_after(kServingFileInterval);
   serving_timer_.async_wait([this](const asio::error_code& cancelled) {
-    if (cancelled) return;
+    if (cancelled || stopping_) return;
     const std::string problem = write_serving_file();
     if (!std::exchange(serving_fails_, !problem.empty()) && !problem.empty() && on_event_)
       on_event_(
@@ -141,7 +141,7 @@ void ControlServer::schedule_serving_file() {
 void ControlServer::schedule_revocation_check() {
   revocation_timer_.expires_after(kRevocationCheckInterval);
   revocation_timer_.async_wait([this](const asio::error_code& cancelled) {
-    if (cancelled) return;
+    if (cancelled || stopping_) return;
     commands_.disconnect_revoked();
     plane_.disconnect_revoked();
     if (const auto grace = trust_.serving().requested_shutdown())
@@ -164,6 +164,7 @@ std::string ControlServer::start() {
 void ControlServer::stop() {
   if (!std::exchange(started_, false)) return;
   thread_.stop([this] {
+    stopping_ = true;  // the handler of a timer that has expired already is not cancelled
     serving_timer_.cancel();
     revocation_timer_.cancel();
     if (metrics_) metrics_->stop();

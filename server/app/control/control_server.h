@@ -88,6 +88,7 @@ class ControlServer {
   ServingSpec serving_;
   bool serving_fails_ = false;  ///< a failure was reported
   bool started_ = false;
+  bool stopping_ = false;  ///< of the control thread
 };
 
 }  // namespace tandem::server

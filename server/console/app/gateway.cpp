@@ -5,6 +5,7 @@
 
 #include "common/auth/ticket.h"
 #include "common/io/clock.h"
+#include "common/io/log.h"
 #include "server/console/app/random_secret.h"
 #include "server/console/live_json.h"
 
@@ -56,6 +57,12 @@ Gateway::Gateway(Options options, GatewayLinks links, std::shared_ptr<Mailbox> m
     audience_secret_ = random_secret();
     static_cast<void>(browsers_.add(audience_secret_, audience_, true, io::monotonic_now()));  // the first cookie
   }
+}
+
+bool Gateway::audience_lost() const {
+  if (!audience_) return false;
+  const auto picture = audience_->link->newest();
+  return !picture->connected && !picture->again;
 }
 
 /// Options of a link that the gateway joins before it serves pages.
@@ -191,6 +198,9 @@ void Gateway::on_second(Time now) {
   browsers_.expire(now);
   views_.expire([this](const rpc::Id& session) { return has_person(session); });
   seats_.on_second();
+  if (audience_lost() && !std::exchange(audience_logged_, true))
+    io::log(io::Level::kError,
+            "the audience has lost its connection to the server; start this program again with a new ticket");
 }
 
 }  // namespace tandem::console

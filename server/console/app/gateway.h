@@ -88,6 +88,9 @@ class Gateway {
   /// no audience.
   [[nodiscard]] const std::string& audience_secret() const noexcept { return audience_secret_; }
 
+  /// Whether the audience sees nothing any more, because its ticket was valid once and its connection is lost.
+  [[nodiscard]] bool audience_lost() const;
+
   /// Redeems the token of the printed URL. @return secret of a new cookie; empty: refused
   [[nodiscard]] std::string redeem(std::string_view token, Time now);
   /// Makes a token that `redeem` accepts once. At most kTokensMax wait: the oldest ends when one more is made.
@@ -140,6 +143,7 @@ class Gateway {
   std::function<void()> news_;
   std::shared_ptr<Person> house_, audience_;  ///< null: none
   std::string audience_secret_;
+  bool audience_logged_ = false;  ///< its loss
   std::deque<OneTimeToken> tokens_;
   BrowserSessions<Person> browsers_;
   SessionViews views_;

@@ -115,6 +115,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const std::string& secret = state_.gateway.audience_secret();
     if (secret.empty())
       return answer(http::status::not_found, "this gateway has no audience; start it with --audience N\n");
+    if (state_.gateway.audience_lost())
+      return answer(http::status::service_unavailable,
+                    "this gateway has lost its connection to the server; its operator must start it again with a new "
+                    "ticket\n");
     if (!known && state_.audience >= state_.gateway.audience_max())
       return answer(http::status::service_unavailable, "the audience is full; try again later\n");
     redirect("/", known ? std::string{} : secret);

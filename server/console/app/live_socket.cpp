@@ -14,6 +14,8 @@ namespace net = boost::asio;
 namespace websocket = beast::websocket;
 
 constexpr std::chrono::seconds kWriteTimeout{5};
+constexpr std::chrono::seconds kHandshakeTimeout{30};
+constexpr std::chrono::seconds kSilence{20};  // of a browser that answers no ping; it is sent after half of this
 constexpr auto kSignIn = static_cast<websocket::close_code>(4401);  // private use [RFC 6455, 7.4.2]
 constexpr auto kNoSession = static_cast<websocket::close_code>(4404);
 
@@ -38,7 +40,7 @@ class BeastSocket final : public LiveSocket {
   BeastSocket& operator=(const BeastSocket&) = delete;
 
   void start(const Request& request) {
-    stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    stream_.set_option(websocket::stream_base::timeout{kHandshakeTimeout, kSilence, true});
     stream_.read_message_max(kFrameMax);
     stream_.text(true);
     stream_.async_accept(request, [self = self()](beast::error_code error) {
