@@ -8,6 +8,7 @@
 namespace tandem::console {
 namespace {
 
+constexpr std::uint64_t kBytesPerRowAndPart = 410;  // of a seat or tool (proto/recording/lesson_reader.h)
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 float length_of(const LessonTriple& v) { return static_cast<float>(std::hypot(v[0], v[1], v[2])); }
@@ -96,6 +97,16 @@ bool RecordingOutline::add(const Lesson& part) {
   keep(part.events, events_, left_out_);
   keep(part.marks, marks_, left_out_);
   return ordered;
+}
+
+LessonSeatSet RecordingOutline::seats_without_samples() const {
+  LessonSeatSet out;
+  for (std::size_t i = 0; i < head_.seats.size(); ++i) out[i] = !presence_.has_samples(i);
+  return out;
+}
+
+std::uint64_t RecordingOutline::lesson_bytes() const {
+  return rows_ * kBytesPerRowAndPart * (head_.seats.size() - seats_without_samples().count() + head_.tools.size());
 }
 
 void RecordingOutline::keep_longest_gaps() {

@@ -86,8 +86,10 @@ class RecordingOutline {
   [[nodiscard]] const std::vector<LessonMark>& marks() const noexcept { return marks_; }
   [[nodiscard]] std::uint64_t notes_left_out() const noexcept { return left_out_; }
   [[nodiscard]] const RecordingCurves& curves() const noexcept { return curves_; }
-  /// Whether a participant had the seat at any time.
-  [[nodiscard]] bool has_samples(std::size_t seat) const noexcept { return presence_.has_samples(seat); }
+  /// Seats that no participant had at any time.
+  [[nodiscard]] LessonSeatSet seats_without_samples() const;
+  /// Memory of the lesson without the columns of these seats [bytes], about.
+  [[nodiscard]] std::uint64_t lesson_bytes() const;
   [[nodiscard]] double time(std::uint32_t tick) const noexcept { return tick / head_.scene.tick_hz; }  ///< [s]
 
  private:

@@ -122,8 +122,8 @@ TEST(RecordingCurves, HaveNoValueWhereASeatIsFree) {
   for (std::uint32_t& sample : part.seats[1].sample_tick) sample = std::min(sample, 900u);  // left then
   RecordingOutline outline(head());
   EXPECT_TRUE(outline.add(part));
-  EXPECT_FALSE(outline.has_samples(0));
-  EXPECT_TRUE(outline.has_samples(1));
+  EXPECT_EQ(outline.seats_without_samples(), LessonSeatSet{0b01}) << "seat 0 only";
+  EXPECT_EQ(outline.lesson_bytes(), 2000u * 410 * 2) << "seat 1 and the tool";
   const RecordingCurves& curves = outline.curves();
   ASSERT_EQ(curves.size(), 20u);
   for (std::size_t p = 0; p < curves.size(); ++p) {
