@@ -42,8 +42,8 @@ struct LessonSeat {
       delivered_j;  ///< [J], cumulative; the margin is the least so far
 };
 
-/// Whether a participant had the seat: a recording has zeros for a seat without samples. True if the lesson does not say
-/// which samples are new.
+/// Whether a participant had the seat: a recording has zeros for a seat without samples. True if the lesson does not
+/// say which samples are new.
 [[nodiscard]] inline bool has_samples(const LessonSeat& seat) {
   return seat.fresh.empty() || std::ranges::any_of(seat.fresh, [](std::uint8_t fresh) { return fresh != 0; });
 }

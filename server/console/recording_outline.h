@@ -18,7 +18,8 @@ struct RecordingGap {
   friend bool operator==(const RecordingGap&, const RecordingGap&) = default;
 };
 
-/// Curves over the whole recording: points of equal distance in session time. NaN: no row, not known, or of a free seat.
+/// Curves over the whole recording: points of equal distance in session time. NaN: no row, not known, or of a free
+/// seat.
 class RecordingCurves {
  public:
   static constexpr std::size_t kPointsMax = 6000;  ///< beyond it the distance doubles

@@ -20,8 +20,8 @@ class SeatPresence {
   explicit SeatPresence(const SceneSpec& scene)
       : age_max_(static_cast<std::uint32_t>(kSampleAgeMax * scene.tick_hz)), seats_(scene.seats.size()) {}
 
-  /// Looks at the samples of a row. In the first row, the tick of a sample gives its age. @pre rows come in the order of
-  /// their ticks
+  /// Looks at the samples of a row. In the first row, the tick of a sample gives its age. @pre rows come in the order
+  /// of their ticks
   void add(const Lesson& lesson, std::size_t row) {
     tick_ = lesson.tick[row];
     for (std::size_t i = 0; i < seats_.size(); ++i) {
