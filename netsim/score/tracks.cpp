@@ -98,7 +98,8 @@ std::size_t first_tool_of(const SceneSpec& scene, std::size_t seat) noexcept {
 }
 
 SeatTrack seat_track(const Lesson& lesson, const LessonGrid& grid, std::size_t seat, const ScoreOptions& options) {
-  const LessonSeat& recorded = lesson.seats[seat];
+  static const LessonSeat kFree;
+  const LessonSeat& recorded = has_samples(lesson.seats[seat]) ? lesson.seats[seat] : kFree;
   SeatTrack track;
   track.seat = seat;
   track.tool = first_tool_of(lesson.scene, seat);

@@ -49,11 +49,12 @@ void each_tool_column(Tool& t, Visit visit) {
 }
 
 template <class Visit>
-void each_column(Lesson& lesson, Visit visit) {
+void each_column(Lesson& lesson, const LessonSeatSet& without, Visit visit) {
   visit(lesson.running);
   visit(lesson.stopped_ticks);
   visit(lesson.dropped_ticks);
-  for (LessonSeat& seat : lesson.seats) each_seat_column(seat, visit);
+  for (std::size_t i = 0; i < lesson.seats.size(); ++i)
+    if (!without[i]) each_seat_column(lesson.seats[i], visit);
   for (LessonTool& tool : lesson.tools) each_tool_column(tool, visit);
 }
 
@@ -71,25 +72,27 @@ Value unknown() {
 
 }  // namespace
 
-void reserve_rows(Lesson& lesson, std::size_t rows) {
+void reserve_rows(Lesson& lesson, std::size_t rows, const LessonSeatSet& without) {
   lesson.tick.reserve(rows);
   lesson.time_ns.reserve(rows);
-  each_column(lesson, [rows](auto& column) { column.reserve(rows); });
+  each_column(lesson, without, [rows](auto& column) { column.reserve(rows); });
 }
 
-void append_row(Lesson& lesson, std::uint32_t tick, std::int64_t time_ns) {
+void append_row(Lesson& lesson, std::uint32_t tick, std::int64_t time_ns, const LessonSeatSet& without) {
   lesson.tick.push_back(tick);
   lesson.time_ns.push_back(time_ns);
-  each_column(lesson, [](auto& column) {
+  each_column(lesson, without, [](auto& column) {
     using Value = typename std::remove_reference_t<decltype(column)>::value_type;
     const Value value = column.empty() ? unknown<Value>() : column.back();
     column.push_back(value);
   });
-  for (LessonSeat& seat : lesson.seats) seat.fresh.back() = 0;
+  for (LessonSeat& seat : lesson.seats)
+    if (!seat.fresh.empty()) seat.fresh.back() = 0;
 }
 
 void set_seat(Lesson& lesson, std::size_t i, const SeatSample& sample) {
   LessonSeat& seat = lesson.seats[i];
+  if (seat.sample_tick.empty()) return;
   const std::size_t row = seat.sample_tick.size() - 1;
   const std::uint32_t before = row == 0 ? 0 : seat.sample_tick[row - 1];
   seat.fresh.back() = sample.sample_tick != before ? 1 : 0;

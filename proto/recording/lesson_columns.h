@@ -6,12 +6,14 @@
 /// Rows of a lesson, built from the messages of a recording. Private to proto/recording.
 namespace tandem::rec {
 
-/// Takes memory for `rows` rows in all columns.
-void reserve_rows(Lesson& lesson, std::size_t rows);
+/// Takes memory for `rows` rows in all columns but those of the seats `without`.
+void reserve_rows(Lesson& lesson, std::size_t rows, const LessonSeatSet& without);
 /// Appends a row with the values of the last one; in the first row numbers are NaN and counts 0. No sample is fresh.
+/// Columns of the seats `without` get no row.
 /// @pre lesson.seats and lesson.tools have the sizes of the scene
-void append_row(Lesson& lesson, std::uint32_t tick, std::int64_t time_ns);
-/// Set values of the last row. @pre there is a row; `i` and `j` are indices of the scene
+void append_row(Lesson& lesson, std::uint32_t tick, std::int64_t time_ns, const LessonSeatSet& without);
+/// Set values of the last row; those of a seat without columns are ignored. @pre there is a row; `i` and `j` are
+/// indices of the scene
 void set_seat(Lesson& lesson, std::size_t i, const SeatSample& sample);
 void set_tool(Lesson& lesson, std::size_t j, const ToolSample& sample);
 void set_authority(Lesson& lesson, const AuthoritySample& sample);

@@ -39,8 +39,8 @@ constexpr std::size_t kNotesMax = 1'000'000;       // events, marks, sheets or l
 /// Fills a lesson from the messages of a file.
 class LessonBuilder {
  public:
-  LessonBuilder(Lesson& lesson, std::size_t rows_max)
-      : lesson_(&lesson), rows_max_(lesson.rows() + rows_max), counted_(lesson.counts) {}
+  LessonBuilder(Lesson& lesson, std::size_t rows_max, const LessonSeatSet& without)
+      : lesson_(&lesson), rows_max_(lesson.rows() + rows_max), without_(without), counted_(lesson.counts) {}
 
   /// @return false if the message is damaged or does not fit the scene
   bool add(const mcap::Message& message, const mcap::Channel& channel) {
@@ -123,7 +123,7 @@ class LessonBuilder {
     const std::uint32_t tick = message.sequence;
     if (lesson_->tick.empty() || tick > lesson_->tick.back()) {
       if (lesson_->rows() >= rows_max_) return false;
-      append_row(*lesson_, tick, since_start(message.log_time));
+      append_row(*lesson_, tick, since_start(message.log_time), without_);
     } else if (tick < lesson_->tick.back()) {
       return false;
     }
@@ -171,6 +171,7 @@ class LessonBuilder {
 
   Lesson* lesson_;
   std::size_t rows_max_;
+  LessonSeatSet without_;
   std::map<std::string, LessonCount> counted_;  ///< in the files before
   std::vector<std::optional<Use>> uses_;        ///< by number of the channel
   SeatSample seat_;
@@ -226,8 +227,8 @@ std::size_t expected_rows(const mcap::Reader& reader, std::size_t rows_max) {
 
 }  // namespace
 
-std::expected<Lesson, std::string> read_lesson(std::span<const std::byte> bytes) {
-  LessonReader reader;
+std::expected<Lesson, std::string> read_lesson(std::span<const std::byte> bytes, const LessonSeatSet& without) {
+  LessonReader reader(without);
   if (auto added = reader.add(bytes); !added) return std::unexpected(std::move(added.error()));
   return reader.take();
 }
@@ -244,8 +245,8 @@ std::expected<void, std::string> LessonReader::add(std::span<const std::byte> by
   }
   Lesson& lesson = *lesson_;
   const std::size_t rows_max = bytes.size() / kBytesPerRow + kRowsOfACutChunk;
-  reserve_rows(lesson, lesson.rows() + expected_rows(*reader, bytes.size() / kBytesPerRow));
-  LessonBuilder builder{lesson, rows_max};
+  reserve_rows(lesson, lesson.rows() + expected_rows(*reader, bytes.size() / kBytesPerRow), without_);
+  LessonBuilder builder{lesson, rows_max, without_};
   mcap::MessageCursor cursor{*reader};
   bool whole = true;
   while (const auto message = cursor.next()) {

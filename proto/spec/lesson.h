@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -16,6 +18,7 @@
 namespace tandem {
 
 using LessonTriple = std::array<double, 3>;
+using LessonSeatSet = std::bitset<kSeatsMax>;  ///< of a scene, by index
 
 /// Columns of one seat. MASTER seats: tip and forces of the hand, as the tool sees them.
 struct LessonSeat {
@@ -38,6 +41,12 @@ struct LessonSeat {
   std::vector<double> dissipated_j, refused_j, margin_min_j,
       delivered_j;  ///< [J], cumulative; the margin is the least so far
 };
+
+/// Whether a participant had the seat: a recording has zeros for a seat without samples. True if the lesson does not
+/// say which samples are new.
+[[nodiscard]] inline bool has_samples(const LessonSeat& seat) {
+  return seat.fresh.empty() || std::ranges::any_of(seat.fresh, [](std::uint8_t fresh) { return fresh != 0; });
+}
 
 /// Columns of one tool.
 struct LessonTool {

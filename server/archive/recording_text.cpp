@@ -22,6 +22,11 @@ std::string time_text(std::int64_t unix_ns) {
                 static_cast<long long>(time.minutes().count()));
 }
 
+/// Begin as the file states it; recordings in virtual time do not.
+std::string begin_text(const RecordingSummary& summary) {
+  return summary.start_unix_ns == 0 ? "not stated" : time_text(summary.start_unix_ns);
+}
+
 std::string size_text(std::uint64_t bytes) { return format("%.1f MB", static_cast<double>(bytes) * 1e-6); }
 
 std::string persons_text(const RecordingSummary& summary) {
@@ -70,7 +75,7 @@ std::string recordings_text(const std::vector<RecordingRow>& rows) {
     }
     ++readable;
     bytes += row.bytes;
-    text += format("%-*s  %16s  %9.1f s  %10s  %-*s  %s%s\n", w, file.c_str(), time_text(row.begun_ns()).c_str(),
+    text += format("%-*s  %16s  %9.1f s  %10s  %-*s  %s%s\n", w, file.c_str(), begin_text(row.summary).c_str(),
                    row.summary.duration_s, size_text(row.bytes).c_str(), n, sanitize(row.summary.session, 32).c_str(),
                    persons_text(row.summary).c_str(),
                    row.summary.rows == 0  ? "  (no tick: the session did not run)"
@@ -91,7 +96,7 @@ std::string recording_text(const RecordingRow& row) {
   if (!row.readable()) return text + "skipped   " + sanitize(row.problem) + "\n";
   text += "session   " + sanitize(s.session) + "\n";
   text += "scene     " + sanitize(s.scene) + "\n";
-  text += "begin     " + (s.start_unix_ns == 0 ? "unknown" : time_text(s.start_unix_ns) + " UTC") + "\n";
+  text += "begin     " + begin_text(s) + (s.start_unix_ns == 0 ? "" : " UTC") + "\n";
   text += format("duration  %.3f s\n", s.duration_s);
   text += format("ticks     %llu recorded, %llu not recorded\n", static_cast<unsigned long long>(s.rows),
                  static_cast<unsigned long long>(s.missing_ticks));

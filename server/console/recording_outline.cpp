@@ -8,6 +8,7 @@
 namespace tandem::console {
 namespace {
 
+constexpr std::uint64_t kBytesPerRowAndPart = 410;  // of a seat or tool (proto/recording/lesson_reader.h)
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 float length_of(const LessonTriple& v) { return static_cast<float>(std::hypot(v[0], v[1], v[2])); }
@@ -32,7 +33,7 @@ RecordingCurves::RecordingCurves(const SceneSpec& scene)
       width_(seats_ + tools_ * (4 + masters_)),
       step_(std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround(scene.tick_hz / kStepHz)))) {}
 
-void RecordingCurves::add(const Lesson& lesson, std::size_t row) {
+void RecordingCurves::add(const Lesson& lesson, std::size_t row, const SeatPresence& presence) {
   const std::uint32_t tick = lesson.tick[row];
   if (points_.empty()) first_ = tick;
   while ((tick - first_) / step_ >= kPointsMax) halve();
@@ -40,14 +41,15 @@ void RecordingCurves::add(const Lesson& lesson, std::size_t row) {
   const bool begins = point >= size() && (tick - first_) % step_ <= step_ / 10;  // a later row has another time
   points_.resize(std::max(points_.size(), (point + 1) * width_), kNoValue);
   float* const to = points_.data() + point * width_;
-  for (std::size_t i = 0; i < seats_; ++i) to[i] = std::fmax(to[i], length_of(lesson.seats[i].f[row]));
+  for (std::size_t i = 0; i < seats_; ++i)
+    if (presence.taken(i)) to[i] = std::fmax(to[i], length_of(lesson.seats[i].f[row]));
   for (std::size_t j = 0; j < tools_; ++j) {
     const LessonTool& tool = lesson.tools[j];
     to[seats_ + j] = std::fmax(to[seats_ + j], length_of(tool.f_env[row]));
     if (!begins) continue;
     for (std::size_t a = 0; a < 3; ++a) to[seats_ + tools_ + 3 * j + a] = static_cast<float>(tool.x[row][a]);
     for (std::size_t k = 0; k < masters_; ++k)
-      to[seats_ + 4 * tools_ + masters_ * j + k] = static_cast<float>(tool.alpha[row][k]);
+      if (presence.taken(k)) to[seats_ + 4 * tools_ + masters_ * j + k] = static_cast<float>(tool.alpha[row][k]);
   }
 }
 
@@ -69,7 +71,8 @@ void RecordingCurves::halve() {
   step_ *= 2;
 }
 
-RecordingOutline::RecordingOutline(Lesson head) : head_(std::move(head)), curves_(head_.scene) {}
+RecordingOutline::RecordingOutline(Lesson head)
+    : head_(std::move(head)), presence_(head_.scene), curves_(head_.scene) {}
 
 bool RecordingOutline::add(const Lesson& part) {
   bool ordered = true;
@@ -88,11 +91,22 @@ bool RecordingOutline::add(const Lesson& part) {
     }
     last_ = tick;
     ++rows_;
-    curves_.add(part, row);
+    presence_.add(part, row);
+    curves_.add(part, row, presence_);
   }
   keep(part.events, events_, left_out_);
   keep(part.marks, marks_, left_out_);
   return ordered;
+}
+
+LessonSeatSet RecordingOutline::seats_without_samples() const {
+  LessonSeatSet out;
+  for (std::size_t i = 0; i < head_.seats.size(); ++i) out[i] = !presence_.has_samples(i);
+  return out;
+}
+
+std::uint64_t RecordingOutline::lesson_bytes() const {
+  return rows_ * kBytesPerRowAndPart * (head_.seats.size() - seats_without_samples().count() + head_.tools.size());
 }
 
 void RecordingOutline::keep_longest_gaps() {

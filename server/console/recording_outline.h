@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/spec/lesson.h"
+#include "server/console/seat_presence.h"
 
 /// Outline of a recording: all that a page needs before it plays it.
 namespace tandem::console {
@@ -17,7 +18,8 @@ struct RecordingGap {
   friend bool operator==(const RecordingGap&, const RecordingGap&) = default;
 };
 
-/// Curves over the whole recording: points of equal distance in session time. NaN: no row, or not known.
+/// Curves over the whole recording: points of equal distance in session time. NaN: no row, not known, or of a free
+/// seat.
 class RecordingCurves {
  public:
   static constexpr std::size_t kPointsMax = 6000;  ///< beyond it the distance doubles
@@ -26,7 +28,7 @@ class RecordingCurves {
   RecordingCurves() = default;
   explicit RecordingCurves(const SceneSpec& scene);
   /// Adds row `row` of a lesson of this scene. @pre rows come in the order of their ticks
-  void add(const Lesson& lesson, std::size_t row);
+  void add(const Lesson& lesson, std::size_t row, const SeatPresence& presence);
   /// Ends the curves. A last step of which the file has less than a tenth gives no point: the tick with which a session
   /// ends has no authority, and is no value of that step.
   /// @param last  tick of the last row
@@ -85,6 +87,10 @@ class RecordingOutline {
   [[nodiscard]] const std::vector<LessonMark>& marks() const noexcept { return marks_; }
   [[nodiscard]] std::uint64_t notes_left_out() const noexcept { return left_out_; }
   [[nodiscard]] const RecordingCurves& curves() const noexcept { return curves_; }
+  /// Seats that no participant had at any time.
+  [[nodiscard]] LessonSeatSet seats_without_samples() const;
+  /// Memory of the lesson without the columns of these seats [bytes], about.
+  [[nodiscard]] std::uint64_t lesson_bytes() const;
   [[nodiscard]] double time(std::uint32_t tick) const noexcept { return tick / head_.scene.tick_hz; }  ///< [s]
 
  private:
@@ -97,6 +103,7 @@ class RecordingOutline {
   std::vector<RecordingGap> gaps_;
   std::vector<LessonEvent> events_;
   std::vector<LessonMark> marks_;
+  SeatPresence presence_;
   RecordingCurves curves_;
 };
 

@@ -13,14 +13,12 @@ namespace {
 
 constexpr double kHeardSeconds = 0.1;  // a sample that is older counts as silence
 
-bool is_known(const LessonTriple& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-
 wire::WatchedSeatState seat_of(const Lesson& lesson, std::size_t i, std::size_t row) {
   const LessonSeat& seat = lesson.seats[i];
   wire::WatchedSeatState out;
-  out.taken = is_known(seat.x[row]);
+  out.taken = true;
   const std::uint32_t tick = lesson.tick[row], sample = seat.sample_tick[row];
-  out.heard = out.taken && (tick <= sample || tick - sample <= kHeardSeconds * lesson.scene.tick_hz);
+  out.heard = tick <= sample || tick - sample <= kHeardSeconds * lesson.scene.tick_hz;
   out.engaged = seat.engaged[row] != 0;
   out.gate = static_cast<wire::GateState>(seat.gate[row]);
   out.x = seat.x[row];
@@ -80,15 +78,21 @@ LivePicture recording_base(const Lesson& head, const rpc::Id& id) {
   return base;
 }
 
-LivePicture picture_of(const Lesson& lesson, std::size_t row, const LivePicture& base, std::size_t& link) {
+LivePicture picture_of(const Lesson& lesson, std::size_t row, const LivePicture& base, const SeatPresence& presence,
+                       std::size_t& link) {
   auto live = base.live ? std::make_shared<LiveValues>(*base.live) : std::make_shared<LiveValues>();
   live->telemetry.session_tick = lesson.tick[row];
   live->telemetry.state = wire::SessionState::kRunning;  // a recording has rows only while the session clock runs
   for (; link < lesson.links.size() && lesson.links[link].tick <= lesson.tick[row]; ++link)
     live->links[lesson.links[link].seat] = link_of(lesson.links[link]);
   for (std::size_t i = 0; i < lesson.seats.size(); ++i) {
-    live->telemetry.seats[i] = seat_of(lesson, i, row);
-    live->links[i].margin_min_j = lesson.seats[i].margin_min_j[row];
+    if (presence.taken(i)) {
+      live->telemetry.seats[i] = seat_of(lesson, i, row);
+      live->links[i].margin_min_j = lesson.seats[i].margin_min_j[row];
+    } else {
+      live->telemetry.seats[i] = {};
+      live->links[i] = {.seat = static_cast<std::uint32_t>(i)};
+    }
   }
   for (std::size_t j = 0; j < lesson.tools.size(); ++j) {
     live->telemetry.tools[j] = tool_of(lesson.tools[j], row);
@@ -104,7 +108,8 @@ std::string piece_json(const RecordingPeriods& periods, std::uint32_t piece, con
   std::string out = "{\"piece\":" + std::to_string(piece) + ",\"states\":[";
   const std::optional<rpc::StatusStop> no_stop;
   LivePicture picture = base;
-  std::size_t row = 0, link = 0;
+  SeatPresence presence(lesson.scene);
+  std::size_t row = 0, next = 0, link = 0;
   bool first = true;
   for (std::uint32_t k = 0; k < periods.per_piece(); ++k) {
     const std::uint64_t period = std::uint64_t{piece} * periods.per_piece() + k;
@@ -112,7 +117,8 @@ std::string piece_json(const RecordingPeriods& periods, std::uint32_t piece, con
     while (row < lesson.rows() && lesson.tick[row] < begin) ++row;
     if (row == lesson.rows()) break;
     if (lesson.tick[row] >= end) continue;
-    picture = picture_of(lesson, row, picture, link);
+    while (next <= row) presence.add(lesson, next++);
+    picture = picture_of(lesson, row, picture, presence, link);
     const StateHead head{.n = period + 1, .dropped = 0, .wall_us = 0, .age_ms = {}, .stop = &no_stop};
     if (!std::exchange(first, false)) out += ',';
     out += state_json(head, state_members(picture));

@@ -7,6 +7,7 @@
 #include "proto/rpc/rpc_limits.h"
 #include "proto/spec/lesson.h"
 #include "server/console/recording_outline.h"
+#include "server/console/seat_presence.h"
 #include "server/console/session_picture.h"
 
 /// States of a recording as the page draws them: those of message `state` (PROTOCOL.md), 60 per second. Nothing is
@@ -35,10 +36,12 @@ class RecordingPeriods {
   std::uint32_t first_, per_piece_ = 1, pieces_ = 1;
 };
 
-/// Picture of one row. Values that the recording has not are unknown.
+/// Picture of one row. Values that the recording has not are unknown, and those of a free seat.
 /// @param base  scene, and status with the names of persons
+/// @param presence  has the row as its last one
 /// @param link  number of rows of `lesson.links` that were used; rows come in the order of time
-[[nodiscard]] LivePicture picture_of(const Lesson& lesson, std::size_t row, const LivePicture& base, std::size_t& link);
+[[nodiscard]] LivePicture picture_of(const Lesson& lesson, std::size_t row, const LivePicture& base,
+                                     const SeatPresence& presence, std::size_t& link);
 
 /// Scene and persons of a recording, for `picture_of` and `scene_json`.
 /// @param id  number of the session for the page

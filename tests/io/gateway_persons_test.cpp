@@ -14,7 +14,8 @@ namespace {
 
 /// A server with a session "a", and browsers that sign in.
 struct Lesson : MultiClientFixture {
-  Lesson() : MultiClientFixture("reports: \".\" scenes: \".\" session { name: \"a\" scene: \"one_axis\" }") {}
+  explicit Lesson(const std::string& keys = "reports: \".\" scenes: \".\" ")
+      : MultiClientFixture(keys + "session { name: \"a\" scene: \"one_axis\" }") {}
 
   [[nodiscard]] std::string ticket_for(Words more) const {
     Words words{"ticket", "--session", "a", "--workstation", "desk", "--state", state};
@@ -156,6 +157,42 @@ TEST(GatewayNotes, SurviveTheGatewayWithTheirVisibility) {
     if (entry.path().filename().string().ends_with(".notes.jsonl"))
       files += lesson.folder.read(entry.path().filename().string());
   EXPECT_NE(files.find("\"person\":\"ann\""), std::string::npos) << files;
+}
+
+/// @return the notes file of the fixture's state folder
+std::filesystem::path notes_file(const MultiClientFixture& fixture) {
+  for (const auto& entry : std::filesystem::directory_iterator(fixture.state))
+    if (entry.path().filename().string().ends_with(".notes.jsonl")) return entry.path();
+  return {};
+}
+
+TEST(GatewayNotes, SurviveTheEndOfAServerWithoutReports) {
+  Lesson lesson("");
+  {
+    const WebGateway gateway = lesson.gateway();
+    WebPage ann = Lesson::page(gateway, lesson.ticket_for({"--role", "evaluator", "--person", "ann"}));
+    EXPECT_EQ(said(ann, {{"type", "mark"}, {"t", 1.5}, {"text", "slips"}})["ok"], true);
+    EXPECT_EQ(said(ann, goals(4, true))["ok"], true);
+  }
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    SCOPED_TRACE(signal);
+    lesson.host.signal(signal);
+    EXPECT_EQ(lesson.host.wait(), signal == SIGKILL ? -SIGKILL : 0) << lesson.host.err();
+    lesson.host = serving(lesson.folder.file("s.textproto"));
+    lesson.address = address_of(lesson.host);
+    ASSERT_NE(lesson.host.err().find("RESTORED from its checkpoint"), std::string::npos) << lesson.host.err();
+    const WebGateway gateway = lesson.gateway();
+    WebPage ann = Lesson::page(gateway, lesson.ticket_for({"--role", "evaluator", "--person", "ann"}));
+    const Json notes = notes_where(ann, 1, 1);
+    ASSERT_FALSE(notes.is_null());
+    EXPECT_EQ(notes["marks"][0]["text"], "slips");
+    EXPECT_EQ(notes["sheets"][0]["closed"], true);
+    EXPECT_EQ(said(ann, goals(5, true))["ok"], false) << "a closed sheet is final";
+  }
+  const std::filesystem::path file = notes_file(lesson);
+  ASSERT_FALSE(file.empty()) << "no notes in the state folder";
+  EXPECT_EQ(std::filesystem::status(file).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
 TEST(LessonDesk, OffersScenesAndGivesTicketsToPersonsWithoutASeat) {

@@ -21,7 +21,7 @@ struct ControlOptions {
   std::optional<io::SocketAddress> metrics{};
   std::vector<std::string> metrics_hosts{};  ///< accepted Host names of the metrics endpoint, in addition to addresses
   auth::AuditLimits audit{};
-  std::string notes{};  ///< folder for marks and sheets; empty: only the audit log names them
+  std::string notes{};  ///< folder for marks and sheets; empty: the state directory, or none with ephemeral keys
 };
 
 }  // namespace tandem::server

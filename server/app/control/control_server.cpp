@@ -45,6 +45,7 @@ void permit_descriptors(const ControlLimits& limits) {
 
 ControlServer::ControlServer(auth::ServerKeystore trust, const ControlOptions& options, const Handlers& handlers)
     : trust_(std::move(trust)),
+      notes_(options.notes),
       on_event_(handlers.on_event),
       audit_(thread_.context(), trust_, handlers.on_event, handlers.on_message),
       registry_(thread_.context()),
@@ -58,7 +59,7 @@ ControlServer::ControlServer(auth::ServerKeystore trust, const ControlOptions& o
       revocation_timer_(thread_.context()) {
   commands_.set_orders(orders_);
   commands_.set_on_note(
-      [log = NoteLog(options.notes)](const SessionNote& note) { return log.append(note, auth::wall_seconds()); });
+      [log = NoteLog(notes_folder())](const SessionNote& note) { return log.append(note, auth::wall_seconds()); });
 }
 
 ControlServer::~ControlServer() { stop(); }
@@ -108,6 +109,10 @@ std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(c
 }
 
 std::string ControlServer::folder() const { return trust_.on_disk() ? trust_.folder()->path() : auth::runtime_path(); }
+
+std::string ControlServer::notes_folder() const {
+  return notes_.empty() && trust_.on_disk() ? trust_.folder()->path() : notes_;
+}
 
 void ControlServer::change(const std::function<void(SessionRegistry&, std::function<void()> done)>& change) {
   std::promise<void> done;

@@ -41,6 +41,9 @@ class ControlServer {
   [[nodiscard]] const io::SocketAddress& address() const noexcept { return address_; }
   /// Directory for checkpoints: the state directory, or the runtime directory with ephemeral keys.
   [[nodiscard]] std::string folder() const;
+  /// Folder for marks and sheets: that of the options, else the state directory. Empty: ephemeral keys and none in the
+  /// options, so notes end with the server.
+  [[nodiscard]] std::string notes_folder() const;
   /// Whether the keys are ephemeral.
   [[nodiscard]] bool ephemeral_keys() const noexcept { return !trust_.on_disk(); }
 
@@ -72,6 +75,7 @@ class ControlServer {
   void schedule_revocation_check();
 
   auth::ServerKeystore trust_;
+  std::string notes_;  ///< ControlOptions::notes
   std::function<void(const ControlEventRecord&)> on_event_;
   ControlThread thread_;
   AuditWriter audit_;

@@ -117,7 +117,7 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
     };
   }
   if (session.snapshot() != nullptr)
-    made.notes = NoteLog(options_.control.notes).load(session.options().name, session.id());
+    made.notes = NoteLog(control_.notes_folder()).load(session.options().name, session.id());
   return made;
 }
 

@@ -41,10 +41,10 @@ std::expected<std::vector<std::byte>, std::string> read_all(const std::string& p
 
 }  // namespace
 
-std::expected<Lesson, std::string> load_lesson(const std::string& path) try {
+std::expected<Lesson, std::string> load_lesson(const std::string& path, const LessonSeatSet& without) try {
   const auto bytes = read_all(path);
   if (!bytes) return std::unexpected(bytes.error());
-  return read_lesson(*bytes);
+  return read_lesson(*bytes, without);
 } catch (const std::bad_alloc&) {
   return std::unexpected(kTooLarge);
 }

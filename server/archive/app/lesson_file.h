@@ -9,7 +9,9 @@
 namespace tandem::server {
 
 /// Reads a recording. @return the lesson, or why it cannot be read, without the name of the file
-[[nodiscard]] std::expected<Lesson, std::string> load_lesson(const std::string& path);
+/// @param without  seats whose columns stay empty, to save memory
+[[nodiscard]] std::expected<Lesson, std::string> load_lesson(const std::string& path,
+                                                             const LessonSeatSet& without = {});
 
 /// Reads what the index keeps of a recording. @return the summary, or the error as above
 [[nodiscard]] std::expected<RecordingSummary, std::string> load_summary(const std::string& path);

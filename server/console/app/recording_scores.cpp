@@ -14,11 +14,10 @@
 namespace tandem::console {
 namespace {
 
-constexpr int kScorePriority = 19;                  // nice value
-constexpr std::uint64_t kBytesPerRowAndPart = 410;  // of a seat or tool (proto/recording/lesson_reader.h)
+constexpr int kScorePriority = 19;  // nice value
 
-RecordingScores::Answer computed(const std::string& path) {
-  const auto lesson = server::load_lesson(path);
+RecordingScores::Answer computed(const std::string& path, const LessonSeatSet& without) {
+  const auto lesson = server::load_lesson(path, without);
   if (!lesson) return {.problem = lesson.error()};
   const auto scores = netsim::score::score_lesson(*lesson);
   if (!scores) return {.problem = scores.error()};
@@ -31,8 +30,7 @@ RecordingScores::RecordingScores() : thread_([this](const std::stop_token& stop)
 
 RecordingScores::Answer RecordingScores::of(const std::string& id, const std::string& path,
                                             const RecordingOutline& outline) {
-  const Lesson& head = outline.head();
-  const std::uint64_t bytes = outline.rows() * kBytesPerRowAndPart * (head.seats.size() + head.tools.size());
+  const std::uint64_t bytes = outline.lesson_bytes();
   if (bytes > kBytesMax)
     return {.problem = format("its scores need %.1f GB of memory here (limit 0.8); compute them with: "
                               "tandem-netsim score FILE",
@@ -40,7 +38,7 @@ RecordingScores::Answer RecordingScores::of(const std::string& id, const std::st
   const std::lock_guard hold{lock_};
   const auto known = std::ranges::find(rows_, id, &Row::id);
   if (known != rows_.end()) return known->answer.value_or(Answer{.pending = true});
-  rows_.push_front({id, path, false, {}});
+  rows_.push_front({id, path, outline.seats_without_samples(), false, {}});
   if (rows_.size() > kKept && !rows_.back().taken) rows_.pop_back();
   wake_.notify_one();
   return {.pending = true};
@@ -60,8 +58,9 @@ void RecordingScores::work(const std::stop_token& stop) {
     Row& next = *std::ranges::find_if(rows_, waits);
     next.taken = true;
     const std::string id = next.id, path = next.path;
+    const LessonSeatSet without = next.without;
     hold.unlock();
-    Answer answer = computed(path);
+    Answer answer = computed(path, without);
     hold.lock();
     const auto row = std::ranges::find(rows_, id, &Row::id);
     if (row == rows_.end()) continue;  // forgotten meanwhile

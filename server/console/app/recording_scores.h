@@ -34,6 +34,7 @@ class RecordingScores {
  private:
   struct Row {
     std::string id, path;
+    LessonSeatSet without;         ///< seats that no participant had: their columns are not read
     bool taken = false;            ///< the thread computes it
     std::optional<Answer> answer;  ///< empty: not computed yet
   };

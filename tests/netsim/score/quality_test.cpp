@@ -44,6 +44,19 @@ TEST(ScoreQuality, OfACleanLessonIsGood) {
   EXPECT_EQ(trust(s, Metric::kSparc).trust, Trust::kGood);
 }
 
+TEST(ScoreQuality, LeavesOutASeatWithoutSamples) {
+  LessonMaker maker = clean();
+  const LessonScores taken = maker.scores();
+  ASSERT_NE(taken.seat("trainee"), nullptr);
+  // As in a recording of a seat that no participant took: zeros in all rows, and no sample is new.
+  maker.lesson.seats[0].x.assign(5000, {0, 0, 0});
+  maker.lesson.seats[0].f.assign(5000, {0, 0, 0});
+  maker.lesson.seats[0].fresh.assign(5000, 0);
+  const LessonScores free = maker.scores();
+  EXPECT_EQ(free.seat("trainee"), nullptr);
+  EXPECT_NE(std::ranges::find(free.notes, "Seat trainee has no samples."), free.notes.end());
+}
+
 TEST(ScoreQuality, FlagsAGapAbove50MsOnly) {
   LessonMaker maker = clean();
   cut(maker.lesson, 2000, 2049);

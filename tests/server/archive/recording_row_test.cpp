@@ -130,5 +130,16 @@ TEST(RecordingText, NamesPersonsAndSkippedFilesSafely) {
   EXPECT_NE(recording_text(rows[0]).find("persons   Ada"), std::string::npos);
 }
 
+TEST(RecordingText, SaysAlikeThatTheBeginIsNotStated) {
+  std::vector<RecordingRow> rows{row("virtual.mcap", 1, 100)};
+  rows[0].summary.start_unix_ns = 0;
+  rows[0].modified_ns = std::int64_t{1'700'000'000'000'000'000};  // 2023-11-14 22:13 UTC
+  EXPECT_NE(recordings_text(rows).find("virtual.mcap        not stated"), std::string::npos) << recordings_text(rows);
+  EXPECT_NE(recording_text(rows[0]).find("begin     not stated\n"), std::string::npos) << recording_text(rows[0]);
+  rows[0].summary.start_unix_ns = rows[0].modified_ns;
+  EXPECT_NE(recordings_text(rows).find("virtual.mcap  2023-11-14 22:13"), std::string::npos) << recordings_text(rows);
+  EXPECT_NE(recording_text(rows[0]).find("begin     2023-11-14 22:13 UTC\n"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tandem::server

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "server/console/recording_json.h"
 #include "tests/support/recorded_bytes.h"
@@ -27,7 +28,11 @@ Lesson head() {
 Lesson rows(const std::vector<std::uint32_t>& ticks) {
   Lesson lesson = head();
   lesson.tick = ticks;
-  for (LessonSeat& seat : lesson.seats) seat.f.assign(ticks.size(), {3, 4, 0});
+  for (LessonSeat& seat : lesson.seats) {
+    seat.f.assign(ticks.size(), {3, 4, 0});
+    seat.gate.assign(ticks.size(), static_cast<std::uint8_t>(wire::GateState::kActive));
+    seat.sample_tick = ticks;
+  }
   for (LessonTool& tool : lesson.tools) {
     tool.f_env.assign(ticks.size(), {0, 0, 2});
     tool.alpha.assign(ticks.size(), {0.25, 0.75});
@@ -106,6 +111,28 @@ TEST(RecordingCurves, HaveNoPointInAGap) {
   EXPECT_TRUE(std::isnan(curves.tool_x(3, 0, 0))) << "row 350 is in the middle of its step: its time is another one";
   EXPECT_FLOAT_EQ(curves.seat_force(3, 0), 5);
   EXPECT_FLOAT_EQ(curves.tool_x(4, 0, 0), 0.4f);
+}
+
+TEST(RecordingCurves, HaveNoValueWhereASeatIsFree) {
+  std::vector<std::uint32_t> ticks(2000);
+  std::iota(ticks.begin(), ticks.end(), 0u);
+  Lesson part = rows(ticks);
+  part.seats[0].gate.assign(ticks.size(), 0);
+  part.seats[0].sample_tick.assign(ticks.size(), 0);
+  for (std::uint32_t& sample : part.seats[1].sample_tick) sample = std::min(sample, 900u);  // left then
+  RecordingOutline outline(head());
+  EXPECT_TRUE(outline.add(part));
+  EXPECT_EQ(outline.seats_without_samples(), LessonSeatSet{0b01}) << "seat 0 only";
+  EXPECT_EQ(outline.lesson_bytes(), 2000u * 410 * 2) << "seat 1 and the tool";
+  const RecordingCurves& curves = outline.curves();
+  ASSERT_EQ(curves.size(), 20u);
+  for (std::size_t p = 0; p < curves.size(); ++p) {
+    EXPECT_TRUE(std::isnan(curves.seat_force(p, 0))) << p;
+    EXPECT_TRUE(std::isnan(curves.alpha(p, 0, 0))) << p;
+    EXPECT_EQ(std::isnan(curves.seat_force(p, 1)), p > 11) << p << ": the last sample is old from tick 1151 on";
+    EXPECT_EQ(std::isnan(curves.alpha(p, 0, 1)), p > 11) << p;
+    EXPECT_FLOAT_EQ(curves.tool_force(p, 0), 2) << p;
+  }
 }
 
 TEST(RecordingCurves, EndWithTheLastWholeStep) {

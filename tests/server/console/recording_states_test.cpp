@@ -41,8 +41,9 @@ struct Recorded {
   RecordingPeriods periods;
 };
 
-Recorded recorded(double seconds, const std::function<bool(std::uint32_t)>& missing = {}) {
-  auto lesson = read_lesson(test::recorded_bytes("contact", seconds, missing));
+Recorded recorded(double seconds, const std::function<bool(std::uint32_t)>& missing = {},
+                  const std::function<void(server::TickRecord&)>& change = {}) {
+  auto lesson = read_lesson(test::recorded_bytes("contact", seconds, missing, change));
   EXPECT_TRUE(lesson) << lesson.error();
   LivePicture base = recording_base(*lesson, rpc::Id{std::byte{1}});
   const RecordingPeriods periods(lesson->scene.tick_hz, lesson->tick.front(), lesson->tick.back());
@@ -84,6 +85,51 @@ TEST(RecordingStates, AreMissingWhereTheRecordingIs) {
   EXPECT_EQ(piece["states"][29]["n"], 30);
   EXPECT_EQ(piece["states"][30]["n"], 46);
   EXPECT_EQ(piece["states"][30]["tick"], 750);
+}
+
+/// Whether the state shows a seat as live states show a free one.
+bool is_free(const json& seat) {
+  return seat["taken"] == false && seat["heard"] == false && seat["engaged"] == false && seat["person"].is_null() &&
+         seat["gate"].is_null() && seat["x"].is_null() && seat["f"].is_null() && seat["margin_j"].is_null();
+}
+
+TEST(RecordingStates, ShowASeatThatIsNeverTakenAsFree) {
+  const Recorded r = recorded(1, {}, [](server::TickRecord& record) { record.seats[1] = {}; });
+  const json piece = json::parse(piece_json(r.periods, 0, r.lesson, r.base));
+  ASSERT_EQ(piece["states"].size(), 60u);
+  for (const json& state : piece["states"]) {
+    EXPECT_TRUE(is_free(state["seats"][1])) << state;
+    EXPECT_EQ(state["seats"][0]["taken"], true) << state["tick"];
+    EXPECT_EQ(state["seats"][0]["person"], "Ada");
+  }
+}
+
+TEST(RecordingStates, ShowASeatWithoutNewSamplesForAQuarterOfASecondAsFree) {
+  server::SeatRecord last;
+  const Recorded r = recorded(12, {}, [&last](server::TickRecord& record) {
+    if (record.tick == 500) last = record.seats[1];
+    if (record.tick > 500 && record.tick < 11'000) record.seats[1] = last;  // engaged, and with the same force
+  });
+  std::vector<std::uint32_t> taken;
+  for (const std::uint32_t k : {0u, 1u}) {
+    const json piece = json::parse(piece_json(r.periods, k, r.lesson, r.base));
+    for (const json& state : piece["states"])
+      if (!is_free(state["seats"][1])) taken.push_back(state["tick"].get<std::uint32_t>());
+  }
+  ASSERT_EQ(taken.size(), 46u + 60u);
+  EXPECT_EQ(taken[45], 750u) << "the last sample is 250 ms old";
+  EXPECT_EQ(taken[46], 11'000u) << "samples come again";
+}
+
+TEST(RecordingStates, ShowASeatFreeAtTheBeginOfAPieceThatIsReadAlone) {
+  Recorded r = recorded(1, {}, [](server::TickRecord& record) {
+    record.tick += 5000;
+    record.seats[0].sample_tick = record.tick;
+    record.seats[1].sample_tick = 4000;
+  });
+  const json piece = json::parse(piece_json(r.periods, 0, r.lesson, r.base));
+  EXPECT_TRUE(is_free(piece["states"][0]["seats"][1])) << "its sample was old in the first row";
+  EXPECT_EQ(piece["states"][0]["seats"][0]["taken"], true);
 }
 
 TEST(RecordingStates, OfAPieceBehindTheRowsAreNone) {

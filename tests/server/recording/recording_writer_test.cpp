@@ -39,6 +39,21 @@ TEST(RecordingWriter, GivesEveryRecordBackBitForBit) {
   }
 }
 
+TEST(RecordingWriter, LetsAReaderLeaveOutSeats) {
+  const SceneSpec scene = shipped_scene("contact");
+  std::vector<TickRecord> records;
+  for (std::uint32_t tick = 1; tick < 200; ++tick) records.push_back(smooth_record(scene, tick));
+  const std::string file = recording_of(scene, records);
+  const auto all = read_lesson(bytes_of(file)), part = read_lesson(bytes_of(file), LessonSeatSet{0b01});
+  ASSERT_TRUE(all && part);
+  EXPECT_TRUE(part->complete);
+  EXPECT_EQ(part->tick, all->tick);
+  EXPECT_TRUE(part->seats[0].x.empty() && part->seats[0].fresh.empty() && part->seats[0].sample_tick.empty());
+  EXPECT_EQ(part->seats[1].x, all->seats[1].x);
+  EXPECT_EQ(part->seats[1].fresh, all->seats[1].fresh);
+  EXPECT_EQ(part->tools[0].x, all->tools[0].x);
+}
+
 TEST(RecordingWriter, StatesTheSession) {
   const SceneSpec scene = shipped_scene("contact");
   const auto lesson = read_lesson(bytes_of(recording_of(scene, {smooth_record(scene, 1)})));
