@@ -124,13 +124,16 @@ export class TopBar implements View {
     if (model.scene && document.activeElement !== this.session && this.session.value !== model.scene.session) {
       this.session.value = model.scene.session;
     }
-    setText(this.phase, state ? word('phase', state.phase) : '');
-    setAttribute(this.phase, 'data-phase', state?.phase ?? null);
+    // Without the server the last phase may be old.
+    const phase = state && (model.connectedToServer ? state.phase : 'UNKNOWN');
+    setText(this.phase, phase ? word('phase', phase) : '');
+    setAttribute(this.phase, 'data-phase', phase);
     setText(this.time, state ? clock(state.t) : '');
     setText(this.left, model.left === null ? '' : t('bar.left', { t: clock(model.left) }));
     this.recording.update();
-    setText(this.link, t(`link.${model.link}`));
-    setAttribute(this.link, 'data-link', model.link);
+    const link = model.link !== 'open' || model.server === 'there' ? model.link : (`server_${model.server}` as const);
+    setText(this.link, t(`link.${link}`));
+    setAttribute(this.link, 'data-link', link);
     setDisabled(this.invite, !model.may('invite'));
     const right = {
       live: null,
