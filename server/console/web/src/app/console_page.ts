@@ -57,6 +57,7 @@ export class ConsolePage implements Page {
       if (model.given.open) event.preventDefault();
     });
     document.addEventListener('keydown', (event) => this.onKey(event));
+    document.addEventListener('pointerdown', ({ target }) => this.bar?.pointed(target));
     this.build();
     requestAnimationFrame((now) => this.onFrame(now));
     // A hidden page gets no frames; its alarms still go on.
@@ -206,6 +207,7 @@ export class ConsolePage implements Page {
   }
 
   private onKey(event: KeyboardEvent): void {
+    if (event.key === 'Escape' && this.bar?.escape()) return event.preventDefault();
     if (!this.settings.keys || event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.target;
     const writes =

@@ -34,6 +34,7 @@ export class TopBar implements View {
   private readonly invite = button(t('bar.invite'), () => void this.askInvitation());
   private readonly invitation = el('input', { type: 'text', readonly: true, 'aria-label': t('bar.invitation') });
   private known: Hello | null = null;
+  private readonly settings: HTMLDetailsElement;
   private readonly recording: RecordingMark;
 
   constructor(
@@ -58,7 +59,7 @@ export class TopBar implements View {
       settings.theme,
       (value) => actions.change({ theme: value as Settings['theme'] }),
     );
-    const more = el(
+    this.settings = el(
       'details',
       { class: 'settings' },
       el('summary', {}, t('bar.settings')),
@@ -90,7 +91,7 @@ export class TopBar implements View {
         this.link,
         this.person,
         sound,
-        more,
+        this.settings,
       ),
       el('nav', { 'aria-label': t('nav.label') }, ...this.tabs),
     );
@@ -103,6 +104,19 @@ export class TopBar implements View {
     this.invitation.value = location.origin + reply.text;
     this.invitation.hidden = false;
     this.invitation.select();
+  }
+
+  /** Closes the settings if the person pointed elsewhere. */
+  pointed(target: EventTarget | null): void {
+    if (!(target instanceof Node) || !this.settings.contains(target)) this.settings.open = false;
+  }
+
+  /** Closes the settings by the key Escape; the focus stays at them. @return false: they are closed already */
+  escape(): boolean {
+    if (!this.settings.open) return false;
+    if (this.settings.contains(document.activeElement)) this.settings.querySelector('summary')?.focus();
+    this.settings.open = false;
+    return true;
   }
 
   choose(view: ViewName): void {
