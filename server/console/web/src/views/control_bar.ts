@@ -12,23 +12,15 @@ export class ControlBar implements View {
   private readonly resume: HTMLButtonElement;
   private readonly active = el('p', { class: 'active-stop', role: 'status' });
 
-  private readonly lost = el('p', { class: 'server-lost', role: 'status' });
+  private readonly lostWords = el('span');
   private readonly signIn = el('a', { href: '/join' }, t('server.sign_in'));
+  private readonly lost = el('p', { class: 'server-lost', role: 'status' }, this.lostWords, ' ', this.signIn);
 
   constructor(private readonly page: Page) {
     this.stop = button(t('stop.stop'), () => this.order('stop'), { class: 'stop', 'aria-keyshortcuts': 'S' });
     this.pause = button(t('stop.pause'), () => this.order('pause'), { class: 'pause', 'aria-keyshortcuts': 'P' });
     this.resume = button(t('stop.resume'), () => this.order('resume'), { class: 'resume', 'aria-keyshortcuts': 'R' });
-    this.node = el(
-      'div',
-      { class: 'control-bar' },
-      this.stop,
-      this.pause,
-      this.resume,
-      this.active,
-      this.lost,
-      this.signIn,
-    );
+    this.node = el('div', { class: 'control-bar' }, this.stop, this.pause, this.resume, this.active, this.lost);
   }
 
   /** Sends an order if the role allows it; a key does what the button does. */
@@ -74,7 +66,7 @@ export class ControlBar implements View {
     const mayNot = stop !== null && !stop.yours && model.granted('resume');
     setText(this.active, mayNot ? sentences(words, whoResumes(stop, model.scene)) : words);
     this.active.hidden = words === '';
-    setText(this.lost, lost === null ? '' : t(`server.${lost}`));
+    setText(this.lostWords, lost === null ? '' : t(`server.${lost}`));
     this.lost.hidden = lost === null;
     this.signIn.hidden = lost !== 'gone';
   }

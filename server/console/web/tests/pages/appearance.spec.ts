@@ -55,13 +55,24 @@ for (const scheme of ['light', 'dark'] as const) {
       [320, 'fr'],
       [3840, 'fr'],
     ] as const) {
-      await page.locator('details.settings').evaluate((node: HTMLDetailsElement) => (node.open = true));
+      const settings = page.locator('details.settings');
+      const show = (opened: boolean): Promise<void> =>
+        settings.evaluate((node: HTMLDetailsElement, value) => void (node.open = value), opened);
+      await show(true);
       await page.locator('.settings-box select').first().selectOption(language);
       await expect(page.locator('html')).toHaveAttribute('lang', language);
       await page.setViewportSize({ width, height: 844 });
+      await show(true);
+      expect([scheme, width, language, 'settings', await violations()]).toEqual([
+        scheme,
+        width,
+        language,
+        'settings',
+        [],
+      ]);
+      await show(false);
       for (const name of kNames) {
         await view(page, name);
-        await page.locator('details.settings').evaluate((node: HTMLDetailsElement) => (node.open = true));
         await page.waitForTimeout(250);
         const found = await violations();
         expect([scheme, width, language, name, found]).toEqual([scheme, width, language, name, []]);
