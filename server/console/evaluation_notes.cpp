@@ -57,8 +57,10 @@ bool EvaluationNotes::put(const rpc::StoredNote& note) {
   if (!by.proved) by.name = text_in(parsed, "person");
   if (by.name.empty()) by.name = note.workstation;
   if (note.kind == rpc::NoteKind::kMark) {
-    std::string text = text_in(parsed, "text");
-    if (text.empty()) text = sanitize(note.json, kShownMax);  // of another program
+    // A mark of this program may have no words. One of another program has no text and is shown whole.
+    const auto own = parsed.find("text");
+    std::string text =
+        own != parsed.end() && own->is_string() ? text_in(parsed, "text") : sanitize(note.json, kShownMax);
     insert(marks_, {note.number, std::move(by), time_in(parsed), std::move(text)}, kMarksMax);
     return false;
   }

@@ -127,8 +127,10 @@ std::string tickets_json(const rpc::SessionCreated& created, std::string_view se
                     {"tickets", std::move(rows)}});
 }
 
-std::string notice_json(std::string_view level, std::string_view text) {
-  return json_text({{"type", "notice"}, {"level", level}, {"text", text}});
+std::string notice_json(std::string_view level, std::string_view text, std::string_view server) {
+  json notice{{"type", "notice"}, {"level", level}, {"text", text}};
+  if (!server.empty()) notice["server"] = server;
+  return json_text(notice);
 }
 
 }  // namespace tandem::console

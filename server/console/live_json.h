@@ -37,7 +37,8 @@ struct PageOffers {
 /// @param own     key of the gateway's workstation: browsers can use tickets for it only
 [[nodiscard]] std::string tickets_json(const rpc::SessionCreated& created, std::string_view server,
                                        const auth::KeyFingerprint& own);
-/// @param level  info, warning or error
-[[nodiscard]] std::string notice_json(std::string_view level, std::string_view text);
+/// @param level   info, warning or error
+/// @param server  "lost", "gone" (the gateway does not try again) or "back"; empty: the notice is about something else
+[[nodiscard]] std::string notice_json(std::string_view level, std::string_view text, std::string_view server = {});
 
 }  // namespace tandem::console

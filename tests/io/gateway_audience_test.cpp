@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -19,16 +20,22 @@ std::size_t open_files(const Process& process) {
 }
 /// Opens /watch as a browser with these cookies does.
 HttpReply watch(const WebAddress& at, const Fields& fields = {}) { return http_get(at, "/watch", fields); }
+/// Whether the page may take a seat in the browser.
+bool offers_seats(const Json& hello) {
+  const Json& may = hello["may"];
+  return std::ranges::find(may, Json("seat")) != may.end();
+}
 bool is_live(const Json& state) { return state["age_ms"].is_number(); }
 
 TEST(GatewayAudience, WatchesWithoutATicketAndCostsTheServerNothingMore) {
   constexpr std::size_t kPages = 200;
   const Process host = hosting("one_axis");
   const Process trainer = client(address_of(host), "trainer");
-  WebGateway gateway(address_of(host), {"--audience", std::to_string(kPages)});
+  WebGateway gateway(address_of(host), {"--audience", std::to_string(kPages), "--allow-browser-seats"});
   gateway.open_url();
   gateway.process.wait_for("/watch\n");
   WebPage instructor = gateway.page();
+  EXPECT_TRUE(offers_seats(instructor.next("hello")));
   ASSERT_FALSE(state_where(instructor, is_live).is_null());
   const HttpReply admitted = watch(gateway.at);
   ASSERT_EQ(admitted.status, 303U) << admitted.body;
@@ -41,6 +48,9 @@ TEST(GatewayAudience, WatchesWithoutATicketAndCostsTheServerNothingMore) {
     pages.emplace_back(gateway.at, cookie);
     ASSERT_EQ(pages.back().status(), 101U) << n;
   }
+  const Json hello = pages[0].next("hello");
+  EXPECT_EQ(hello["role"], "OBSERVER");
+  EXPECT_FALSE(offers_seats(hello)) << hello;
   for (std::size_t n = 0; n < kPages; ++n) ASSERT_FALSE(state_where(pages[n], is_live).is_null()) << n;
   EXPECT_EQ(open_files(host), before) << "the server has a connection for the gateway, not for each page";
   EXPECT_EQ(WebPage(gateway.at, cookie).status(), 503U) << "one page too many";
@@ -49,8 +59,8 @@ TEST(GatewayAudience, WatchesWithoutATicketAndCostsTheServerNothingMore) {
 
   const Json refused = pages[0].order({{"order", "stop"}, {"why", "by a spectator"}});
   EXPECT_EQ(refused["ok"], false) << refused;
-  pages[1].send(Json{{"type", "take"}, {"id", 8}, {"seat", "trainer"}});
-  EXPECT_EQ(pages[1].next("reply")["ok"], false);
+  pages[1].send(Json{{"type", "take"}, {"id", 8}, {"seat", "trainee"}, {"ticket", "ticket:AAAA"}});
+  EXPECT_EQ(pages[1].next("reply")["text"], "the audience only watches; sign in at /join with a ticket");
   pages[2].send(Json{{"type", "invite"}, {"id", 8}});
   EXPECT_EQ(pages[2].next("reply")["ok"], false);
   EXPECT_EQ(instructor.order({{"order", "stop"}, {"why", "look"}})["ok"], true);

@@ -171,10 +171,11 @@ TEST(GatewayLive, ComesBackAfterTheServerWasKilled) {
   EXPECT_EQ(host.wait(), -SIGKILL);
   const Json lost = page.until([](const Json& m) { return m["type"] == "notice" && m["level"] == "error"; });
   EXPECT_NE(lost["text"].get<std::string>().find("trying again"), std::string::npos) << lost;
+  EXPECT_EQ(lost["server"], "lost");
   EXPECT_EQ(page.order({{"order", "stop"}, {"why", "x"}})["ok"], false);
   const Process again = hosting("one_axis", {"--listen", address});
   const Json back = page.until([](const Json& m) { return m["type"] == "notice" && m["level"] == "info"; });
-  EXPECT_FALSE(back.is_null());
+  EXPECT_EQ(back["server"], "back") << back;
   const Json scene = page.until([&](const Json& m) { return m["type"] == "scene" && m["session"] != before; });
   EXPECT_FALSE(scene.is_null());
   EXPECT_FALSE(state_where(page, [](const Json& s) { return s["age_ms"].is_number(); }).is_null());

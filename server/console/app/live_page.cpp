@@ -73,7 +73,7 @@ void LivePage::greet() {
   role_ = own->role;
   greeted_ = true;
   scenes_ = own->scenes;
-  const PageOffers offers{.seats = gateway_.seats().allowed(),
+  const PageOffers offers{.seats = gateway_.seats().allowed() && !person_->audience,
                           .invite = person_->house,
                           .play = gateway_.play(),
                           .proved = person_->proved,
@@ -110,9 +110,11 @@ void LivePage::send_notices(const LivePicture& own, const LivePicture& view) {
     connected_ = own.connected;
     const std::string lost = "the connection to the server was lost (" + own.warning + "); ";
     if (connected_) {
-      send(notice_json("info", "the connection to the server is back"));
+      send(notice_json("info", "the connection to the server is back", "back"));
+    } else if (own.again) {
+      send(notice_json("error", lost + "trying again", "lost"));
     } else {
-      send(notice_json("error", lost + (own.again ? "trying again" : "sign in again with a new ticket")));
+      send(notice_json("error", lost + "sign in again with a new ticket", "gone"));
     }
   }
   const std::string warning = view.live || !own.connected ? std::string{} : view.warning;
@@ -184,7 +186,6 @@ void LivePage::watch(const Watch& wish) {
   notes_.reset();
   scores_.reset();
   warning_.clear();
-  connected_ = true;
   choose_view();
   on_news();
 }
@@ -234,6 +235,8 @@ void LivePage::send_scores(const LivePicture& own) {
 // The gateway's own right may take any seat, so it serves only persons who have the gateway's connection.
 void LivePage::take(const TakeSeat& wish) {
   if (seat_ && !seat_->over()) return send(reply_json(wish.id, false, "this page has a seat already; leave it first"));
+  if (person_->audience)
+    return send(reply_json(wish.id, false, "the audience only watches; sign in at /join with a ticket"));
   if (!person_->house && wish.ticket.empty())
     return send(reply_json(wish.id, false, "a ticket for this seat is needed; ask the operator of the server for one"));
   auto seat = gateway_.seats().take(link_->newest()->status.name, wish.seat, wish.ticket);

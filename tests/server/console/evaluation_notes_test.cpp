@@ -58,11 +58,13 @@ TEST(EvaluationNotes, ShowAChosenNameAsUnproved) {
   EvaluationNotes notes;
   notes.put(stored(1, rpc::NoteKind::kMark, mark_json("ann", 0, "a"), ""));
   notes.put(stored(2, rpc::NoteKind::kMark, R"({"grip":4})", ""));
+  notes.put(stored(3, rpc::NoteKind::kMark, mark_json("ann", 7, ""), ""));
   const Json marks = seen(notes)["marks"];
   EXPECT_EQ(marks[0]["person"], "ann");
   EXPECT_EQ(marks[0]["proved"], false);
   EXPECT_EQ(marks[1]["person"], "desk") << "of another program: the workstation";
   EXPECT_EQ(marks[1]["text"], R"({"grip":4})");
+  EXPECT_EQ(marks[2]["text"], "") << "a mark without words";
 }
 
 TEST(EvaluationNotes, ReplaceAnOwnDraftAndAskAgainOnceItIsClosed) {

@@ -1,5 +1,6 @@
 import type { SessionModel } from '../logic/session_model';
 import { ticketOfHash } from '../logic/lesson';
+import { freeSeats, TrialSeat } from '../logic/seat_choice';
 import type { Notice, OrderBody, Reply, Request } from '../protocol/messages';
 import { setLanguage, t } from '../strings/strings';
 import { ControlBar } from '../views/control_bar';
@@ -37,7 +38,7 @@ export class ConsolePage implements Page {
   private prefilled = ticketOfHash(location.hash);
   private lastNotice: Notice | null = null;
   private updated_ms = 0;
-  private played = false;
+  private readonly trial = new TrialSeat();
   private readonly dark = matchMedia('(prefers-color-scheme: dark)');
 
   constructor(
@@ -56,6 +57,7 @@ export class ConsolePage implements Page {
       if (model.given.open) event.preventDefault();
     });
     document.addEventListener('keydown', (event) => this.onKey(event));
+    document.addEventListener('pointerdown', ({ target }) => this.bar?.pointed(target));
     this.build();
     requestAnimationFrame((now) => this.onFrame(now));
     // A hidden page gets no frames; its alarms still go on.
@@ -73,10 +75,18 @@ export class ConsolePage implements Page {
   }
 
   async request(what: string, body: Request): Promise<Reply> {
-    const reply = await this.connection.request(body);
+    if (body.type === 'take') this.trial.end();
+    const reply = await this.send(body);
     if (reply.ok) this.report('info', t('order.sent', { what }));
     else this.report('error', t('order.refused', { what, why: reply.text }));
     return reply;
+  }
+
+  /** Sends a request. What only the server can do is refused at once while the gateway has lost it. */
+  private send(body: Request): Promise<Reply> {
+    const local = body.type === 'watch' || body.type === 'leave' || body.type === 'invite';
+    if (local || this.model.link !== 'open' || this.model.server === 'there') return this.connection.request(body);
+    return Promise.resolve({ type: 'reply', id: null, ok: false, text: t(`server.${this.model.server}`) });
   }
 
   report(level: Notice['level'], text: string): void {
@@ -159,19 +169,19 @@ export class ConsolePage implements Page {
     const fresh = model.notices.newest;
     if (fresh && fresh !== this.lastNotice) {
       this.lastNotice = fresh;
-      this.report(fresh.level, fresh.text);
+      this.messages.show(fresh.level, fresh.text, fresh.server ? 'server' : '');
     }
     this.update();
   }
 
-  /** Takes the seat of a trial at once if it is free; the person may leave it and take another one. */
+  /** Takes the seat of a trial if it is free; the person may leave it and take another one. */
   private play(): void {
     const { hello, scene, state } = this.model;
-    if (this.played || !hello?.play || !scene || !state || !this.model.may('seat')) return;
-    this.played = true;
-    this.choose('seat');
-    const taken = state.seats[scene.seats.findIndex(({ name }) => name === hello.play)]?.taken;
-    if (taken === false) void this.request(t('seat.take'), { type: 'take', seat: hello.play });
+    if (!hello?.play || !scene || !state || !this.model.may('seat')) return;
+    const { begun } = this.trial;
+    const seat = this.trial.next(hello.play, freeSeats(scene, state), performance.now());
+    if (!begun && this.trial.begun) this.choose('seat');
+    if (seat !== null) void this.request(t('seat.take'), { type: 'take', seat });
   }
 
   private update(): void {
@@ -197,6 +207,7 @@ export class ConsolePage implements Page {
   }
 
   private onKey(event: KeyboardEvent): void {
+    if (event.key === 'Escape' && this.bar?.escape()) return event.preventDefault();
     if (!this.settings.keys || event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.target;
     const writes =

@@ -8,6 +8,15 @@ export function mastersOf(scene: Scene | null): SceneSeat[] {
   return scene?.seats.filter((seat) => seat.kind === 'MASTER') ?? [];
 }
 
+/** Smallest and largest share of a hand-over [%]. */
+export const kShareRange = [5, 100] as const;
+
+/** Returns the share that a person typed in percent, in [0, 1]; null: it is no number in kShareRange. */
+export function typedShare(text: string): number | null {
+  const percent = text.trim() === '' ? NaN : Number(text);
+  return percent >= kShareRange[0] && percent <= kShareRange[1] ? percent / 100 : null;
+}
+
 const clamp = (share: number): number => (share >= 0 ? Math.min(1, share) : 0);
 
 /**

@@ -17,6 +17,8 @@ import { SeatHistory } from './history';
 import { Ring } from './ring';
 import { StateWindow } from './state_window';
 
+/** Connection of the gateway to the server; `gone`: the gateway does not try again, so the person signs in again. */
+export type ServerLink = 'there' | 'lost' | 'gone';
 export type Link = 'connecting' | 'open' | 'lost' | 'refused' | 'player';
 
 export const kEventsKept = 500;
@@ -25,6 +27,7 @@ export const kNoticesKept = 50;
 /** All that the page knows of the watched session. It has neither a socket nor a document; its memory is bounded. */
 export class SessionModel {
   link: Link = 'connecting';
+  server: ServerLink = 'there';
   hello: Hello | null = null;
   scene: Scene | null = null;
   notes: Notes | null = null;
@@ -52,7 +55,12 @@ export class SessionModel {
   }
 
   may(right: Right): boolean {
-    return this.link === 'open' && this.granted(right);
+    return this.connectedToServer && this.granted(right);
+  }
+
+  /** Whether orders reach the server. */
+  get connectedToServer(): boolean {
+    return this.link === 'open' && this.server === 'there';
   }
 
   /** The right without regard to the connection: whether a view is offered. */
@@ -85,6 +93,7 @@ export class SessionModel {
         if (!this.isRepeated(message)) this.events.push(message);
         break;
       case 'notice':
+        if (message.server) this.server = message.server === 'back' ? 'there' : message.server;
         this.notices.push(message);
         break;
       case 'seat':
@@ -110,6 +119,7 @@ export class SessionModel {
 
   connected(): void {
     this.link = 'open';
+    this.server = 'there';
     this.states.clear();
     this.acknowledgements.reset();
     this.alarms.connection(false, this.state?.t ?? null, '');

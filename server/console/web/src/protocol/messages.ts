@@ -187,6 +187,8 @@ export interface Notice {
   type: 'notice';
   level: 'info' | 'warning' | 'error';
   text: string;
+  /** What became of the connection of the gateway to the server; null: the notice is about something else. */
+  server?: 'lost' | 'gone' | 'back' | null;
 }
 
 /** State of the own browser seat. */
@@ -286,7 +288,7 @@ export type Request =
   | ({ type: 'order' } & OrderBody)
   | { type: 'mark'; t: number; text: string }
   | { type: 'sheet'; sheet: SheetName; of: string; scores: Readonly<Record<string, number>>; closed: boolean }
-  | { type: 'take'; seat: string }
+  | { type: 'take'; seat: string; ticket?: string }
   | { type: 'leave' }
   | { type: 'invite' };
 

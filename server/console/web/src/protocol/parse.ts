@@ -21,6 +21,7 @@ import { readScores } from './scores';
 /** Longest frame that the page parses [characters]; a state of 24 seats needs some 12000. */
 export const kFrameMax = 1 << 20;
 const kPhases: readonly Phase[] = ['WAITING', 'RUNNING', 'STOPPED', 'PAUSED', 'OVER'];
+const kServerWords = ['lost', 'gone', 'back'] as const;
 const kSheets: readonly SheetName[] = ['OSATS', 'GEARS', 'GOALS', 'CHECKLIST'];
 
 /** Returns three finite numbers, or null: one unknown component makes the vector unknown. */
@@ -231,6 +232,7 @@ const kReaders: Record<string, (from: Json) => GatewayMessage | null> = {
     type: 'notice',
     level: from.level === 'error' || from.level === 'warning' ? from.level : 'info',
     text: text(from.text),
+    server: kServerWords.find((known) => known === from.server) ?? null,
   }),
   seat: (from) => ({
     type: 'seat',

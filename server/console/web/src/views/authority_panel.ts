@@ -4,15 +4,17 @@ import {
   guidance,
   instructorIndex,
   kAnnouncementTicks,
+  kShareRange,
   mastersOf,
   sameShares,
   traineeIndices,
+  typedShare,
   withShare,
 } from '../logic/authority';
 import { kUnknown, percent } from '../logic/format';
 import type { Scene, SceneSeat } from '../protocol/messages';
 import { t, word } from '../strings/strings';
-import { button, el, fillSelect, labelled, panel, select, setDisabled, setText } from './dom';
+import { button, el, fillSelect, labelled, panel, select, setAttribute, setDisabled, setText } from './dom';
 import { swatch } from './value_table';
 
 interface Row {
@@ -31,7 +33,14 @@ export class AuthorityPanel implements View {
   private readonly rows = el('div', { class: 'shares' });
   private readonly presets = el('div', { class: 'row presets' });
   private readonly to = select([], '', () => undefined);
-  private readonly share = el('input', { type: 'number', min: 5, max: 100, step: 5, value: '100' });
+  private readonly share = el('input', {
+    type: 'number',
+    min: kShareRange[0],
+    max: kShareRange[1],
+    step: 5,
+    value: '100',
+    oninput: () => setAttribute(this.share, 'aria-invalid', null),
+  });
   private readonly apply: HTMLButtonElement;
   private readonly reset: HTMLButtonElement;
   private readonly give: HTMLButtonElement;
@@ -131,9 +140,16 @@ export class AuthorityPanel implements View {
 
   private handOver(): void {
     const index = Number(this.to.value);
-    const share = Math.min(100, Math.max(0, Number(this.share.value))) / 100;
+    const share = typedShare(this.share.value);
+    if (share === null) {
+      const [min, max] = kShareRange;
+      setAttribute(this.share, 'aria-invalid', 'true');
+      this.share.focus();
+      const why = t('authority.share_range', { min, max });
+      return this.page.report('error', t('order.refused', { what: t('authority.give'), why }));
+    }
     const wanted = this.page.model.state?.tools[this.tool()]?.wanted;
-    if (!wanted || Number.isNaN(share)) return;
+    if (!wanted) return;
     this.send(t('authority.give'), withShare(wanted, index, share));
   }
 

@@ -1,4 +1,5 @@
 import type { Page, View } from '../app/page';
+import { sentences, whoResumes } from '../logic/resume';
 import type { OrderBody, Right } from '../protocol/messages';
 import { t, word } from '../strings/strings';
 import { button, el, setDisabled, setText } from './dom';
@@ -11,11 +12,15 @@ export class ControlBar implements View {
   private readonly resume: HTMLButtonElement;
   private readonly active = el('p', { class: 'active-stop', role: 'status' });
 
+  private readonly lostWords = el('span');
+  private readonly signIn = el('a', { href: '/join' }, t('server.sign_in'));
+  private readonly lost = el('p', { class: 'server-lost', role: 'status' }, this.lostWords, ' ', this.signIn);
+
   constructor(private readonly page: Page) {
     this.stop = button(t('stop.stop'), () => this.order('stop'), { class: 'stop', 'aria-keyshortcuts': 'S' });
     this.pause = button(t('stop.pause'), () => this.order('pause'), { class: 'pause', 'aria-keyshortcuts': 'P' });
     this.resume = button(t('stop.resume'), () => this.order('resume'), { class: 'resume', 'aria-keyshortcuts': 'R' });
-    this.node = el('div', { class: 'control-bar' }, this.stop, this.pause, this.resume, this.active);
+    this.node = el('div', { class: 'control-bar' }, this.stop, this.pause, this.resume, this.active, this.lost);
   }
 
   /** Sends an order if the role allows it; a key does what the button does. */
@@ -37,7 +42,8 @@ export class ControlBar implements View {
     const state = model.state;
     const granted = (['stop', 'pause', 'resume'] as Right[]).some((right) => model.granted(right));
     const stop = state?.stop ?? null;
-    this.node.hidden = !granted && !stop;
+    const lost = model.link === 'open' && model.server !== 'there' ? model.server : null;
+    this.node.hidden = !granted && !stop && lost === null;
     for (const [node, right] of [
       [this.stop, 'stop'],
       [this.pause, 'pause'],
@@ -55,9 +61,13 @@ export class ControlBar implements View {
           kind: word('stop.kind', stop.kind),
           by: stop.person === null ? stop.by || '–' : `${stop.person} (${stop.by})`,
           why: stop.why || t('stop.no_reason'),
-        }) + (stop.yours || !model.granted('resume') ? '' : ` ${t('stop.not_yours')}`)
+        })
       : '';
-    setText(this.active, words);
+    const mayNot = stop !== null && !stop.yours && model.granted('resume');
+    setText(this.active, mayNot ? sentences(words, whoResumes(stop, model.scene)) : words);
     this.active.hidden = words === '';
+    setText(this.lostWords, lost === null ? '' : t(`server.${lost}`));
+    this.lost.hidden = lost === null;
+    this.signIn.hidden = lost !== 'gone';
   }
 }

@@ -15,12 +15,15 @@ export class Messages {
     'aria-label': t('notices.title'),
   });
 
-  show(level: Notice['level'], text: string): void {
-    const same = [...this.node.children].find((child) => child.firstChild?.textContent === text);
-    same?.remove();
+  /** @param topic  a message replaces those of the same topic; empty: none */
+  show(level: Notice['level'], text: string, topic = ''): void {
+    for (const child of [...this.node.children]) {
+      const known = child instanceof HTMLElement ? (child.dataset.topic ?? '') : '';
+      if (child.firstChild?.textContent === text || (topic !== '' && known === topic)) child.remove();
+    }
     const node = el(
       'div',
-      { class: `message ${level}`, role: level === 'error' ? 'alert' : undefined },
+      { class: `message ${level}`, role: level === 'error' ? 'alert' : undefined, 'data-topic': topic || undefined },
       el('p', {}, text),
       button('✕', () => node.remove(), { 'aria-label': t('notices.dismiss'), class: 'quiet' }),
     );

@@ -1,6 +1,8 @@
 import type { Page, View } from '../app/page';
 import type { Drawn } from '../logic/state_window';
 import { fixed } from '../logic/format';
+import { freeSeats, proposedSeat } from '../logic/seat_choice';
+import { kTicketLength } from '../logic/sign_in';
 import { kPointerRate, kReach, PointerDevice, type Plane } from '../logic/pointer_device';
 import { t } from '../strings/strings';
 import { button, el, fillSelect, labelled, panel, select, setDisabled, setText } from './dom';
@@ -12,7 +14,15 @@ export class SeatView implements View {
   private readonly device = new PointerDevice();
   private readonly pad = new SeatPad(this.device);
   private readonly slot = el('div', { class: 'slot' });
-  private readonly choice = select([], '', () => undefined);
+  private readonly choice = select([], '', (seat) => (this.chosen = seat));
+  private readonly ticketHelp = el('p', { class: 'note', id: 'seat-ticket-help' });
+  private readonly ticket = el('input', {
+    type: 'password',
+    autocomplete: 'off',
+    maxlength: kTicketLength,
+    'aria-describedby': this.ticketHelp.id,
+  });
+  private readonly ticketField = labelled(t('seat.ticket'), this.ticket);
   private readonly take: HTMLButtonElement;
   private readonly leave: HTMLButtonElement;
   private readonly hold: HTMLButtonElement;
@@ -30,6 +40,8 @@ export class SeatView implements View {
   private readonly depth: HTMLInputElement;
   private readonly depthLabel: HTMLElement;
   private options = '';
+  /** Seat that the person chose; a list that loses it shows it again when it is free. */
+  private chosen = '';
   private sent_ms = 0;
   private last_ms = 0;
   private seat = '';
@@ -74,7 +86,8 @@ export class SeatView implements View {
         panel(
           t('seat.title'),
           'seat-panel',
-          el('div', { class: 'row' }, labelled(t('seat.choose'), this.choice), this.take, this.leave),
+          el('div', { class: 'row' }, labelled(t('seat.choose'), this.choice), this.ticketField, this.take, this.leave),
+          this.ticketHelp,
           this.words,
           this.pad.canvas,
           el('div', { class: 'row' }, this.hold, labelled(t('seat.plane'), plane), depth),
@@ -104,19 +117,24 @@ export class SeatView implements View {
       // The device continues where the hand is: a jump of the intention would be a jump of the force.
       if (model.ownSeat?.x) this.device.moveTo(model.ownSeat.x);
     }
-    const free = (model.scene?.seats ?? []).filter(
-      (seat, i) => seat.kind === 'MASTER' && model.state?.seats[i]?.taken === false,
-    );
+    const free = freeSeats(model.scene, model.state);
     const key = free.map((seat) => seat.name).join('\n');
     if (key !== this.options) {
       this.options = key;
       fillSelect(
         this.choice,
         free.map((seat) => [seat.name, seat.name] as const),
-        this.choice.value,
+        proposedSeat(free, this.chosen, model.hello?.play ?? null),
       );
     }
     const may = model.may('seat');
+    const granted = model.granted('seat');
+    this.take.hidden = this.leave.hidden = !granted;
+    const needsTicket = this.needsTicket() && own === '';
+    this.ticketField.hidden = this.ticketHelp.hidden = !needsTicket;
+    setDisabled(this.ticket, !may || free.length === 0);
+    const [session, seat] = [model.scene?.name ?? '', this.choice.value];
+    setText(this.ticketHelp, needsTicket ? t('seat.ticket_help', { session, seat }) : '');
     setDisabled(this.take, !may || own !== '' || free.length === 0);
     setDisabled(this.choice, !may || own !== '' || free.length === 0);
     setDisabled(this.leave, own === '' || !may);
@@ -128,7 +146,7 @@ export class SeatView implements View {
       this.words,
       own !== ''
         ? `${t('seat.yours', { seat: own })} ${hand}`
-        : t(!model.granted('seat') ? 'seat.not_allowed' : free.length === 0 ? 'seat.none_free' : 'seat.take_first'),
+        : t(!granted ? 'seat.not_allowed' : free.length === 0 ? 'seat.none_free' : 'seat.take_first'),
     );
   }
 
@@ -162,7 +180,22 @@ export class SeatView implements View {
   }
 
   private takeSeat(): void {
-    if (this.choice.value) void this.page.request(t('seat.take'), { type: 'take', seat: this.choice.value });
+    const seat = this.choice.value;
+    if (!seat) return;
+    if (!this.needsTicket()) return void this.page.request(t('seat.take'), { type: 'take', seat });
+    const ticket = this.ticket.value.trim();
+    if (ticket === '') {
+      this.ticket.focus();
+      return this.page.report('error', t('order.refused', { what: t('seat.take'), why: t('seat.ticket_missing') }));
+    }
+    void this.page.request(t('seat.take'), { type: 'take', seat, ticket }).then((reply) => {
+      if (reply.ok) this.ticket.value = '';
+    });
+  }
+
+  /** The gateway's own right serves persons of its printed URL and their invitations only; they may invite. */
+  private needsTicket(): boolean {
+    return this.page.model.granted('seat') && !this.page.model.granted('invite');
   }
 
   private moveDepth(distance: number): void {

@@ -3,7 +3,7 @@ import { mastersOf, traineeIndices } from '../logic/authority';
 import { formOf, kForms, othersSheets, ownSheet, totalOf, validScores } from '../logic/sheets';
 import type { Notes, Scene, SheetName } from '../protocol/messages';
 import { t, word, type StringKey } from '../strings/strings';
-import { button, el, fillSelect, labelled, panel, select, setDisabled, setText } from './dom';
+import { button, confirmOrder, el, fillSelect, labelled, panel, select, setDisabled, setText } from './dom';
 
 const itemText = (id: string): string => t(`item.${id}` as StringKey);
 
@@ -35,7 +35,7 @@ export class SheetForm implements View {
       },
     );
     this.save = button(t('sheet.save'), () => this.send(false));
-    this.close = button(t('sheet.close'), () => this.send(true), { class: 'primary' });
+    this.close = button(t('sheet.close'), () => void this.finish(), { class: 'primary' });
     this.node = panel(
       t('sheet.title'),
       'sheet-panel',
@@ -173,6 +173,14 @@ export class SheetForm implements View {
     });
     input.checked = this.scores[id] === 1;
     return el('label', { class: 'check item' }, input, el('span', {}, itemText(id)));
+  }
+
+  /** A closed sheet is final, so the page asks first. */
+  private async finish(): Promise<void> {
+    const { points, of } = totalOf(formOf(this.name), this.scores);
+    const words = { sheet: t(`sheet.${this.name}`), seat: this.of.value, points, of };
+    const what = t('sheet.close');
+    if (await confirmOrder(what, t('sheet.close_explain', words), what, t('who.cancel'))) this.send(true);
   }
 
   private send(closed: boolean): void {

@@ -81,7 +81,11 @@ export class Timeline implements View {
     this.ticks.replaceChildren(
       ...marks.map((mark) => {
         const x = Math.min(1, Math.max(0, (mark.t ?? 0) / end)) * (kWidth - 6);
-        return svg('rect', { x, y: 6, width: 6, height: 28, rx: 2 }, svg('title', {}, `${clock(mark.t)} ${mark.text}`));
+        return svg(
+          'rect',
+          { x, y: 6, width: 6, height: 28, rx: 2 },
+          svg('title', {}, `${clock(mark.t)} ${mark.text || '–'}`),
+        );
       }),
     );
     const rows = [...marks].sort((a, b) => (b.t ?? 0) - (a.t ?? 0)).slice(0, kListed);

@@ -34,6 +34,7 @@ export class TopBar implements View {
   private readonly invite = button(t('bar.invite'), () => void this.askInvitation());
   private readonly invitation = el('input', { type: 'text', readonly: true, 'aria-label': t('bar.invitation') });
   private known: Hello | null = null;
+  private readonly settings: HTMLDetailsElement;
   private readonly recording: RecordingMark;
 
   constructor(
@@ -58,7 +59,7 @@ export class TopBar implements View {
       settings.theme,
       (value) => actions.change({ theme: value as Settings['theme'] }),
     );
-    const more = el(
+    this.settings = el(
       'details',
       { class: 'settings' },
       el('summary', {}, t('bar.settings')),
@@ -90,7 +91,7 @@ export class TopBar implements View {
         this.link,
         this.person,
         sound,
-        more,
+        this.settings,
       ),
       el('nav', { 'aria-label': t('nav.label') }, ...this.tabs),
     );
@@ -103,6 +104,19 @@ export class TopBar implements View {
     this.invitation.value = location.origin + reply.text;
     this.invitation.hidden = false;
     this.invitation.select();
+  }
+
+  /** Closes the settings if the person pointed elsewhere. */
+  pointed(target: EventTarget | null): void {
+    if (!(target instanceof Node) || !this.settings.contains(target)) this.settings.open = false;
+  }
+
+  /** Closes the settings by the key Escape; the focus stays at them. @return false: they are closed already */
+  escape(): boolean {
+    if (!this.settings.open) return false;
+    if (this.settings.contains(document.activeElement)) this.settings.querySelector('summary')?.focus();
+    this.settings.open = false;
+    return true;
   }
 
   choose(view: ViewName): void {
@@ -124,13 +138,16 @@ export class TopBar implements View {
     if (model.scene && document.activeElement !== this.session && this.session.value !== model.scene.session) {
       this.session.value = model.scene.session;
     }
-    setText(this.phase, state ? word('phase', state.phase) : '');
-    setAttribute(this.phase, 'data-phase', state?.phase ?? null);
+    // Without the server the last phase may be old.
+    const phase = state && (model.connectedToServer ? state.phase : 'UNKNOWN');
+    setText(this.phase, phase ? word('phase', phase) : '');
+    setAttribute(this.phase, 'data-phase', phase);
     setText(this.time, state ? clock(state.t) : '');
     setText(this.left, model.left === null ? '' : t('bar.left', { t: clock(model.left) }));
     this.recording.update();
-    setText(this.link, t(`link.${model.link}`));
-    setAttribute(this.link, 'data-link', model.link);
+    const link = model.link !== 'open' || model.server === 'there' ? model.link : (`server_${model.server}` as const);
+    setText(this.link, t(`link.${link}`));
+    setAttribute(this.link, 'data-link', link);
     setDisabled(this.invite, !model.may('invite'));
     const right = {
       live: null,

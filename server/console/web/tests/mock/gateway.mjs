@@ -24,11 +24,11 @@ const kHeaders = {
   'Referrer-Policy': 'same-origin',
 };
 const kMay = {
-  INSTRUCTOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'record', 'seat'],
-  TRAINEE: ['stop', 'pause', 'resume', 'seat'],
+  INSTRUCTOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'record', 'seat', 'invite'],
+  TRAINEE: ['stop', 'pause', 'resume', 'seat', 'invite'],
   EVALUATOR: ['stop', 'pause', 'score'],
   OBSERVER: [],
-  OPERATOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'drain', 'create', 'record', 'seat', 'score'],
+  OPERATOR: ['stop', 'pause', 'resume', 'authority', 'remove', 'drain', 'create', 'record', 'seat', 'invite', 'score'],
 };
 const offer = (name, role) => ({ name, role });
 const kSceneSeats = {
@@ -74,6 +74,7 @@ class PageSocket {
       scene_seats: may.includes('create') ? kSceneSeats : {},
       scene_durations_s: may.includes('create') ? { contact: 20 } : {},
       workstation: gateway.workstation,
+      play: gateway.play,
     });
   }
 
@@ -138,6 +139,8 @@ export class MockGateway {
     this.tickets = new Map(
       Object.entries(options.tickets ?? { 'ticket-eva': ['eva', 'EVALUATOR'], 'ticket-ted': ['ted', 'TRAINEE'] }),
     );
+    this.seatTickets = options.seatTickets ?? {};
+    this.play = options.play ?? null;
     this.tokens = new Set(['first']);
     this.cookies = new Map();
     this.pages = new Set();
@@ -206,6 +209,16 @@ export class MockGateway {
     for (const page of this.pages) page.greet();
   }
 
+  /** Tells all pages what became of the connection to the server. */
+  tellServer(server) {
+    const [level, text] = {
+      lost: ['error', 'the connection to the server was lost (it ended); trying again'],
+      gone: ['error', 'the connection to the server was lost (it ended); sign in again with a new ticket'],
+      back: ['info', 'the connection to the server is back'],
+    }[server];
+    for (const page of this.pages) page.send({ type: 'notice', level, text, server });
+  }
+
   tellNotes() {
     for (const page of this.pages) page.send(this.session.notes(page.person));
   }
@@ -237,6 +250,9 @@ export class MockGateway {
         const seat = session.seats.find((known) => known.name === frame.seat);
         if (!page.may.includes('seat')) return page.reply(frame.id, refuse('take a seat'));
         if (!seat || seat.taken) return page.reply(frame.id, `seat "${frame.seat}" is not free`);
+        // A person of the printed URL may invite, and needs no ticket for a seat.
+        if (!page.may.includes('invite') && frame.ticket !== this.seatTickets[frame.seat])
+          return page.reply(frame.id, 'a ticket for this seat is needed; ask the operator of the server for one');
         Object.assign(seat, { taken: true, person: page.person, owner: page, gate: 'ON' });
         return page.reply(frame.id, '');
       }

@@ -41,16 +41,36 @@ for (const scheme of ['light', 'dark'] as const) {
     await expect(page.getByRole('dialog')).toBeVisible();
     expect(['dialog', await violations()]).toEqual(['dialog', []]);
     await page.keyboard.press('Escape');
+    // A field that is wrong, and a server that is lost.
+    await view(page, 'instructor');
+    await page.getByLabel('Share (%)').fill('150');
+    await page.getByRole('button', { name: 'Hand over' }).click();
+    gateway.tellServer('gone');
+    await expect(page.locator('.server-lost')).toBeVisible();
+    expect(['lost', await violations()]).toEqual(['lost', []]);
+    gateway.tellServer('back');
     for (const [width, language] of [
       [1280, 'en'],
       [390, 'en'],
       [320, 'fr'],
       [3840, 'fr'],
     ] as const) {
-      await page.locator('details.settings').evaluate((node: HTMLDetailsElement) => (node.open = true));
+      const settings = page.locator('details.settings');
+      const show = (opened: boolean): Promise<void> =>
+        settings.evaluate((node: HTMLDetailsElement, value) => void (node.open = value), opened);
+      await show(true);
       await page.locator('.settings-box select').first().selectOption(language);
       await expect(page.locator('html')).toHaveAttribute('lang', language);
       await page.setViewportSize({ width, height: 844 });
+      await show(true);
+      expect([scheme, width, language, 'settings', await violations()]).toEqual([
+        scheme,
+        width,
+        language,
+        'settings',
+        [],
+      ]);
+      await show(false);
       for (const name of kNames) {
         await view(page, name);
         await page.waitForTimeout(250);
@@ -87,6 +107,52 @@ test('no view is wider than the window from 320 px to 4K', async ({ start, open 
       const wide = await page.evaluate(() => document.documentElement.scrollWidth);
       expect([name, width, wide]).toEqual([name, width, width]);
     }
+  }
+});
+
+test('settings close with Escape and with a click elsewhere, not with one inside', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  const settings = page.locator('details.settings');
+  const summary = settings.locator('summary');
+  await summary.click();
+  await page.getByRole('checkbox', { name: 'Keys' }).click();
+  await expect(settings).toHaveAttribute('open');
+  await page.keyboard.press('Escape');
+  await expect(settings).not.toHaveAttribute('open');
+  await expect(summary).toBeFocused();
+  await summary.click();
+  await page.locator('.control-bar').click({ position: { x: 900, y: 5 } });
+  await expect(settings).not.toHaveAttribute('open');
+});
+
+test('the table of values shows all its columns from 1000 px', async ({ start, open }) => {
+  const gateway = await start({ seats: 8 });
+  gateway.session.seats.forEach((seat, i) => (seat.name = `evaluator${i}`));
+  const page = await open(gateway);
+  await page.getByText('Settings').click();
+  await page.getByLabel('Language').selectOption('fr');
+  const table = page.locator('.values-panel .scroll');
+  for (const width of [1000, 1280, 1440, 1920]) {
+    await page.setViewportSize({ width, height: 900 });
+    const [seen, all] = await table.evaluate((node) => [node.clientWidth, node.scrollWidth]);
+    expect([width, all]).toEqual([width, seen]);
+  }
+});
+
+test('messages cover no sheet', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway, 'eva', 'EVALUATOR');
+  await view(page, 'evaluator');
+  await page.getByRole('button', { name: 'Save draft' }).click();
+  await expect(page.locator('.message')).toBeVisible();
+  for (const width of [1000, 1440, 3840]) {
+    await page.setViewportSize({ width, height: 900 });
+    const [message, sheet] = [
+      await page.locator('.messages').boundingBox(),
+      await page.locator('.sheet-panel').boundingBox(),
+    ];
+    expect((message?.x ?? 0) + (message?.width ?? 0)).toBeLessThanOrEqual(sheet?.x ?? 0);
   }
 });
 

@@ -111,6 +111,40 @@ test('the page connects again after the gateway was killed, with its view and it
   await second.stop();
 });
 
+test('a lost server: no order, no live phase, and the message leaves when the server is back', async ({
+  start,
+  open,
+}) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  gateway.silent = true;
+  gateway.tellServer('lost');
+  const badge = page.locator('.badge');
+  await expect(badge).toHaveText('unknown');
+  await expect(page.locator('.link')).toHaveText('server lost, trying again');
+  for (const name of ['STOP', 'Pause', 'Record'])
+    await expect(page.getByRole('button', { name, exact: true })).toBeDisabled();
+  await expect(page.locator('.server-lost')).toHaveText(/can give no order/);
+  await expect(page.getByRole('link', { name: 'Sign in again' })).toBeHidden();
+  await expect(page.locator('.messages')).toContainText('trying again');
+  await page.locator('main').focus();
+  await page.keyboard.press('s');
+  await expect(page.locator('.messages')).toContainText('STOP was refused: The gateway has lost the server');
+  expect(gateway.session.orders).toEqual([]);
+  gateway.silent = false;
+  gateway.tellServer('back');
+  await expect(badge).toHaveText('running');
+  await expect(page.locator('.link')).toHaveText('connected');
+  await expect(page.locator('.server-lost')).toBeHidden();
+  await expect(page.locator('.messages')).not.toContainText('the connection to the server was lost');
+  await page.getByRole('button', { name: 'STOP' }).click();
+  await expect(badge).toHaveText('stopped');
+
+  gateway.tellServer('gone');
+  await expect(page.locator('.link')).toHaveText('server lost');
+  await expect(page.getByRole('link', { name: 'Sign in again with a new ticket' })).toHaveAttribute('href', '/join');
+});
+
 test('a gateway that forgot the cookie makes the page ask for a ticket', async ({ open }) => {
   const first = await startMock();
   const page = await open(first);

@@ -1,6 +1,12 @@
 import { expect, test, view } from './fixture';
 import type { Page } from '@playwright/test';
 
+/** Closes the sheet, which asks first. */
+async function close(page: Page): Promise<void> {
+  await page.getByRole('button', { name: 'Close sheet' }).click();
+  await page.getByRole('dialog').getByRole('button', { name: 'Close sheet' }).click();
+}
+
 async function fill(page: Page, points: number): Promise<void> {
   await view(page, 'evaluator');
   await page.locator('.sheet-panel select').first().selectOption('GOALS');
@@ -15,13 +21,20 @@ test('an evaluator fills and closes a sheet; scores of others appear after that 
   const max = await open(gateway, 'max', 'EVALUATOR');
   await fill(max, 2);
   await max.getByRole('button', { name: 'Close sheet' }).click();
+  const dialog = max.getByRole('dialog', { name: 'Close sheet' });
+  await expect(dialog).toContainText('A closed sheet is final');
+  await expect(dialog.getByRole('button', { name: 'Cancel' })).toBeFocused();
+  await max.keyboard.press('Enter');
+  await expect(dialog).toHaveCount(0);
+  expect(gateway.session.sheets).toEqual([]);
+  await close(max);
   await expect(max.locator('.sheet-panel')).toContainText('This sheet is closed.');
   await fill(eva, 4);
   await expect(eva.locator('.total')).toHaveText('Total 20 of 25');
   await eva.getByRole('button', { name: 'Save draft' }).click();
   await expect.poll(() => gateway.session.sheets.length).toBe(2);
   await expect(eva.locator('.others')).not.toContainText('max');
-  await eva.getByRole('button', { name: 'Close sheet' }).click();
+  await close(eva);
   await expect(eva.locator('.others')).toContainText('max: Total 10 of 25');
   await expect(max.locator('.others')).toContainText('eva: Total 20 of 25');
   await expect(eva.getByRole('button', { name: 'Save draft' })).toBeDisabled();
@@ -57,6 +70,14 @@ test('a mark has the time when the person began to write', async ({ start, open 
   const [mark] = gateway.session.marks as { t: number; person: string }[];
   expect(mark?.person).toBe('eva');
   expect(mark?.t).toBeLessThan(begun + 20);
+});
+
+test('a mark without words is shown as one', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway, 'eva', 'EVALUATOR');
+  await view(page, 'evaluator');
+  await page.getByRole('button', { name: 'Mark now' }).click();
+  await expect(page.locator('.timeline-panel .log li span')).toHaveText('–');
 });
 
 test('an evaluator who moves a slider is refused: the control is off, and the frame as well', async ({

@@ -93,6 +93,7 @@ test('an evaluator marks, fills and closes a sheet by the keyboard alone', async
   await expect(page.locator('[data-view=evaluator]')).toHaveAttribute('aria-current', 'page');
   await expect(page.locator('.total')).toHaveText('Total 20 of 25');
   await press(page, button(page, 'Close sheet'));
+  await press(page, page.getByRole('dialog').getByRole('button', { name: 'Close sheet' }));
   await expect(page.locator('.sheet-panel')).toContainText('This sheet is closed.');
 });
 

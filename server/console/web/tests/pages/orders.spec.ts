@@ -51,6 +51,30 @@ test('presets give authority for demonstration, guidance and evaluation', async 
   }
 });
 
+test('a share out of its range is refused with words, and the field keeps it', async ({ start, open }) => {
+  const gateway = await start();
+  const page = await open(gateway);
+  await view(page, 'instructor');
+  const panel = page.locator('.authority-panel');
+  const share = panel.getByLabel('Share (%)');
+  for (const wrong of ['150', '-5', '', '4']) {
+    await share.fill(wrong);
+    await panel.getByRole('button', { name: 'Hand over' }).click();
+    await expect(page.getByRole('alert')).toHaveText(
+      /Hand over was refused: the share must be a number from 5 to 100 \(%\)\. Correct the field\./,
+    );
+    await expect(share).toHaveValue(wrong);
+    await expect(share).toBeFocused();
+    await expect(share).toHaveAttribute('aria-invalid', 'true');
+    await page.getByRole('button', { name: 'Dismiss' }).click();
+  }
+  expect(gateway.session.orders).toEqual([]);
+  await share.fill('100');
+  await expect(share).not.toHaveAttribute('aria-invalid');
+  await panel.getByRole('button', { name: 'Hand over' }).click();
+  await expect.poll(() => gateway.session.wanted).toEqual([0, 1]);
+});
+
 test('STOP by button and resume; pause by key and resume by key', async ({ start, open }) => {
   const gateway = await start();
   const page = await open(gateway);
@@ -99,8 +123,8 @@ test('a trainee cannot end the stop of the instructor', async ({ start, open }) 
   const gateway = await start();
   const page = await open(gateway, 'ted', 'TRAINEE');
   gateway.session.order({ order: 'stop', why: 'tissue torn' }, 'ina', 'INSTRUCTOR');
-  await expect(page.locator('.active-stop')).toContainText(
-    'Only the person who stopped, or an instructor, may resume.',
+  await expect(page.locator('.active-stop')).toHaveText(
+    'Stop by ina: tissue torn. Only an instructor or operator may resume.',
   );
   await expect(page.getByRole('button', { name: 'Resume' })).toBeDisabled();
   await view(page, 'instructor');
@@ -115,6 +139,7 @@ test('an observer has no control that works', async ({ start, open }) => {
   for (const name of ['live', 'instructor', 'evaluator', 'seat', 'desk']) {
     await view(page, name);
     await expect(page.locator('button.stop')).toBeHidden();
+    await expect(page.getByRole('button', { name: 'Take seat' })).toHaveCount(0);
     // The pad and its view of the plane move nothing without a seat; lists and cameras only choose what is shown.
     const enabled = page.locator('main button:enabled:not([type=submit]), main input[type=range]:enabled');
     const names = await enabled.evaluateAll((nodes) => nodes.map((node) => node.textContent));

@@ -129,6 +129,7 @@ test('the real server: a second evaluator does not see a sheet before closing th
   const max = await lesson.person(browser, 'max', 'evaluator');
   await fillGoals(max.page, 2);
   await max.page.getByRole('button', { name: 'Close sheet' }).click();
+  await max.page.getByRole('dialog').getByRole('button', { name: 'Close sheet' }).click();
   await expect(max.page.locator('.sheet-panel')).toContainText('This sheet is closed.');
   await fillGoals(eva.page, 4);
   await eva.page.getByRole('button', { name: 'Save draft' }).click();
@@ -138,6 +139,33 @@ test('the real server: a second evaluator does not see a sheet before closing th
   // The scores of the other person did not reach this browser in any message.
   expect(JSON.stringify(eva.received.filter(({ type }) => type !== 'state'))).not.toContain('max');
   await eva.page.getByRole('button', { name: 'Close sheet' }).click();
+  await eva.page.getByRole('dialog').getByRole('button', { name: 'Close sheet' }).click();
   await expect(eva.page.locator('.others')).toContainText('Total 10 of 25');
   await expect(max.page.locator('.others')).toContainText('Total 20 of 25');
+});
+
+test('the real server: an evaluator who paused sees who may resume, and the page stops when the server is lost', async ({
+  browser,
+  run,
+  place,
+}) => {
+  const lesson = await LessonPrograms.start(run, place, 'contact');
+  await lesson.join('trainer');
+  await lesson.join('trainee');
+  const { page } = await lesson.person(browser, 'eva', 'evaluator');
+  await running(page);
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await expect(page.locator('.active-stop')).toHaveText(
+    /from the console\. Only an instructor or operator may resume\.$/,
+  );
+  await expect(page.getByRole('button', { name: 'Resume' })).toBeDisabled();
+  await view(page, 'evaluator');
+  await page.getByRole('button', { name: 'Mark now' }).click();
+  await expect(page.locator('.timeline-panel .log li span')).toHaveText('–');
+  await lesson.host.end('SIGKILL');
+  await expect(phaseOf(page)).toHaveText('unknown', { timeout: 20_000 });
+  await expect(page.locator('.server-lost')).toHaveText(/Orders reach nothing/);
+  const signIn = page.getByRole('link', { name: 'Sign in again with a new ticket' });
+  await signIn.click();
+  await expect(page).toHaveURL(`${lesson.url}/join`);
 });

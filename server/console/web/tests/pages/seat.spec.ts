@@ -75,3 +75,57 @@ test('the gateway refuses a seat that is not free any more', async ({ start, ope
   await take.click();
   await expect(page.getByRole('alert')).toContainText('Take seat was refused: seat "trainee" is not free');
 });
+
+test('a person with a ticket gives the ticket of the seat', async ({ start, open }) => {
+  const gateway = await start({
+    freeSeat: true,
+    may: { TRAINEE: ['seat'] },
+    seatTickets: { trainee: 'ticket:seat' },
+  });
+  const page = await open(gateway, 'ted', 'TRAINEE');
+  await view(page, 'seat');
+  const ticket = page.getByLabel('Ticket of the seat');
+  await expect(ticket).toHaveAccessibleDescription(/tandem-server ticket --session contact --seat trainee/);
+  const take = page.getByRole('button', { name: 'Take seat' });
+  await take.click();
+  await expect(page.getByRole('alert')).toContainText('the field for the ticket of the seat is empty');
+  await expect(ticket).toBeFocused();
+  await ticket.fill('ticket:wrong');
+  await take.click();
+  await expect(page.getByRole('alert').last()).toContainText('a ticket for this seat is needed');
+  await expect(ticket).toHaveValue('ticket:wrong');
+  await ticket.fill(' ticket:seat ');
+  await take.click();
+  await expect(page.locator('.seat-panel')).toContainText('You have seat trainee.');
+  await expect(ticket).toBeHidden();
+});
+
+test('persons of the printed URL have no field for a ticket', async ({ start, open }) => {
+  const gateway = await start({ freeSeat: true });
+  const page = await open(gateway);
+  await view(page, 'seat');
+  await expect(page.getByRole('button', { name: 'Take seat' })).toBeEnabled();
+  await expect(page.getByLabel('Ticket of the seat')).toBeHidden();
+});
+
+test('a trial takes its seat again after a reload, and proposes it after it was left', async ({ start, open }) => {
+  const gateway = await start({ seats: 3, play: 'trainer' });
+  for (const seat of gateway.session.seats) gateway.free(seat);
+  const page = await open(gateway);
+  await expect(page.locator('.seat-panel')).toContainText('You have seat trainer.');
+  // The seat is free again a while after the page is gone, and another seat is free before.
+  const { left } = gateway;
+  gateway.left = (socket) => void setTimeout(() => left.call(gateway, socket), 500);
+  await page.reload();
+  const free = page.getByLabel('Free seat');
+  await expect(free).toHaveValue('trainee1');
+  await expect(page.locator('.seat-panel')).toContainText('You have seat trainer.');
+  await page.getByRole('button', { name: 'Leave seat' }).click();
+  await expect(free).toHaveValue('trainer');
+  // A choice of the person stays.
+  await free.selectOption('trainee2');
+  await page.getByRole('button', { name: 'Take seat' }).click();
+  await expect(page.locator('.seat-panel')).toContainText('You have seat trainee2.');
+  await page.getByRole('button', { name: 'Leave seat' }).click();
+  await expect(free).toHaveValue('trainee2');
+});

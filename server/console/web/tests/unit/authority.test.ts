@@ -7,6 +7,7 @@ import {
   normalized,
   sameShares,
   traineeIndices,
+  typedShare,
   withShare,
 } from '../../src/logic/authority';
 import { makeScene } from './support';
@@ -45,6 +46,13 @@ describe('withShare', () => {
       expect(Math.abs(sum(shares) - 1)).toBeLessThan(1e-12);
       for (const share of shares) expect(share >= 0 && share <= 1).toBe(true);
     }
+  });
+});
+
+describe('typedShare', () => {
+  it('refuses what is no number from 5 to 100', () => {
+    expect(['5', '42.5', ' 100 '].map(typedShare)).toEqual([0.05, 0.425, 1]);
+    expect(['', ' ', '4.9', '-5', '150', '1e400', 'NaN', 'half'].map(typedShare)).toEqual(Array(8).fill(null));
   });
 });
 

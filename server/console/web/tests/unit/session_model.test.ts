@@ -45,6 +45,30 @@ describe('SessionModel', () => {
     expect(model.alarms.current()).toEqual([]);
   });
 
+  it('allows nothing while the gateway has lost the server', () => {
+    const model = new SessionModel();
+    model.connected();
+    model.apply(hello, 0);
+    const tell = (server?: string): void => {
+      const message = parseMessage(JSON.stringify({ type: 'notice', level: 'info', text: 'x', server }));
+      if (message) model.apply(message, 0);
+    };
+    const seen = ['lost', undefined, 'odd', 'back', 'gone'].map((server) => {
+      tell(server);
+      return [model.server, model.may('stop'), model.granted('stop')];
+    });
+    expect(seen).toEqual([
+      ['lost', false, true],
+      ['lost', false, true],
+      ['lost', false, true],
+      ['there', true, true],
+      ['gone', false, true],
+    ]);
+    // A gateway tells a new page of a lost server again.
+    model.connected();
+    expect(model.may('stop')).toBe(true);
+  });
+
   it('raises no alarm when the gateway asks for a ticket', () => {
     const model = new SessionModel();
     model.disconnected('refused', 'sign in');
