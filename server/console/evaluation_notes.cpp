@@ -59,7 +59,8 @@ bool EvaluationNotes::put(const rpc::StoredNote& note) {
   if (note.kind == rpc::NoteKind::kMark) {
     // A mark of this program may have no words. One of another program has no text and is shown whole.
     const auto own = parsed.find("text");
-    std::string text = own != parsed.end() && own->is_string() ? text_in(parsed, "text") : sanitize(note.json, kShownMax);
+    std::string text =
+        own != parsed.end() && own->is_string() ? text_in(parsed, "text") : sanitize(note.json, kShownMax);
     insert(marks_, {note.number, std::move(by), time_in(parsed), std::move(text)}, kMarksMax);
     return false;
   }
