@@ -47,6 +47,12 @@ test('two browsers share a tool, and one stops it', async ({ browser, run }) => 
   await expect(phaseOf(first)).toHaveAttribute('data-phase', 'STOPPED');
   await second.getByRole('button', { name: 'Resume' }).click();
   await expect(phaseOf(first)).toHaveAttribute('data-phase', 'RUNNING');
+
+  // A page that is opened again has its seat again; one that leaves it is offered the same seat.
+  await first.reload();
+  await expect(first.locator('.seat-view')).toContainText('You have seat instructor');
+  await first.getByRole('button', { name: 'Leave seat' }).click();
+  await expect(first.getByLabel('Free seat')).toHaveValue('instructor');
 });
 
 test('the page comes back after the server, and asks for a ticket after a new gateway', async ({ page, run }) => {
