@@ -48,6 +48,42 @@ std::uint64_t rows_of(const std::vector<std::string>& files) {
   return rows;
 }
 
+/// Reads files in this order into one lesson.
+std::expected<Lesson, std::string> joined(const std::vector<std::string>& files) {
+  LessonReader reader;
+  for (const std::string& file : files)
+    if (const auto added = reader.add(bytes_of(file)); !added) return std::unexpected(added.error());
+  return reader.take();
+}
+
+TEST(RecordedParts, AreOneLessonAsIfTheyWereOneFile) {
+  const std::vector<std::string> parts = PartsRecorder{.part_s = 0.7}.record(lossy("contact", 3), 3),
+                                 whole = PartsRecorder{.part_s = 100}.record(lossy("contact", 3), 3);
+  ASSERT_GE(parts.size(), 4u);
+  ASSERT_EQ(whole.size(), 1u);
+  const auto lesson = joined(parts), one = joined(whole);
+  ASSERT_TRUE(lesson) << lesson.error();
+  ASSERT_TRUE(one) << one.error();
+  EXPECT_TRUE(lesson->complete);
+  EXPECT_EQ(lesson->tick, one->tick);
+  EXPECT_EQ(lesson->time_ns, one->time_ns);
+  for (std::size_t i = 0; i < one->seats.size(); ++i) {
+    EXPECT_EQ(lesson->seats[i].fresh, one->seats[i].fresh) << i;
+    EXPECT_EQ(lesson->seats[i].sample_tick, one->seats[i].sample_tick) << i;
+  }
+  EXPECT_EQ(lesson->tools[0].x.size(), one->rows());
+  std::uint64_t recorded = 0;
+  for (const std::string& part : parts) recorded += joined({part})->counts.at("/tool").recorded;
+  EXPECT_EQ(recorded, one->rows());
+  EXPECT_EQ(lesson->counts.at("/tool").recorded, recorded) << "the account is that of all files";
+
+  const std::string foreign = PartsRecorder{.part_s = 100}.record(lossy("free_motion", 3), 0.2)[0];
+  const auto mixed = joined({parts[0], foreign});
+  ASSERT_FALSE(mixed);
+  EXPECT_NE(mixed.error().find("of another session"), std::string::npos) << mixed.error();
+  EXPECT_FALSE(joined({parts[1], parts[0]})->complete) << "in another order, ticks go back";
+}
+
 TEST(RecordedParts, ReplayBitForBitAsOneSessionForAllLengthsAndDelays) {
   constexpr const char* kScenes[] = {"contact", "two_by_two", "free_motion", "seed_contact"};
   const std::size_t seeds = tandem::test::draws(6, 40, 200);
