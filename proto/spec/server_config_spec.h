@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,19 @@ struct RecordingSpec {
   double mib_per_min = 128;  ///< [MiB/min]; further ticks are left out and counted
 };
 
+/// How a server is a member of a service of several servers.
+struct DirectorySpec {
+  std::vector<LocatedText> endpoints;               ///< "HOST:PORT" of members of etcd, at least one
+  std::string prefix = "/tandem/v1/";               ///< of all keys of the service
+  LocatedText authority, certificate, private_key;  ///< files in PEM; all or none
+  std::string name_in_certificate;                  ///< of etcd; empty: the host of the endpoint
+  LocatedText server;                               ///< name of this server; absent: the name in its member file
+  LocatedText address;                              ///< HOST:PORT for clients; absent: the address it listens at
+  std::string zone;                                 ///< empty: none
+  std::uint32_t ttl_s = 3;                          ///< [s] of the server's lease
+  LocatedText whole;                                ///< location of the block
+};
+
 struct ServerConfigSpec {
   std::string file;
   LocatedText listen, state, metrics, reports, scenes, record;
@@ -69,6 +83,7 @@ struct ServerConfigSpec {
   LogSpec log;
   AuditSpec audit;
   RecordingSpec recording;
+  std::optional<DirectorySpec> directory;  ///< absent: the server is alone
 };
 
 }  // namespace tandem

@@ -1,5 +1,8 @@
 #include "proto/text/server_config_text.h"
 
+#include <algorithm>
+#include <charconv>
+
 #include "proto/schema/server_config.pb.h"
 #include "proto/text/message_keys.h"
 #include "proto/text/text_format_reader.h"
@@ -44,6 +47,64 @@ LocatedText not_empty(bool written, const std::string& value, MessageValidator& 
   return placed(value, validator, key);
 }
 
+/// Whether `name` has 1 to 64 of A-Z a-z 0-9 . _ -
+bool is_server_name(std::string_view name) {
+  constexpr std::string_view kOthers = "._-";
+  return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, [&](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           kOthers.find(c) != std::string_view::npos;
+  });
+}
+
+DirectorySpec directory_from(const pb::DirectoryConfig& in, MessageValidator& validator) {
+  constexpr std::size_t kPrefixMax = 128;
+  const auto key = [](const char* name) { return child_path("directory", name); };
+  DirectorySpec out;
+  out.whole = placed("", validator, "directory");
+  if (in.endpoint_size() == 0 && !validator.is_set(child_path("directory", "endpoint", 0)))
+    validator.error(key("endpoint"), "is missing: name HOST:PORT of at least one member of etcd");
+  for (int i = 0; i < in.endpoint_size(); ++i) {
+    const std::string path = child_path("directory", "endpoint", i);
+    const std::size_t colon = in.endpoint(i).rfind(':');
+    const std::string_view port =
+        colon == std::string::npos ? std::string_view{} : std::string_view(in.endpoint(i)).substr(colon + 1);
+    int number = 0;
+    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+    if (colon == 0 || port.empty() || error != std::errc{} || end != port.data() + port.size() || number < 1 ||
+        number > 65535 || in.endpoint(i).find('/') != std::string::npos)
+      validator.error(path, "must be HOST:PORT without a scheme, with a port from 1 to 65535, such as 10.0.0.5:2379");
+    out.endpoints.push_back(placed(in.endpoint(i), validator, path));
+  }
+  if (in.has_prefix()) {
+    out.prefix = in.prefix();
+    if (out.prefix.size() > kPrefixMax || !out.prefix.starts_with('/') || !out.prefix.ends_with('/') ||
+        std::ranges::any_of(out.prefix, [](char c) { return c < '!' || c > '~'; }))
+      validator.error(
+          key("prefix"),
+          "must begin and end with \"/\" and have at most 128 visible ASCII characters, such as /tandem/v1/");
+  }
+  const auto file = [&](bool written, const std::string& value, const char* name) {
+    return not_empty(written, value, validator, key(name), "name a file in PEM, or leave the key out");
+  };
+  out.authority = file(in.has_authority(), in.authority(), "authority");
+  out.certificate = file(in.has_certificate(), in.certificate(), "certificate");
+  out.private_key = file(in.has_private_key(), in.private_key(), "private_key");
+  const int files = int{in.has_authority()} + int{in.has_certificate()} + int{in.has_private_key()};
+  if (files != 0 && files != 3)
+    validator.error("directory", "has only some of authority, certificate and private_key: TLS needs all three");
+  out.name_in_certificate = in.name_in_certificate();
+  if (files == 0 && !out.name_in_certificate.empty())
+    validator.error(key("name_in_certificate"), "needs TLS: add authority, certificate and private_key");
+  out.server = placed(in.server(), validator, key("server"));
+  if (in.has_server() && !is_server_name(in.server()))
+    validator.error(key("server"), "must have 1 to 64 of A-Z a-z 0-9 . _ -");
+  out.address = not_empty(in.has_address(), in.address(), validator, key("address"),
+                          "write HOST:PORT at which clients reach this server, or leave the key out");
+  out.zone = in.zone();
+  if (in.has_ttl_s()) out.ttl_s = in.ttl_s();
+  return out;
+}
+
 ConfiguredSessionSpec session_from(const pb::ConfiguredSession& in, MessageValidator& validator,
                                    const std::string& key) {
   ConfiguredSessionSpec out;
@@ -57,6 +118,21 @@ ConfiguredSessionSpec session_from(const pb::ConfiguredSession& in, MessageValid
   out.record = not_empty(in.has_record(), in.record(), validator, child_path(key, "record"),
                          "name a folder or a file NAME.mcap, or leave the key out");
   return out;
+}
+
+void set_directory(const DirectorySpec& in, pb::DirectoryConfig& out) {
+  for (const LocatedText& endpoint : in.endpoints) out.add_endpoint(endpoint.text);
+  out.set_prefix(in.prefix);
+  if (!in.authority.text.empty()) {
+    out.set_authority(in.authority.text);
+    out.set_certificate(in.certificate.text);
+    out.set_private_key(in.private_key.text);
+  }
+  if (!in.name_in_certificate.empty()) out.set_name_in_certificate(in.name_in_certificate);
+  if (!in.server.text.empty()) out.set_server(in.server.text);
+  if (!in.address.text.empty()) out.set_address(in.address.text);
+  if (!in.zone.empty()) out.set_zone(in.zone);
+  out.set_ttl_s(in.ttl_s);
 }
 
 }  // namespace
@@ -105,6 +181,7 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
   }
   text::read_keys(in.audit(), kAuditKeys, out.audit);
   text::read_keys(in.recording(), kRecordingKeys, out.recording);
+  if (in.has_directory()) out.directory = directory_from(in.directory(), validator);
   out.log.json = in.log().format() == pb::LogConfig::JSON;
   out.log.level = static_cast<LogSpec::Level>(in.log().level());
   add_unexplained(errors, validator.take());
@@ -135,6 +212,7 @@ std::string effective_server_config_text(const ServerConfigSpec& config) {
   if (!config.record.text.empty()) out.set_record(config.record.text);
   text::write_keys(config.audit, kAuditKeys, *out.mutable_audit());
   text::write_keys(config.recording, kRecordingKeys, *out.mutable_recording());
+  if (config.directory) set_directory(*config.directory, *out.mutable_directory());
   return text::listing(out);
 }
 

@@ -113,7 +113,7 @@ std::optional<Request> Ownership::request_of(Work& work) {
                        {Read{keys_.owner(work.session)}}};
   }
   return Transaction{{still_owner, {keys_.ticket(work.other), Condition::Of::kCreated, 0}},
-                     {Put{keys_.ticket(work.other), work.token, 0}},
+                     {Put{keys_.ticket(work.other), work.token, work.ticket_lease}},
                      {Read{keys_.owner(work.session)}, Read{keys_.ticket(work.other)}}};
 }
 
@@ -305,11 +305,12 @@ bool Ownership::release(Time now, const std::string& session) {
   return true;
 }
 
-bool Ownership::use_ticket(const std::string& session, const std::string& ticket) {
+bool Ownership::use_ticket(const std::string& session, const std::string& ticket, LeaseId lease) {
   if (owned(session) == nullptr || !DirectoryKeys::valid_name(ticket) || tickets_ >= kTicketsMax) return false;
   ++tickets_;
   Work work{Work::Kind::kTicket, session, ticket};
   // No other attempt of any server has this text: the store gives a lease id once.
+  work.ticket_lease = lease;
   work.token = server_ + "/" + std::to_string(keeper_.lease()) + "/" + std::to_string(++attempts_);
   waiting_.push_back(std::move(work));
   return true;

@@ -79,7 +79,8 @@ class Ownership {
   bool release(Time now, const std::string& session);
   /// Uses a ticket for a session of this server, exactly once in the whole service; the notice has the result.
   /// Returns false if the session is not owned, a name is not valid, or kTicketsMax tickets wait.
-  bool use_ticket(const std::string& session, const std::string& ticket);
+  /// @param lease  under which the store keeps the use, and that ends after the ticket; 0: for ever
+  bool use_ticket(const std::string& session, const std::string& ticket, LeaseId lease = 0);
   /// Removes a lost session.
   void forget(const std::string& session);
   void describe(std::string text) { keeper_.describe(std::move(text)); }
@@ -110,6 +111,7 @@ class Ownership {
     std::string session{}, other{}, token{};
     Time begin{}, sent{};
     LeaseId lease = 0;
+    LeaseId ticket_lease = 0;
     Revision revision = 0;
     std::optional<bool> as_standby{};  ///< kClaim: the standby key is under our lease; empty: the view decides
   };

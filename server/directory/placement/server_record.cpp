@@ -18,9 +18,9 @@ bool read_number(std::string_view text, double& into) {
 }  // namespace
 
 std::string to_text(const ServerRecord& record) {
-  return format("address %s\nkey %s\nversion %s\nzone %s\ncapacity %.4f\nused %.4f\ndrains %d\n",
-                record.address.c_str(), record.key.c_str(), record.version.c_str(), record.zone.c_str(),
-                record.capacity, record.used, record.drains ? 1 : 0);
+  return format("address %s\nkey %s\nvoucher %s\nversion %s\nzone %s\ncapacity %.4f\nused %.4f\ndrains %d\n",
+                record.address.c_str(), record.key.c_str(), record.voucher.c_str(), record.version.c_str(),
+                record.zone.c_str(), record.capacity, record.used, record.drains ? 1 : 0);
 }
 
 std::optional<ServerRecord> parse_server_record(std::string_view text) {
@@ -37,6 +37,7 @@ std::optional<ServerRecord> parse_server_record(std::string_view text) {
     if (!seen.insert(name).second) return std::nullopt;
     if (name == "address") record.address = value;
     if (name == "key") record.key = value;
+    if (name == "voucher") record.voucher = value;
     if (name == "version") record.version = value;
     if (name == "zone") record.zone = value;
     if (name == "capacity" && !read_number(value, record.capacity)) return std::nullopt;

@@ -11,6 +11,7 @@ namespace tandem::directory {
 struct ServerRecord {
   std::string address;  ///< "host:port" of its control connection
   std::string key;      ///< fingerprint of its key
+  std::string voucher;  ///< signed by the service's key, in hexadecimal digits; empty: none
   std::string version;  ///< of the program
   std::string zone;     ///< servers that fail together, such as a rack or a building; may be empty
   double capacity = 0;  ///< processor time that ticks may use, in cores

@@ -111,6 +111,66 @@ TEST(ServerConfig, ReadsWhereAndHowSessionsAreRecorded) {
   EXPECT_NE(mistakes_of(std::string(kSmall) + "record: \"\"").find("record"), std::string::npos);
 }
 
+TEST(ServerConfig, ReadsTheDirectoryOfAService) {
+  const auto alone = parse_server_config(kSmall, "s.textproto");
+  ASSERT_TRUE(alone);
+  EXPECT_FALSE(alone->directory);
+  const auto small = parse_server_config(std::string(kSmall) + "directory { endpoint: \"[::1]:2379\" }", "s.textproto");
+  ASSERT_TRUE(small) << to_text(small.error());
+  EXPECT_EQ(small->directory->prefix, "/tandem/v1/");
+  EXPECT_EQ(small->directory->ttl_s, 3u);
+  EXPECT_EQ(small->directory->server.text, "");
+  const auto all = parse_server_config(
+      std::string(kSmall) +
+          "directory { endpoint: \"a:2379\" endpoint: \"b:65535\" prefix: \"/school/\" authority: \"ca.pem\"\n"
+          "certificate: \"c.pem\" private_key: \"k.pem\" name_in_certificate: \"etcd\" server: \"desk-a.lab\"\n"
+          "address: \"10.0.0.7:7000\" zone: \"north\" ttl_s: 60 }",
+      "s.textproto");
+  ASSERT_TRUE(all) << to_text(all.error());
+  const DirectorySpec& got = *all->directory;
+  ASSERT_EQ(got.endpoints.size(), 2u);
+  EXPECT_EQ(got.endpoints[1].text, "b:65535");
+  EXPECT_EQ(got.prefix, "/school/");
+  EXPECT_EQ(got.private_key.text, "k.pem");
+  EXPECT_EQ(got.name_in_certificate, "etcd");
+  EXPECT_EQ(got.server.text, "desk-a.lab");
+  EXPECT_EQ(got.address.text, "10.0.0.7:7000");
+  EXPECT_EQ(got.address.line, 6);
+  EXPECT_EQ(got.zone, "north");
+  EXPECT_EQ(got.ttl_s, 60u);
+  const std::string listing = effective_server_config_text(*all);
+  for (const char* shown : {"directory.endpoint[1]", "b:65535", "directory.zone", "directory.ttl_s", "/school/"})
+    EXPECT_NE(listing.find(shown), std::string::npos) << shown << " is not in\n" << listing;
+}
+
+TEST(ServerConfig, ReportsMistakesInTheDirectoryOfAService) {
+  EXPECT_NE(mistakes_of(std::string(kSmall) + "directory { }").find("at least one member of etcd"), std::string::npos);
+  for (const char* wrong : {"endpoint: \"b\"",
+                            "endpoint: \":2379\"",
+                            "endpoint: \"b:0\"",
+                            "endpoint: \"b:65536\"",
+                            "endpoint: \"http://b:2379\"",
+                            "endpoint: \"b:2379x\"",
+                            "prefix: \"x/\"",
+                            "prefix: \"/x\"",
+                            "prefix: \"\"",
+                            "prefix: \"/a b/\"",
+                            "authority: \"ca.pem\"",
+                            "authority: \"\"",
+                            "name_in_certificate: \"etcd\"",
+                            "server: \"\"",
+                            "server: \"a b\"",
+                            "address: \"\"",
+                            "zone: \"a b\"",
+                            "ttl_s: 1",
+                            "ttl_s: 61",
+                            "lease: 3"}) {
+    const std::string told = mistakes_of(std::string(kSmall) + "directory { endpoint: \"a:1\" " + wrong + " }");
+    EXPECT_NE(told.find("s.textproto:4:"), std::string::npos) << wrong << " gives\n" << told;
+    EXPECT_NE(told.find("directory"), std::string::npos) << wrong << " gives\n" << told;
+  }
+}
+
 TEST(ServerConfig, RequiresASession) {
   EXPECT_NE(mistakes_of("version: 1 listen: \"127.0.0.1:7000\"").find("session"), std::string::npos);
   EXPECT_NE(mistakes_of(""), "");

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/directory/directory.h"
+
+namespace tandem::directory {
+
+/// Follows all keys with one prefix by one read and a watch. When the watch breaks or its revision was compacted, it
+/// reads everything again. What it reports may be old.
+class PrefixFollower {
+ public:
+  struct News {
+    bool all = false;  ///< `changes` are all keys; others have gone
+    std::vector<Change> changes;
+  };
+
+  explicit PrefixFollower(std::string prefix) : prefix_(std::move(prefix)) {}
+
+  /// Returns the request to begin now, if there is one.
+  /// @param retry_after  time after which a request without an answer is made again
+  [[nodiscard]] std::optional<Request> poll_request(Time now, OperationId operation, Duration retry_after);
+  /// Takes a reply. Returns what it says, or nothing if it belongs to another object.
+  [[nodiscard]] std::optional<News> on_reply(const Reply& reply);
+
+  /// The copy is complete and follows the store.
+  [[nodiscard]] bool follows() const noexcept { return state_ == State::kFollowing; }
+  /// Newest revision of which all changes were reported.
+  [[nodiscard]] Revision revision() const noexcept { return next_ - 1; }
+  /// Times at which everything was read.
+  [[nodiscard]] std::uint64_t readings() const noexcept { return readings_; }
+
+ private:
+  enum class State : std::uint8_t { kStale, kReading, kRead, kFollowing };
+
+  std::string prefix_;
+  State state_ = State::kStale;
+  OperationId operation_ = 0;
+  Time began_{};
+  Revision next_ = 0;  ///< first revision that was not reported
+  std::uint64_t readings_ = 0;
+};
+
+}  // namespace tandem::directory
