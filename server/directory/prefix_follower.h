@@ -10,7 +10,7 @@
 namespace tandem::directory {
 
 /// Follows all keys with one prefix by one read and a watch. When the watch breaks or its revision was compacted, it
-/// reads everything again. What it reports may be old.
+/// reads everything again. The changes that it reports may be old.
 class PrefixFollower {
  public:
   struct News {
@@ -23,7 +23,7 @@ class PrefixFollower {
   /// Returns the request to begin now, if there is one.
   /// @param retry_after  time after which a request without an answer is made again
   [[nodiscard]] std::optional<Request> poll_request(Time now, OperationId operation, Duration retry_after);
-  /// Takes a reply. Returns what it says, or nothing if it belongs to another object.
+  /// Takes a reply. Returns its changes, or nothing if it belongs to another object.
   [[nodiscard]] std::optional<News> on_reply(const Reply& reply);
 
   /// The copy is complete and follows the store.

@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 55> kLayers{{
+const std::array<Layer, 56> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -160,6 +160,11 @@ const std::array<Layer, 55> kLayers{{
      {"common/base", "server/directory"},
      {"grpc"},
      "server/directory/io has the connection to etcd: gRPC and its generated code, no session"},
+    {"server/service",
+     {"common/base", "proto/rpc", "proto/spec", "server/directory", "server/service"},
+     {"json"},
+     "server/service decides which sessions of a service a server serves: ownership, plain texts and times; no session "
+     "core, no clock, no thread; those belong to server/app/service"},
     {"server/session",
      {"common/base", "common/control", "common/setup", "common/transport", "proto", "hal/core/device.h",
       "hal/core/port_map.h", "server/policy", "server/report", "server/session"},

@@ -1,0 +1,88 @@
+#include "server/service/fenced_writer.h"
+
+#include <algorithm>
+
+namespace tandem::server {
+
+using directory::Outcome;
+
+void FencedWriter::set(const std::string& session, const std::string& key, std::string value,
+                       directory::Revision revision) {
+  if (value.size() > kValueMax || (waiting_.size() >= kKeysMax && !waiting_.contains(key))) {
+    ++counters_.overflowed;
+    return;
+  }
+  Value& entry = waiting_[key];
+  entry = {session, std::move(value), revision, entry.alone && entry.revision == revision};
+}
+
+void FencedWriter::drop(const std::string& session) {
+  std::erase_if(waiting_, [&](const auto& entry) { return entry.second.session == session; });
+  std::erase_if(sent_, [&](const auto& entry) { return entry.second.session == session; });
+}
+
+bool FencedWriter::pending(const std::string& session) const {
+  const auto its = [&](const auto& entry) { return entry.second.session == session; };
+  return std::ranges::any_of(waiting_, its) || std::ranges::any_of(sent_, its);
+}
+
+void FencedWriter::again(bool alone) {
+  for (auto& [key, value] : sent_) {
+    value.alone = value.alone || alone;
+    waiting_.try_emplace(key, std::move(value));  // a newer value stays
+  }
+  sent_.clear();
+}
+
+std::optional<directory::Request> FencedWriter::poll_request(Time now, directory::OperationId operation,
+                                                             Duration retry_after) {
+  if (operation_ != 0) {
+    if (now - sent_at_ < retry_after) return std::nullopt;
+    operation_ = 0;  // a later answer is ignored
+    ++counters_.unknown;
+    again(false);
+  }
+  if (waiting_.empty() || now < next_) return std::nullopt;
+  directory::Transaction transaction;
+  std::size_t bytes = 0;
+  for (auto entry = waiting_.begin(); entry != waiting_.end() && sent_.size() < kBatchMax;) {
+    const auto& [key, value] = *entry;
+    if (!sent_.empty() && (value.alone || bytes + value.value.size() > kBatchBytesMax)) {
+      ++entry;
+      continue;
+    }
+    const directory::Condition owned{keys_.owner(value.session), directory::Condition::Of::kCreated, value.revision};
+    const auto same = [&](const directory::Condition& c) { return c.key == owned.key && c.equals == owned.equals; };
+    if (std::ranges::none_of(transaction.conditions, same)) transaction.conditions.push_back(owned);
+    transaction.then.push_back(directory::Put{key, value.value, 0});
+    bytes += value.value.size();
+    const bool alone = value.alone;
+    sent_.insert(waiting_.extract(entry++));
+    if (alone) break;
+  }
+  operation_ = operation;
+  sent_at_ = now;
+  next_ = now + pause_;
+  return transaction;
+}
+
+bool FencedWriter::on_reply(const directory::Reply& reply) {
+  if (operation_ == 0 || reply.operation != operation_) return false;
+  operation_ = 0;
+  ++counters_.batches;
+  if (reply.outcome != Outcome::kDone) {
+    ++counters_.unknown;
+    again(false);
+  } else if (reply.held) {
+    counters_.written += sent_.size();
+    sent_.clear();
+  } else if (sent_.size() > 1) {
+    again(true);
+  } else {
+    counters_.refused += sent_.size();  // another server owns the session, or it has ended
+    sent_.clear();
+  }
+  return true;
+}
+
+}  // namespace tandem::server

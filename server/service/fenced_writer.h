@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/directory/directory.h"
+#include "server/directory/directory_keys.h"
+
+namespace tandem::server {
+
+/// Writes values that often change to the directory, the newest value of each key only, and only while this server
+/// owns the session: each transaction has the condition that the owner key is still the one of this ownership.
+///
+/// Several values go into one transaction. If its conditions do not hold, its values are written one at a time, so that
+/// one lost session stops no other.
+class FencedWriter {
+ public:
+  static constexpr std::size_t kBatchMax = 32;  ///< values; etcd allows 128 steps of a transaction
+  static constexpr std::size_t kBatchBytesMax = std::size_t{512} << 10;
+  static constexpr std::size_t kValueMax = std::size_t{64} << 10;  ///< [bytes] a longer one is not written, and counted
+  static constexpr std::size_t kKeysMax = 2 * 4096;                ///< keys that wait; further ones are counted
+
+  struct Counters {
+    std::uint64_t written = 0, batches = 0, refused = 0, unknown = 0, overflowed = 0;
+  };
+
+  /// @param pause  between two transactions
+  FencedWriter(directory::DirectoryKeys keys, Duration pause) : keys_(std::move(keys)), pause_(pause) {}
+
+  /// Sets the newest value of a key of a session. @param revision  of the ownership
+  void set(const std::string& session, const std::string& key, std::string value, directory::Revision revision);
+  /// Forgets the values of a session that are not written.
+  void drop(const std::string& session);
+  /// Whether a value of the session waits for its write or its answer.
+  [[nodiscard]] bool pending(const std::string& session) const;
+
+  /// Returns the request to begin now, if there is one. The caller begins it with this operation's number.
+  [[nodiscard]] std::optional<directory::Request> poll_request(Time now, directory::OperationId operation,
+                                                               Duration retry_after);
+  /// Takes a reply. Returns whether it belongs to this object.
+  bool on_reply(const directory::Reply& reply);
+  [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+
+ private:
+  struct Value {
+    std::string session, value;
+    directory::Revision revision = 0;
+    bool alone = false;  ///< a transaction with several values did not hold
+  };
+
+  void again(bool alone);
+
+  directory::DirectoryKeys keys_;
+  Duration pause_;
+  std::map<std::string, Value> waiting_, sent_;  ///< by key
+  directory::OperationId operation_ = 0;
+  Time next_{}, sent_at_{};
+  Counters counters_;
+};
+
+}  // namespace tandem::server

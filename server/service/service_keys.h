@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tandem::server {
+
+/// Names of a service's keys below the prefix of its directory, besides those of `directory::DirectoryKeys`:
+///
+///     catalogue/SESSION/spec     text of the session (ServiceSession)
+///     catalogue/SESSION/listed   its phase and seats
+///     snapshots/SESSION          newest snapshot; apart from the catalogue, which all servers follow
+class ServiceKeys {
+ public:
+  /// @param prefix  begins and ends with "/"
+  explicit ServiceKeys(std::string prefix) : prefix_(std::move(prefix)) {}
+
+  [[nodiscard]] std::string catalogue() const { return prefix_ + "catalogue/"; }
+  [[nodiscard]] std::string spec(std::string_view session) const { return catalogue() + std::string(session) + kSpec; }
+  [[nodiscard]] std::string listed(std::string_view session) const {
+    return catalogue() + std::string(session) + kListed;
+  }
+  [[nodiscard]] std::string snapshot(std::string_view session) const {
+    return prefix_ + "snapshots/" + std::string(session);
+  }
+
+  static constexpr const char* kSpec = "/spec";
+  static constexpr const char* kListed = "/listed";
+
+ private:
+  std::string prefix_;
+};
+
+}  // namespace tandem::server

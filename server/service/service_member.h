@@ -1,0 +1,191 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/directory/ownership.h"
+#include "server/directory/placement/placement.h"
+#include "server/directory/placement/server_record.h"
+#include "server/service/fenced_writer.h"
+#include "server/service/service_catalogue.h"
+#include "server/service/service_session.h"
+
+namespace tandem::server {
+
+/// Options of a member, validated.
+struct ServiceMemberOptions {
+  std::string server;  ///< name of this server
+  std::string prefix = "/tandem/v1/";
+  directory::LeaseTimes times{};
+  RandomKey key{0};  ///< for the draws of placement
+  /// Sessions of the configuration, with the id and code that they get if this server begins them.
+  std::map<std::string, ServiceSession> configured{};
+};
+
+/// What the server must do, in this order.
+struct ServiceEvent {
+  enum class Kind : std::uint8_t {
+    kOpen,     ///< serve the session; answer with `on_opened` or `on_open_failed`
+    kGiveUp,   ///< end it here, its state stays; answer with `on_given_up`
+    kRefused,  ///< a creation is refused: `text` says why
+  };
+  Kind kind{};
+  std::string session;
+  ServiceSession spec{};             ///< kOpen
+  std::string snapshot{};            ///< kOpen: bytes of `encode_snapshot`; empty: a new session
+  directory::Revision revision = 0;  ///< kOpen: of the ownership
+  std::uint64_t order = 0;           ///< kOpen, kRefused: number of the creation; 0: none
+  std::string text{};
+};
+
+/// Where a session is.
+struct SessionPlace {
+  enum class Kind : std::uint8_t {
+    kNone,       ///< the service has no such session
+    kHere,       ///< this server serves it
+    kElsewhere,  ///< `server` serves it
+    kComing,     ///< a server is about to own it
+    kUnknown,    ///< the directory does not answer
+  };
+  Kind kind = Kind::kNone;
+  std::string session, server;
+  std::optional<directory::ServerRecord> record{};  ///< kElsewhere
+  directory::Revision revision = 0;                 ///< kElsewhere: of its ownership
+};
+
+/// State of a member for operators.
+struct ServiceStatus {
+  bool registered = false;  ///< under its name, with a lease
+  bool name_taken = false;  ///< another server is registered under this name
+  bool follows = false;     ///< the copies of the directory follow the store
+  bool answers = false;     ///< the store has answered within twice the limit of an answer
+  bool holding = true;      ///< no hand may be engaged
+  std::string trouble;      ///< the store's newest error since its last answer
+  Time hold_at{};           ///< from when no hand may be engaged, unless a renewal succeeds
+  std::size_t owned = 0, members = 0, sessions = 0;
+  std::uint64_t unanswered = 0;  ///< requests without an answer
+  FencedWriter::Counters writes{};
+};
+
+/// One server's part of a service: which sessions it serves, from which state, and where the others are. It runs the
+/// ownership protocol over a directory. Pure: no clock, socket or thread; times are of CLOCK_BOOTTIME.
+///
+/// - A configured session is claimed at start if no server owns it. A session without owner is claimed when a client
+///   asks for it, or by its standby.
+/// - An owned session is opened from its spec and its newest snapshot in the directory.
+/// - A session that ends takes its keys with it: spec, snapshot, then the owner key.
+class ServiceMember {
+ public:
+  static constexpr Duration kCreationLimit = std::chrono::seconds(4);  ///< then a creation is refused
+  static constexpr Duration kRefusalPause = std::chrono::seconds(10);  ///< after a session could not be opened here
+
+  /// @param store  must outlive this
+  /// @pre `options.times.problem()` is empty, and all names are valid
+  ServiceMember(ServiceMemberOptions options, directory::Directory& store);
+
+  /// Takes replies, begins operations. Call it at least each 20 ms.
+  void step(Time now);
+  [[nodiscard]] std::optional<ServiceEvent> poll_event();
+
+  /// Sets what this server publishes about itself; its name is that of the options.
+  void describe(const directory::ServerRecord& record);
+  /// Asks for a session that no server owns. Without effect if this server cannot serve it now.
+  void want(const std::string& session);
+  /// Creates a session whose name is free in the service. kOpen or kRefused follows.
+  /// @return false: this server knows a session of this name, or too many
+  [[nodiscard]] bool create(Time now, const std::string& session, ServiceSession spec, std::uint64_t order);
+  void on_opened(const std::string& session);
+  void on_open_failed(Time now, const std::string& session);
+  void on_given_up(const std::string& session);
+  /// The session is over: erases its keys, then its ownership.
+  void end(const std::string& session);
+  /// Another run replaces the session under the same ownership. kOpen follows.
+  void replace(const std::string& session, ServiceSession spec);
+  void set_snapshot(const std::string& session, std::string bytes);
+  void set_listed(const std::string& session, std::string text);
+  /// Whether all snapshots that were set are in the directory, or will never be.
+  [[nodiscard]] bool snapshots_written() const;
+  /// Ends the lease and with it all ownerships, so that other servers begin at once. No session may have effort.
+  /// The member does nothing afterwards but this.
+  void leave();
+  /// The store has answered to `leave`.
+  [[nodiscard]] bool left() const noexcept { return left_; }
+
+  /// Finds a session by id, code or name; without any, the only one. Asks for it if no server owns it.
+  [[nodiscard]] SessionPlace locate(const rpc::SessionChoice& choice);
+  /// Records of all members by name, those that cannot be read left out.
+  [[nodiscard]] std::map<std::string, directory::ServerRecord> members() const;
+  /// Name of a session's owner, as far as known; empty: none.
+  [[nodiscard]] std::string owner_of(std::string_view session) const;
+  [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }
+  [[nodiscard]] ServiceStatus status(Time now) const;
+  /// Time from which no hand of any session of this server may be engaged.
+  [[nodiscard]] Time act_until() const noexcept { return ownership_.keeper().hold_at(); }
+
+ private:
+  enum class Phase : std::uint8_t {
+    kClaiming,
+    kLoading,  ///< spec and snapshot are being read
+    kWriting,  ///< the spec is being written
+    kOpening,  ///< kOpen was reported
+    kOpen,
+    kLosing,     ///< kGiveUp was reported
+    kEnding,     ///< the keys are being erased
+    kReleasing,  ///< the owner key is being erased
+  };
+  struct Entry {
+    Phase phase = Phase::kClaiming;
+    directory::Revision revision = 0;
+    std::optional<ServiceSession> spec{};  ///< to be written
+    bool fresh = false;                    ///< the spec may not exist before
+    bool abandoned = false;                ///< its creation was refused while the spec was being written
+    bool first = false;                    ///< claimed at start: a changed configuration replaces the spec
+    std::uint64_t order = 0;
+    Time order_ends{}, next_attempt{}, next_standby{};
+    directory::OperationId operation = 0;  ///< under way; 0: none
+    Time sent{};
+  };
+
+  void take_notices(Time now);
+  void on_owned(const std::string& session, directory::Revision revision);
+  void on_lost(const std::string& session);
+  void on_elsewhere(const std::string& session, const std::string& other);
+  void on_session_reply(Time now, const directory::Reply& reply);
+  void on_loaded(Time now, const std::string& session, Entry& entry, const directory::Reply& reply);
+  void on_written(Time now, const std::string& session, Entry& entry, const directory::Reply& reply);
+  void open(const std::string& session, Entry& entry, ServiceSession spec, std::string snapshot);
+  void release(Time now, const std::string& session);
+  void refuse(Entry& entry, const std::string& session, std::string why);
+  [[nodiscard]] std::optional<directory::Request> request_of(const std::string& session, const Entry& entry) const;
+  void claim_configured();
+  void advance_sessions(Time now);
+  void choose_standby(Time now, const std::string& session, Entry& entry);
+  void begin(directory::OperationId operation, const directory::Request& request);
+  void note(const directory::Reply& reply, Time now);
+
+  ServiceMemberOptions options_;
+  directory::Directory& store_;
+  directory::DirectoryKeys names_;
+  ServiceKeys keys_;
+  directory::Ownership ownership_;
+  ServiceCatalogue catalogue_;
+  FencedWriter writer_;
+  directory::Placement placement_;
+  directory::ServerRecord record_;
+  std::map<std::string, Entry, std::less<>> entries_;
+  std::map<std::string, Time> refused_until_;  ///< sessions that this server could not open
+  std::deque<ServiceEvent> events_;
+  directory::OperationId newest_;
+  bool configured_claimed_ = false, leaving_ = false, left_ = false, name_taken_ = false;
+  directory::OperationId revoking_ = 0;
+  Time now_{};  ///< of the newest step
+  std::optional<Time> answered_;
+  std::string trouble_;
+  std::uint64_t unanswered_ = 0;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,119 @@
+// Where the sessions of a service are, and who takes over from whom.
+#include <algorithm>
+
+#include "server/service/service_member.h"
+
+namespace tandem::server {
+
+namespace {
+
+constexpr Duration kStandbyCheck = std::chrono::seconds(1);
+
+}  // namespace
+
+std::optional<ServiceEvent> ServiceMember::poll_event() {
+  if (events_.empty()) return std::nullopt;
+  ServiceEvent event = std::move(events_.front());
+  events_.pop_front();
+  return event;
+}
+
+std::map<std::string, directory::ServerRecord> ServiceMember::members() const {
+  std::map<std::string, directory::ServerRecord> members;
+  for (const auto& [name, server] : ownership_.view().servers())
+    if (auto record = directory::parse_server_record(server.text)) members.emplace(name, std::move(*record));
+  return members;
+}
+
+std::string ServiceMember::owner_of(std::string_view session) const {
+  const auto* const seen = ownership_.view().session(session);
+  return seen != nullptr && seen->owner ? seen->owner->name : "";
+}
+
+SessionPlace ServiceMember::locate(const rpc::SessionChoice& choice) {
+  SessionPlace place;
+  place.session = catalogue_.name_of(choice);
+  const bool known = ownership_.view().readings() > 0 && catalogue_.readings() > 0;
+  const bool follows = ownership_.view().follows() && catalogue_.follows();
+  if (place.session.empty()) {
+    place.kind = known && follows ? SessionPlace::Kind::kNone : SessionPlace::Kind::kUnknown;
+    return place;
+  }
+  if (const auto own = entries_.find(place.session); own != entries_.end()) {
+    const bool ends = own->second.phase == Phase::kEnding || own->second.phase == Phase::kReleasing;
+    place.kind = own->second.phase == Phase::kOpen ? SessionPlace::Kind::kHere
+                 : ends                            ? SessionPlace::Kind::kNone
+                                                   : SessionPlace::Kind::kComing;
+    return place;
+  }
+  place.kind = SessionPlace::Kind::kComing;
+  const auto* const seen = ownership_.view().session(place.session);
+  if (seen != nullptr && seen->owner) {
+    place.server = seen->owner->name;
+    place.revision = seen->owner->created;
+    const auto* const server = ownership_.view().server(place.server);
+    if (server != nullptr && place.server != options_.server)
+      place.record = directory::parse_server_record(server->text);
+    if (place.record) place.kind = SessionPlace::Kind::kElsewhere;
+    return place;
+  }
+  if (!follows || !ownership_.keeper().registered()) {
+    place.kind = SessionPlace::Kind::kUnknown;
+  } else if (seen == nullptr || !seen->standby) {
+    want(place.session);
+  }
+  return place;
+}
+
+void ServiceMember::choose_standby(Time now, const std::string& session, Entry& entry) {
+  if (now < entry.next_standby) return;
+  entry.next_standby = now + kStandbyCheck;
+  const auto* const seen = ownership_.view().session(session);
+  if (seen == nullptr || !seen->owner || seen->standby) return;
+  std::vector<directory::Candidate> candidates;
+  std::size_t open = 0;
+  for (const auto& [name, other] : entries_) open += other.phase == Phase::kOpen ? 1 : 0;
+  for (const auto& [name, record] : members())
+    candidates.push_back({name, record.zone, record.capacity, record.used, record.drains});
+  const double cost = record_.used / static_cast<double>(std::max<std::size_t>(open, 1));
+  if (const auto chosen = placement_.place_standby(candidates, cost, options_.server))
+    static_cast<void>(ownership_.set_standby(session, *chosen));
+}
+
+void ServiceMember::set_snapshot(const std::string& session, std::string bytes) {
+  const auto found = entries_.find(session);
+  if (found == entries_.end() || (found->second.phase != Phase::kOpen && found->second.phase != Phase::kOpening))
+    return;
+  writer_.set(session, keys_.snapshot(session), std::move(bytes), found->second.revision);
+}
+
+void ServiceMember::set_listed(const std::string& session, std::string text) {
+  const auto found = entries_.find(session);
+  if (found == entries_.end() || found->second.phase != Phase::kOpen) return;
+  writer_.set(session, keys_.listed(session), std::move(text), found->second.revision);
+}
+
+bool ServiceMember::snapshots_written() const {
+  return std::ranges::none_of(entries_, [&](const auto& entry) { return writer_.pending(entry.first); });
+}
+
+ServiceStatus ServiceMember::status(Time now) const {
+  const directory::LeaseKeeper& keeper = ownership_.keeper();
+  ServiceStatus status;
+  status.registered = keeper.registered();
+  status.name_taken = name_taken_ && !status.registered;
+  status.follows = ownership_.view().follows() && catalogue_.follows();
+  status.answers = answered_ && now - *answered_ < 2 * options_.times.answer_limit;
+  status.holding = now >= keeper.hold_at();
+  status.trouble = trouble_;
+  status.hold_at = keeper.hold_at();
+  status.owned = static_cast<std::size_t>(
+      std::ranges::count_if(entries_, [](const auto& entry) { return entry.second.phase == Phase::kOpen; }));
+  status.members = ownership_.view().servers().size();
+  status.sessions = catalogue_.entries().size();
+  status.unanswered = unanswered_;
+  status.writes = writer_.counters();
+  return status;
+}
+
+}  // namespace tandem::server

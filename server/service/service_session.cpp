@@ -1,0 +1,116 @@
+#include "server/service/service_session.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "common/base/hex.h"
+#include "proto/rpc/rpc_limits.h"
+
+namespace tandem::server {
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+bool read_id(const std::string& hex, rpc::Id& into) {
+  if (hex.size() != 2 * into.size()) return false;
+  rpc::Id id{};
+  for (std::size_t i = 0; i < hex.size(); ++i) {
+    const char c = hex[i];
+    const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+    if (digit < 0) return false;
+    id[i / 2] = id[i / 2] << 4 | static_cast<std::byte>(digit);
+  }
+  into = id;
+  return true;
+}
+
+/// Copies a value of the wanted type. Returns false if it is missing or has another type.
+template <class T>
+bool read(const Json& in, const char* key, T& into) {
+  const auto found = in.find(key);
+  if (found == in.end()) return false;
+  if constexpr (std::is_same_v<T, std::string>) {
+    if (!found->is_string()) return false;
+  } else if constexpr (std::is_same_v<T, bool>) {
+    if (!found->is_boolean()) return false;
+  } else if constexpr (std::is_same_v<T, double>) {
+    if (!found->is_number()) return false;
+  } else {
+    if (!found->is_number_integer()) return false;
+  }
+  into = found->get<T>();
+  return true;
+}
+
+}  // namespace
+
+std::string to_text(const ServiceSession& session) {
+  return dumped({{"id", to_hex(session.id)},
+                 {"code", session.code},
+                 {"scene", session.scene},
+                 {"duration_s", session.duration_s},
+                 {"tickets_only", session.tickets_only},
+                 {"restart", session.restart},
+                 {"created", session.created},
+                 {"ends_s", session.ends_s}});
+}
+
+std::optional<ServiceSession> parse_service_session(std::string_view text) {
+  constexpr std::size_t kCodeMax = 255;
+  constexpr double kDurationMax = 3e6;
+  if (text.size() > kServiceSessionMax) return std::nullopt;
+  const Json in = Json::parse(text, nullptr, false);
+  if (!in.is_object()) return std::nullopt;
+  ServiceSession out;
+  std::string id;
+  const bool complete = read(in, "id", id) && read_id(id, out.id) && read(in, "code", out.code) &&
+                        read(in, "scene", out.scene) && read(in, "duration_s", out.duration_s) &&
+                        read(in, "tickets_only", out.tickets_only) && read(in, "restart", out.restart) &&
+                        read(in, "created", out.created) && read(in, "ends_s", out.ends_s);
+  if (!complete || out.code.size() > kCodeMax || out.scene.empty() || out.ends_s < 0) return std::nullopt;
+  if (!(out.duration_s >= 0 && out.duration_s <= kDurationMax)) return std::nullopt;
+  return out;
+}
+
+std::string listed_text(const rpc::ListedSession& session) {
+  Json seats = Json::array();
+  for (const rpc::ListedSeat& seat : session.seats)
+    seats.push_back({{"name", seat.name},
+                     {"role", std::string(to_text(seat.role))},
+                     {"taken", seat.taken},
+                     {"required", seat.required}});
+  return dumped({{"phase", to_text(session.phase)}, {"seats", std::move(seats)}});
+}
+
+bool read_listed(std::string_view text, rpc::ListedSession& session) {
+  if (text.size() > kListedTextMax) return false;
+  const Json in = Json::parse(text, nullptr, false);
+  std::string phase;
+  if (!in.is_object() || !read(in, "phase", phase)) return false;
+  rpc::ListedSession out = session;
+  bool known = false;
+  for (int i = 0; i <= static_cast<int>(rpc::SessionPhase::kOverloaded); ++i)
+    if (phase == rpc::to_text(static_cast<rpc::SessionPhase>(i)))
+      out.phase = static_cast<rpc::SessionPhase>(i), known = true;
+  const auto seats = in.find("seats");
+  if (!known || seats == in.end() || !seats->is_array() || seats->size() > rpc::kListedSeatsMax) return false;
+  out.seats.clear();
+  for (const Json& entry : *seats) {
+    rpc::ListedSeat seat;
+    std::string role;
+    if (!entry.is_object() || !read(entry, "name", seat.name) || !read(entry, "role", role) ||
+        !read(entry, "taken", seat.taken) || !read(entry, "required", seat.required))
+      return false;
+    const auto named = access_role_named(role);
+    if (!named || seat.name.empty() || seat.name.size() > rpc::kNameMax) return false;
+    seat.role = *named;
+    out.seats.push_back(std::move(seat));
+  }
+  session = std::move(out);
+  return true;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,244 @@
+#include "server/service/service_member.h"
+
+#include "tests/server/service/service_fixture.h"
+
+namespace tandem::server::test {
+namespace {
+
+using Kind = ServiceEvent::Kind;
+using Place = SessionPlace::Kind;
+
+TEST_F(ServiceTest, FirstServerBeginsTheConfiguredSessionsAndTheNextOneFindsThem) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  ASSERT_TRUE(a.open.contains("lab"));
+  EXPECT_EQ(a.open["lab"].spec, session_spec(1));
+  EXPECT_EQ(a.open["lab"].snapshot, "");
+  EXPECT_EQ(a.open["lab"].revision, store_.entries().at("/tandem/v1/live/sessions/lab/owner").created);
+  Server& b = start("b", {{"lab", session_spec(2)}});
+  EXPECT_TRUE(b.open.empty());
+  EXPECT_EQ(parse_service_session(value("catalogue/lab/spec")), session_spec(1));
+  EXPECT_EQ(b.member.locate(named("lab")).kind, Place::kElsewhere);
+  EXPECT_EQ(b.member.locate(named("CODE000001")).record->address, "a:7000");
+  EXPECT_EQ(b.member.locate(rpc::SessionChoice{session_spec(1).id}).revision, a.open["lab"].revision);
+  EXPECT_EQ(a.member.locate({}).kind, Place::kHere);
+  EXPECT_EQ(b.member.locate(named("other")).kind, Place::kNone);
+}
+
+TEST_F(ServiceTest, OneOfServersThatStartTogetherBeginsASession) {
+  for (const char* name : {"a", "b", "c"}) {
+    servers_.push_back(std::make_unique<Server>(
+        store_, ServiceMemberOptions{.server = name, .configured = {{"lab", session_spec(name[0] - 'a')}}}));
+    servers_.back()->member.describe(
+        {.address = "x:1", .key = "k", .voucher = "", .version = "1", .zone = "", .capacity = 1});
+  }
+  pass(3s);
+  const auto open = std::ranges::count_if(servers_, [](const auto& s) { return s->open.contains("lab"); });
+  EXPECT_EQ(open, 1);
+}
+
+TEST_F(ServiceTest, RestoresASessionFromItsNewestSnapshotWhenItsServerDies) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  a.member.set_snapshot("lab", "state 1");
+  a.member.set_snapshot("lab", "state 2");
+  pass(3s);
+  EXPECT_EQ(value("snapshots/lab"), "state 2");
+  EXPECT_EQ(value("live/sessions/lab/standby"), "b");
+  const Time died = now_;
+  a.runs = false;
+  a.open.clear();
+  while (!b.open.contains("lab") && now_ < died + 7s) pass(20ms);
+  ASSERT_TRUE(b.open.contains("lab"));
+  EXPECT_LE(now_ - died, 4s);
+  EXPECT_EQ(b.open["lab"].snapshot, "state 2");
+  EXPECT_EQ(b.open["lab"].spec, session_spec(1));
+  EXPECT_GT(b.open["lab"].revision, b.events.empty() ? 0 : 1);
+}
+
+TEST_F(ServiceTest, ClaimsASessionWithoutOwnerAndStandbyOnlyWhenAClientAsks) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  const auto first = a.open["lab"].revision;
+  a.runs = false;  // it was alone: no standby
+  a.open.clear();
+  pass(5s);
+  Server& b = start("b");
+  pass(5s);
+  EXPECT_TRUE(b.open.empty());
+  EXPECT_EQ(b.member.locate(named("lab")).kind, Place::kComing);
+  pass(100ms);
+  ASSERT_TRUE(b.open.contains("lab"));
+  EXPECT_GT(b.open["lab"].revision, first);
+  EXPECT_EQ(b.member.locate(named("lab")).kind, Place::kHere);
+}
+
+TEST_F(ServiceTest, HoldsWithoutTheDirectoryAndGoesOnWhenTheLeaseStood) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  EXPECT_GT(a.member.act_until(), now_);
+  EXPECT_FALSE(a.member.status(now_).holding);
+  a.directory.cut = true;
+  for (int n = 0; n < 150 && !a.member.status(now_).holding; ++n) pass(20ms);
+  EXPECT_TRUE(a.member.status(now_).holding);
+  EXPECT_EQ(a.member.status(now_).trouble, "cut off");
+  EXPECT_TRUE(a.open.contains("lab"));
+  a.directory.cut = false;
+  pass(700ms);
+  EXPECT_FALSE(a.member.status(now_).holding);
+  EXPECT_TRUE(a.open.contains("lab"));
+  EXPECT_EQ(a.events.size(), 1u);
+}
+
+TEST_F(ServiceTest, GivesASessionUpWhenAnotherServerMayOwnIt) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  a.directory.cut = true;
+  pass(6s);
+  EXPECT_TRUE(b.open.contains("lab"));
+  EXPECT_TRUE(a.open.contains("lab"));  // it cannot know; it holds
+  EXPECT_LE(a.member.act_until(), now_);
+  a.member.set_snapshot("lab", "old owner");
+  a.directory.cut = false;
+  pass(3s);
+  EXPECT_FALSE(a.open.contains("lab"));
+  EXPECT_EQ(a.events.back().kind, Kind::kGiveUp);
+  EXPECT_NE(value("snapshots/lab"), "old owner");
+  EXPECT_EQ(a.member.locate(named("lab")).server, "b");
+}
+
+TEST_F(ServiceTest, CreatesASessionOnceInTheWholeService) {
+  Server& a = start("a");
+  Server& b = start("b");
+  ASSERT_TRUE(a.member.create(now_, "extra", session_spec(3), 7));
+  ASSERT_TRUE(b.member.create(now_, "extra", session_spec(4), 8));
+  pass(1s);
+  ASSERT_TRUE(a.open.contains("extra"));
+  EXPECT_EQ(a.open["extra"].order, 7u);
+  ASSERT_EQ(b.events.size(), 1u);
+  EXPECT_EQ(b.events[0].kind, Kind::kRefused);
+  EXPECT_EQ(b.events[0].order, 8u);
+  EXPECT_NE(b.events[0].text.find("on server a"), std::string::npos) << b.events[0].text;
+  EXPECT_FALSE(a.member.create(now_, "extra", session_spec(5), 9));
+}
+
+TEST_F(ServiceTest, RefusesACreationUnderTheNameOfASessionWithoutOwner) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  a.runs = false;
+  a.open.clear();
+  pass(5s);
+  Server& b = start("b");
+  ASSERT_TRUE(b.member.create(now_, "lab", session_spec(4), 8));
+  pass(1s);
+  ASSERT_EQ(b.events.size(), 1u);
+  EXPECT_EQ(b.events[0].kind, Kind::kRefused);
+  EXPECT_EQ(parse_service_session(value("catalogue/lab/spec")), session_spec(1));
+  EXPECT_FALSE(has("live/sessions/lab/owner"));
+}
+
+TEST_F(ServiceTest, RefusesACreationThatTheDirectoryDoesNotAnswerAndLeavesNothing) {
+  Server& a = start("a");
+  a.directory.answers_lost = true;
+  ASSERT_TRUE(a.member.create(now_, "extra", session_spec(3), 7));
+  pass(4500ms);
+  ASSERT_EQ(a.events.size(), 1u);
+  EXPECT_EQ(a.events[0].kind, Kind::kRefused);
+  a.directory.answers_lost = false;
+  pass(10s);
+  EXPECT_TRUE(a.open.empty());
+  EXPECT_FALSE(has("catalogue/extra/spec"));
+  EXPECT_FALSE(has("live/sessions/extra/owner"));
+}
+
+TEST_F(ServiceTest, ErasesEverythingOfASessionThatEnded) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  start("b");
+  a.member.set_snapshot("lab", "state");
+  a.member.set_listed("lab", "listed");
+  pass(3s);
+  EXPECT_TRUE(has("snapshots/lab") && has("catalogue/lab/listed") && has("live/sessions/lab/standby"));
+  a.open.erase("lab");
+  a.member.end("lab");
+  pass(2s);
+  for (const char* key : {"snapshots/lab", "catalogue/lab/listed", "catalogue/lab/spec", "live/sessions/lab/owner",
+                          "live/sessions/lab/standby"})
+    EXPECT_FALSE(has(key)) << key;
+  for (const auto& server : servers_) EXPECT_EQ(server->member.locate(named("lab")).kind, Place::kNone);
+}
+
+TEST_F(ServiceTest, AnotherRunReplacesSpecAndSnapshot) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  a.member.set_snapshot("lab", "state");
+  pass(1s);
+  const auto revision = a.open["lab"].revision;
+  a.open.erase("lab");
+  a.member.replace("lab", session_spec(5));
+  pass(1s);
+  ASSERT_TRUE(a.open.contains("lab"));
+  EXPECT_EQ(a.open["lab"].spec, session_spec(5));
+  EXPECT_EQ(a.open["lab"].snapshot, "");
+  EXPECT_EQ(a.open["lab"].revision, revision);
+  EXPECT_FALSE(has("snapshots/lab"));
+}
+
+TEST_F(ServiceTest, ChangedConfigurationBeginsTheSessionAgainAtTheStartOfTheService) {
+  Server& a = start("a", {{"lab", session_spec(1, "old")}, {"same", session_spec(2, "same")}});
+  a.member.set_snapshot("lab", "state");
+  a.member.set_snapshot("same", "state");
+  pass(1s);
+  a.runs = false;
+  a.open.clear();
+  pass(5s);
+  Server& b = start("b", {{"lab", session_spec(3, "new")}, {"same", session_spec(4, "same")}});
+  ASSERT_TRUE(b.open.contains("lab") && b.open.contains("same"));
+  EXPECT_EQ(b.open["lab"].spec, session_spec(3, "new"));
+  EXPECT_EQ(b.open["lab"].snapshot, "");
+  EXPECT_EQ(b.open["same"].spec, session_spec(2, "same"));
+  EXPECT_EQ(b.open["same"].snapshot, "state");
+}
+
+TEST_F(ServiceTest, LeavesAtOnceSoThatTheStandbyTakesOverWithoutWaitingForTheLease) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  a.open.clear();
+  a.member.set_snapshot("lab", "last");
+  while (!a.member.snapshots_written()) pass(20ms);
+  a.member.leave();
+  pass(200ms);
+  EXPECT_TRUE(a.member.left());
+  ASSERT_TRUE(b.open.contains("lab"));
+  EXPECT_EQ(b.open["lab"].snapshot, "last");
+  EXPECT_FALSE(has("live/servers/a"));
+}
+
+TEST_F(ServiceTest, SessionThatCannotBeOpenedHereIsLeftToOthers) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  a.runs = false;
+  a.open.clear();
+  pass(5s);
+  Server& b = start("b");
+  b.opens = false;
+  static_cast<void>(b.member.locate(named("lab")));
+  pass(2s);
+  EXPECT_EQ(b.events.size(), 1u);
+  EXPECT_FALSE(has("live/sessions/lab/owner"));
+  static_cast<void>(b.member.locate(named("lab")));
+  pass(1s);
+  EXPECT_EQ(b.events.size(), 1u);  // it does not try again at once
+  EXPECT_TRUE(has("catalogue/lab/spec"));
+  Server& c = start("c");
+  static_cast<void>(c.member.locate(named("lab")));
+  pass(1s);
+  EXPECT_TRUE(c.open.contains("lab"));
+}
+
+TEST_F(ServiceTest, StandbyIsInAnotherZoneThanTheOwner) {
+  Server& a = start("a", {}, "north");
+  start("b", {}, "north");
+  start("c", {}, "south");
+  for (int n = 0; n < 8; ++n) ASSERT_TRUE(a.member.create(now_, "s" + std::to_string(n), session_spec(n), 1));
+  pass(4s);
+  for (int n = 0; n < 8; ++n) EXPECT_EQ(value("live/sessions/s" + std::to_string(n) + "/standby"), "c");
+}
+
+}  // namespace
+}  // namespace tandem::server::test
