@@ -285,7 +285,7 @@ void ServiceMember::on_loaded(Time now, const std::string& session, Entry& entry
                        (spec->scene != entry.spec->scene || spec->duration_s != entry.spec->duration_s ||
                         spec->tickets_only != entry.spec->tickets_only || spec->restart != entry.spec->restart);
   if (spec && !changed) return open(session, entry, std::move(*spec), snapshot != nullptr ? *snapshot : "");
-  // A configured session that nobody serves begins; any other without a spec has ended.
+  // A configured session without owner begins; any other without a spec has ended.
   entry.phase = entry.spec ? Phase::kWriting : Phase::kEnding;
 }
 

@@ -26,7 +26,7 @@ struct ServiceMemberOptions {
   std::map<std::string, ServiceSession> configured{};
 };
 
-/// What the server must do, in this order.
+/// An order of the member to its server; orders are carried out in sequence.
 struct ServiceEvent {
   enum class Kind : std::uint8_t {
     kOpen,     ///< serve the session; answer with `on_opened` or `on_open_failed`

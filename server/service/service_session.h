@@ -9,7 +9,7 @@
 
 namespace tandem::server {
 
-/// What every server of a service must know to open a session: the text of key `catalogue/NAME/spec`.
+/// Everything that a server of a service must know to open a session: the text of key `catalogue/NAME/spec`.
 struct ServiceSession {
   rpc::Id id{};
   std::string code;           ///< session code; empty: tickets only

@@ -12,13 +12,13 @@ namespace tandem::directory {
 namespace {
 
 TEST(ServerRecord, ReadsWhatItWrites) {
-  const ServerRecord record{"10.0.0.1:7000", "ab12", "1.2", "rack 4", 3.5, 1.25, true};
+  const ServerRecord record{"10.0.0.1:7000", "ab12", "1.2", "rack 4", 3.5, 1.25, true, "0aff"};
   EXPECT_EQ(parse_server_record(to_text(record)), record);
   EXPECT_EQ(parse_server_record(to_text(record) + "colour blue\n"), record);
 }
 
 TEST(ServerRecord, RefusesTextThatCannotBeUsed) {
-  const std::string good = to_text({"a:1", "k", "v", "", 1, 0, false});
+  const std::string good = to_text({"a:1", "k", "v", "", 1, 0, false, ""});
   ASSERT_TRUE(parse_server_record(good));
   for (std::size_t cut = 0; cut < good.find("used 0"); ++cut) EXPECT_FALSE(parse_server_record(good.substr(0, cut)));
   EXPECT_FALSE(parse_server_record(good + good));

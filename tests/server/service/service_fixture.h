@@ -81,7 +81,7 @@ class ServiceTest : public testing::Test {
         store_,
         ServiceMemberOptions{.server = name, .key = RandomKey{servers_.size()}, .configured = std::move(configured)}));
     servers_.back()->member.describe(
-        {.address = name + ":7000", .key = "k", .voucher = "", .version = "1", .zone = zone, .capacity = 4});
+        {.address = name + ":7000", .key = "k", .version = "1", .zone = zone, .capacity = 4});
     pass(1s);
     return *servers_.back();
   }

@@ -28,8 +28,7 @@ TEST_F(ServiceTest, OneOfServersThatStartTogetherBeginsASession) {
   for (const char* name : {"a", "b", "c"}) {
     servers_.push_back(std::make_unique<Server>(
         store_, ServiceMemberOptions{.server = name, .configured = {{"lab", session_spec(name[0] - 'a')}}}));
-    servers_.back()->member.describe(
-        {.address = "x:1", .key = "k", .voucher = "", .version = "1", .zone = "", .capacity = 1});
+    servers_.back()->member.describe({.address = "x:1", .key = "k", .version = "1", .zone = "", .capacity = 1});
   }
   pass(3s);
   const auto open = std::ranges::count_if(servers_, [](const auto& s) { return s->open.contains("lab"); });
