@@ -90,6 +90,7 @@ class ServiceMember {
   /// Takes replies, begins operations. Call it at least each 20 ms.
   void step(Time now);
   [[nodiscard]] std::optional<ServiceEvent> poll_event();
+  [[nodiscard]] bool has_event() const noexcept { return !events_.empty(); }
 
   /// Sets what this server publishes about itself; its name is that of the options.
   void describe(const directory::ServerRecord& record);

@@ -1,0 +1,81 @@
+#include "server/app/service/service_locator.h"
+
+#include <algorithm>
+
+namespace tandem::server {
+namespace {
+
+std::optional<std::vector<std::byte>> bytes_of(const std::string& hex) {
+  if (hex.size() % 2 != 0) return std::nullopt;
+  std::vector<std::byte> bytes(hex.size() / 2);
+  for (std::size_t i = 0; i < hex.size(); ++i) {
+    const char c = hex[i];
+    const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+    if (digit < 0) return std::nullopt;
+    bytes[i / 2] = bytes[i / 2] << 4 | static_cast<std::byte>(digit);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::optional<ServerLocation> location_of(const directory::ServerRecord& record, const std::string& session,
+                                          std::uint64_t revision) {
+  const auto key = bytes_of(record.key);
+  auto voucher = bytes_of(record.voucher);
+  ServerLocation location{.address = record.address, .voucher = {}, .session = session, .revision = revision};
+  if (!key || key->size() != location.key.size() || !voucher) return std::nullopt;
+  std::ranges::copy(*key, location.key.begin());
+  location.voucher = std::move(*voucher);
+  return location;
+}
+
+SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
+  const SessionPlace place = thread_.with([&](ServiceMember& member, Time) { return member.locate(choice); });
+  switch (place.kind) {
+    case SessionPlace::Kind::kNone:
+      return None{};
+    case SessionPlace::Kind::kHere:
+      return Here{};
+    case SessionPlace::Kind::kComing:
+      return Coming{};
+    case SessionPlace::Kind::kUnknown:
+      return Unknown{"the directory of the service does not answer; try again in some seconds"};
+    case SessionPlace::Kind::kElsewhere:
+      break;
+  }
+  auto location = location_of(*place.record, place.session, static_cast<std::uint64_t>(place.revision));
+  if (!location) return Unknown{"server " + place.server + " has published no valid key; restart it"};
+  return std::move(*location);
+}
+
+std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
+  return thread_.with([&](ServiceMember& member, Time) {
+    std::vector<Elsewhere> list;
+    for (const auto& [name, entry] : member.catalogue().entries()) {
+      std::string owner = member.owner_of(name);
+      if (!entry.spec || owner == server_) continue;
+      Elsewhere there{{.id = entry.spec->id, .name = name}, std::move(owner)};
+      static_cast<void>(read_listed(entry.listed_text, there.session));
+      list.push_back(std::move(there));
+    }
+    return list;
+  });
+}
+
+std::vector<std::string> ServiceLocator::members() const {
+  return thread_.with([&](ServiceMember& member, Time) {
+    const auto records = member.members();
+    std::vector<std::string> addresses;
+    if (const auto own = records.find(server_); own != records.end()) addresses.push_back(own->second.address);
+    for (const auto& [name, record] : records)
+      if (name != server_ && addresses.size() < kMembersMax) addresses.push_back(record.address);
+    return addresses;
+  });
+}
+
+bool ServiceLocator::fresh() const noexcept {
+  return thread_.with([](ServiceMember& member, Time now) { return member.status(now).follows; });
+}
+
+}  // namespace tandem::server

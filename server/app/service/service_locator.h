@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "server/app/control/session_locator.h"
+#include "server/app/service/service_thread.h"
+
+namespace tandem::server {
+
+/// Finds sessions by the member's copy of the directory.
+class ServiceLocator final : public SessionLocator {
+ public:
+  static constexpr std::size_t kMembersMax = 16;
+
+  /// @param server  name of this server  @param thread  must outlive this
+  ServiceLocator(std::string server, ServiceThread& thread) : server_(std::move(server)), thread_(thread) {}
+
+  [[nodiscard]] Found locate(const rpc::SessionChoice& choice) override;
+  [[nodiscard]] std::vector<Elsewhere> elsewhere() const override;
+  [[nodiscard]] std::vector<std::string> members() const override;
+  [[nodiscard]] bool fresh() const noexcept override;
+
+ private:
+  std::string server_;
+  ServiceThread& thread_;
+};
+
+/// Turns the record of a server into the location of a session. Returns nothing if key or voucher is no hexadecimal
+/// text of the right length.
+[[nodiscard]] std::optional<ServerLocation> location_of(const directory::ServerRecord& record,
+                                                        const std::string& session, std::uint64_t revision);
+
+}  // namespace tandem::server

@@ -1,0 +1,83 @@
+#include "server/app/service/service_thread.h"
+
+#include <chrono>
+
+#include "common/io/clock.h"
+#include "common/io/thread_without_signals.h"
+
+namespace tandem::server {
+namespace {
+
+/// Longest time between two looks at the answers of the directory.
+constexpr auto kPause = std::chrono::milliseconds(5);
+
+}  // namespace
+
+ServiceThread::ServiceThread(ServiceMemberOptions options, std::unique_ptr<directory::Directory> store,
+                             DirectorySnapshots& snapshots)
+    : store_(std::move(store)), snapshots_(snapshots), member_(std::move(options), *store_) {}
+
+Time ServiceThread::now() noexcept { return Time{io::read_clock(CLOCK_BOOTTIME)}; }
+
+void ServiceThread::start() {
+  thread_ = io::thread_without_signals([this] { run(); });
+}
+
+void ServiceThread::stop() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(wake_mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void ServiceThread::wake() {
+  {
+    const std::lock_guard lock(wake_mutex_);
+    woken_ = true;
+  }
+  wake_.notify_one();
+}
+
+void ServiceThread::run() {
+  while (true) {
+    auto newest = snapshots_.take();
+    {
+      const std::lock_guard lock(mutex_);
+      for (auto& [session, bytes] : newest) member_.set_snapshot(session, std::move(bytes));
+      member_.step(now());
+      if (member_.has_event() || std::exchange(acted_until_, member_.act_until()) != member_.act_until())
+        changed_.signal();
+    }
+    std::unique_lock lock(wake_mutex_);
+    wake_.wait_for(lock, kPause, [this] { return woken_ || stopping_; });
+    woken_ = false;
+    if (stopping_) return;
+  }
+}
+
+std::optional<ServiceEvent> ServiceThread::take_event() {
+  const std::lock_guard lock(mutex_);
+  return member_.poll_event();
+}
+
+bool ServiceThread::wait_for(Duration limit, const std::function<bool(const ServiceMember&)>& done) {
+  for (const Time end = now() + limit; now() < end; std::this_thread::sleep_for(kPause)) {
+    const std::lock_guard lock(mutex_);
+    if (done(member_)) return true;
+  }
+  return false;
+}
+
+bool ServiceThread::leave(Duration limit) {
+  if (!thread_.joinable()) return false;
+  // The thread has taken all mailboxes after one whole round.
+  std::this_thread::sleep_for(2 * kPause);
+  static_cast<void>(wait_for(limit, [](const ServiceMember& member) { return member.snapshots_written(); }));
+  with([](ServiceMember& member, Time) { member.leave(); });
+  return wait_for(limit, [](const ServiceMember& member) { return member.left(); });
+}
+
+}  // namespace tandem::server

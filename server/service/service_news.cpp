@@ -1,0 +1,71 @@
+#include "server/service/service_news.h"
+
+#include <utility>
+
+#include "common/base/format.h"
+
+namespace tandem::server {
+
+std::string ServiceNews::hold_reason(const ServiceStatus& status) {
+  if (!status.holding || status.owned == 0) return {};
+  return "HELD: the directory of the service does not answer, and another server might take the session over; hands "
+         "are "
+         "engaged again when it answers";
+}
+
+std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus& status) {
+  std::vector<Line> lines;
+  if (!began_) began_ = now;
+  if (!status.name_taken)
+    name_taken_since_.reset();
+  else if (!name_taken_since_)
+    name_taken_since_ = now;
+  // A server that has ended a moment ago stays registered until its lease ends.
+  const bool name_taken = name_taken_since_ && now - *name_taken_since_ > times_.ttl + std::chrono::seconds(1);
+  const bool was_member = state_ == State::kMember || state_ == State::kNoAnswer;
+  const Duration limit = 2 * times_.answer_limit;
+  State next = state_;
+  if (name_taken) {
+    next = State::kNameTaken;
+  } else if (status.registered && status.answers) {
+    next = State::kMember;
+  } else if (!status.answers && was_member) {
+    next = State::kNoAnswer;
+  } else if (!status.answers && now - *began_ > limit) {
+    next = State::kUnreachable;
+  }
+  const std::string cause = status.trouble.empty() ? "no answer in time" : status.trouble;
+  const State before = std::exchange(state_, next);
+  if (next != before) {
+    if (next == State::kMember)
+      lines.push_back({false, "service_joined",
+                       before == State::kNoAnswer ? "the directory of the service answers again"
+                                                  : format("%s is a member of the service, with a lease of %g s",
+                                                           server_.c_str(), seconds(times_.ttl))});
+    if (next == State::kNoAnswer)
+      lines.push_back({true, "service_no_answer",
+                       "the directory of the service at " + endpoints_ + " does not answer: " + cause +
+                           format("; sessions are HELD %g s after the last renewal, until it answers",
+                                  seconds(times_.hold_after))});
+    if (next == State::kUnreachable)
+      lines.push_back({true, "service_unreachable",
+                       "the directory of the service at " + endpoints_ + " cannot be reached: " + cause +
+                           "; this server serves no session until it answers, and goes on trying. Check that etcd runs "
+                           "there (`etcdctl --endpoints ADDRESS endpoint health`), and directory { endpoint } in the "
+                           "configuration"});
+    if (next == State::kNameTaken)
+      lines.push_back({true, "service_name_taken",
+                       "another server is registered in the service as " + server_ +
+                           "; end it, or give this server a name of its own in directory { server }. This server goes "
+                           "on trying"});
+  }
+  const bool held = status.holding && status.owned > 0;
+  if (held != std::exchange(held_, held))
+    lines.push_back(held ? Line{true, "service_held",
+                                format("%zu session%s HELD: the lease of this server was not renewed in time",
+                                       status.owned, status.owned == 1 ? "" : "s")}
+                         : Line{false, "service_goes_on", "the sessions are not HELD by the directory any more"});
+  return lines;
+}
+
+}  // namespace tandem::server

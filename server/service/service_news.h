@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/service/service_member.h"
+
+namespace tandem::server {
+
+/// Turns changes of a member's state into lines for the operator of the server: one line per change.
+class ServiceNews {
+ public:
+  struct Line {
+    bool warning = false;
+    std::string event;  ///< one word, for the log
+    std::string text;
+  };
+
+  /// @param endpoints  of the directory, for messages
+  ServiceNews(std::string server, std::string endpoints, directory::LeaseTimes times)
+      : server_(std::move(server)), endpoints_(std::move(endpoints)), times_(times) {}
+
+  /// @param now  of the clock of the member
+  [[nodiscard]] std::vector<Line> update(Time now, const ServiceStatus& status);
+  /// Reason of held sessions, for participants; empty: the sessions are not held.
+  [[nodiscard]] static std::string hold_reason(const ServiceStatus& status);
+
+ private:
+  enum class State : std::uint8_t { kStarting, kUnreachable, kNameTaken, kMember, kNoAnswer };
+
+  std::string server_, endpoints_;
+  directory::LeaseTimes times_;
+  State state_ = State::kStarting;
+  bool held_ = false;
+  std::optional<Time> began_, name_taken_since_;
+};
+
+}  // namespace tandem::server
