@@ -16,6 +16,9 @@ namespace tandem::io {
 /// Returns CLOCK_MONOTONIC as the time type of the cores.
 [[nodiscard]] inline Time monotonic_now() noexcept { return Time{read_clock(CLOCK_MONOTONIC)}; }
 
+/// Returns CLOCK_BOOTTIME, which goes on while the machine is suspended: for leases that another machine counts too.
+[[nodiscard]] inline Time boottime_now() noexcept { return Time{read_clock(CLOCK_BOOTTIME)}; }
+
 /// Converts for system calls that wait; negative durations become 0.
 [[nodiscard]] inline timespec to_timespec(Duration d) noexcept {
   if (d < Duration::zero()) d = Duration::zero();

@@ -124,8 +124,9 @@ std::optional<JournalEvent> JournalReader::read(Fields& fields) {
       const auto level = fields.get<std::uint8_t>(), flags = fields.get<std::uint8_t>();
       const auto interval = fields.get<std::uint32_t>();
       if (!fields.whole()) return std::nullopt;
-      if (level > kLastShedLevel || flags > 3 || interval == 0) fail("settings out of range");
-      settings_ = {{static_cast<server::ShedLevel>(level), (flags & 1) != 0}, (flags & 2) != 0, interval};
+      if (level > kLastShedLevel || flags > 7 || interval == 0) fail("settings out of range");
+      settings_ = {
+          {static_cast<server::ShedLevel>(level), (flags & 1) != 0}, (flags & 2) != 0, interval, (flags & 4) == 0};
       return std::nullopt;
     }
     case InputRecord::kOverflow:

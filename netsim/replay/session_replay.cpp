@@ -117,6 +117,7 @@ void SessionReplay::apply_event(const JournalOverflow& overflow) {
 
 void SessionReplay::apply_event(const JournalTick& tick) {
   session_->lifecycle().set_load_state(tick.settings.load);
+  session_->lifecycle().set_may_act(tick.settings.may_act);
   session_->set_telemetry_every_tick(tick.settings.telemetry_every_tick);
   session_->set_record_interval(tick.settings.record_interval);
   session_->on_tick(tick.at, tick.missed);

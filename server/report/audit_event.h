@@ -40,6 +40,8 @@ struct AuditEvent {
     kAuthorityRejected,   ///< `after` was rejected: the link of `party` is stale; at most one per second
     kAuthorityCancelled,  ///< the announced authority `before` is not applied for that reason; `after` stays
     kAuthorityDeferred,   ///< a change of the timeline, `after`, waits for the link of `party`
+    kLeaseDoubtful,       ///< the server may not own the session any more: all hands are disengaged until kLeaseRenewed
+    kLeaseRenewed,
   };
   /// Values of `seat` that are no seat: the session itself, the scene's timeline, and the control connection.
   static constexpr std::uint8_t kNoSeat = 255, kTimeline = 254, kControlPlane = 253;
@@ -80,7 +82,9 @@ static_assert(std::is_trivially_copyable_v<AuditEvent>);
                               "overload-cleared",
                               "authority-refused",
                               "authority-canceled",
-                              "authority-deferred"};
+                              "authority-deferred",
+                              "lease-doubtful",
+                              "lease-renewed"};
   static_assert(kNames.size() == enumerator_count<AuditEvent::What>());
   return static_cast<std::size_t>(what) < kNames.size() ? kNames[static_cast<std::size_t>(what)] : "?";
 }

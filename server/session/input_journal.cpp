@@ -231,7 +231,8 @@ void InputJournal::write_settings(const Settings& settings) noexcept {
   settings_ = word_of(settings);
   RecordWriter<8> record{InputRecord::kSettings};
   record.put(static_cast<std::uint8_t>(settings.load.level));
-  record.put(static_cast<std::uint8_t>((settings.load.overloaded ? 1 : 0) | (settings.telemetry_every_tick ? 2 : 0)));
+  record.put(static_cast<std::uint8_t>((settings.load.overloaded ? 1 : 0) | (settings.telemetry_every_tick ? 2 : 0) |
+                                       (settings.may_act ? 0 : 4)));
   record.put(settings.record_interval);
   write(record.bytes());
 }

@@ -83,6 +83,7 @@ class InputJournal {
     LoadState load{};
     bool telemetry_every_tick = true;
     std::uint32_t record_interval = 1;
+    bool may_act = true;
     friend bool operator==(const Settings&, const Settings&) = default;
   };
   void tick(Time now, std::uint32_t missed, const Settings& settings) noexcept TANDEM_REALTIME;
@@ -108,7 +109,8 @@ class InputJournal {
   /// The settings in one number, which is compared at every tick; never kNoSettings.
   [[nodiscard]] static std::uint64_t word_of(const Settings& settings) noexcept {
     return static_cast<std::uint64_t>(settings.load.level) | (settings.load.overloaded ? 0x100U : 0U) |
-           (settings.telemetry_every_tick ? 0x200U : 0U) | std::uint64_t{settings.record_interval} << 32;
+           (settings.telemetry_every_tick ? 0x200U : 0U) | (settings.may_act ? 0x400U : 0U) |
+           std::uint64_t{settings.record_interval} << 32;
   }
   static constexpr std::uint64_t kNoSettings = ~std::uint64_t{0};
   void write_settings(const Settings& settings) noexcept TANDEM_REALTIME;

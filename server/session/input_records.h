@@ -25,8 +25,8 @@
 ///   kContacts       u8 tool whose surfaces come from a source outside of the scene
 ///   kTick           i64 dt, u32 missed ticks, u32 n, bit i for each seat to which this tick sent, u16 hash for each of
 ///                   them in order
-///   kSettings       u8 ShedLevel, u8 flags (1: overloaded, 2: telemetry at every tick), u32 record interval [ticks];
-///                   of the next kTick
+///   kSettings       u8 ShedLevel, u8 flags (1: overloaded, 2: telemetry at every tick, 4: the server may not act),
+///                   u32 record interval [ticks]; of the next kTick
 ///   kOverflow       u64 number of kTick records before the journal lost one
 ///
 /// dt is the time since the last record with a dt, since the time in kBegin for the first [ns]. Addresses are keyed

@@ -172,7 +172,7 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   recorded_ = false;
   if (over()) return;
   if (journal_ != nullptr) [[unlikely]]
-    journal_->tick(now, missed, {lifecycle_.load_state(), telemetry_due(), record_interval_});
+    journal_->tick(now, missed, {lifecycle_.load_state(), telemetry_due(), record_interval_, lifecycle_.may_act()});
   const std::uint32_t catch_up = clock_.begin_tick(now, missed);
   for (std::uint32_t i = 0; i <= catch_up && !over(); ++i) run_one_tick(now);
   // Until the session runs, every tick makes a record, so that the first running one has a record at any interval.
@@ -198,7 +198,7 @@ void Session::serve_watchers(Time now) noexcept {
 void Session::run_one_tick(Time now) noexcept {
   const Duration elapsed = clock_.begin_step();
   for (Tool& tool : control_.tools()) tool.advance_slave(elapsed);
-  lifecycle_.report_overload(now);
+  lifecycle_.report_changes(now);
   participants_.step(now);
   if (faults_.faulty(now, control_.not_finite())) stop_.stop_for_fault(now);
   lifecycle_.step(now, control_.tools());

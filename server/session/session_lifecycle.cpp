@@ -4,11 +4,17 @@
 
 namespace tandem::server {
 
-void SessionLifecycle::report_overload(Time now) noexcept {
-  if (!clock_->begun() || load_state_.overloaded == overloaded_) return;
-  overloaded_ = load_state_.overloaded;
-  audit_->emit(now, overloaded_ ? AuditEvent::What::kOverload : AuditEvent::What::kOverloadCleared,
-               AuditEvent::kNoSeat);
+void SessionLifecycle::report_changes(Time now) noexcept {
+  using What = AuditEvent::What;
+  if (!clock_->begun()) return;
+  if (load_state_.overloaded != overloaded_) {
+    overloaded_ = load_state_.overloaded;
+    audit_->emit(now, overloaded_ ? What::kOverload : What::kOverloadCleared, AuditEvent::kNoSeat);
+  }
+  if (may_act_ != acts_) {
+    acts_ = may_act_;
+    audit_->emit(now, acts_ ? What::kLeaseRenewed : What::kLeaseDoubtful, AuditEvent::kNoSeat);
+  }
 }
 
 void SessionLifecycle::step(Time now, std::span<const Tool> tools) noexcept {
@@ -29,7 +35,7 @@ wire::SessionState SessionLifecycle::state() const noexcept {
   if (stop_->latch().level() == StopLatch::Level::kPaused) return wire::SessionState::kPaused;
   return !clock_->begun()         ? wire::SessionState::kWaiting
          : load_state_.overloaded ? wire::SessionState::kOverloaded
-         : held_                  ? wire::SessionState::kHeld
+         : held_ || !may_act_     ? wire::SessionState::kHeld
                                   : wire::SessionState::kRunning;
 }
 

@@ -27,8 +27,13 @@ class SessionLifecycle {
   void set_load_state(const LoadState& load) noexcept { load_state_ = load; }
   [[nodiscard]] const LoadState& load_state() const noexcept { return load_state_; }
 
-  /// Emits an audit event if an overload began or ended. To be called once per tick.
-  void report_overload(Time now) noexcept TANDEM_REALTIME;
+  /// Sets whether this server may act on hands, effective from the next tick. If not, all hands are disengaged: another
+  /// server may own the session by now.
+  void set_may_act(bool may_act) noexcept { may_act_ = may_act; }
+  [[nodiscard]] bool may_act() const noexcept { return may_act_; }
+
+  /// Emits an audit event if an overload began or ended, or the permission to act. To be called once per tick.
+  void report_changes(Time now) noexcept TANDEM_REALTIME;
   /// Begins the session, counts its time, or advances its end. In ENDING the clock is stopped, so that a restart
   /// resumes at the time when the end began.
   void step(Time now, std::span<const Tool> tools) noexcept TANDEM_REALTIME;
@@ -40,9 +45,9 @@ class SessionLifecycle {
   [[nodiscard]] bool clock_stopped() const noexcept {
     return clock_->begun() && (ending() || (stop_->latch().latched() && !scene_->clock_runs_while_stopped));
   }
-  /// No seat may be engaged now: the session is ending, stopped, paused or overloaded.
+  /// No seat may be engaged now: the session is ending, stopped, paused or overloaded, or this server may not act.
   [[nodiscard]] bool disengages_all() const noexcept {
-    return ending() || stop_->latch().latched() || load_state_.overloaded;
+    return ending() || stop_->latch().latched() || load_state_.overloaded || !may_act_;
   }
 
  private:
@@ -53,8 +58,9 @@ class SessionLifecycle {
   StopControl* stop_;
   AuditTrail* audit_;
   LoadState load_state_;
-  bool overloaded_ = false;  ///< as of the last audit event
-  bool held_ = false;        ///< no tool has a present seat with authority over it; false before the session begins
+  bool may_act_ = true;
+  bool overloaded_ = false, acts_ = true;  ///< as of the last audit event
+  bool held_ = false;  ///< no tool has a present seat with authority over it; false before the session begins
 };
 
 }  // namespace tandem::server

@@ -66,9 +66,9 @@ void SessionRegistry::remove(const rpc::Id& id, std::function<void()> gone) {
   });
 }
 
-void SessionRegistry::end(const rpc::Id& id) {
+void SessionRegistry::end(const rpc::Id& id, wire::CloseReason why) {
   if (SessionEntry* const found = find(id); found != nullptr)
-    post_when_possible(*found, {.what = ShardRequest::What::kEndSession});
+    post_when_possible(*found, {.what = ShardRequest::What::kEndSession, .why = why});
 }
 
 void SessionRegistry::move(const rpc::Id& id, Shard& to, const io::SteeringProgram& there,

@@ -27,7 +27,8 @@ class SessionRegistry {
   /// Removes a session that is over; it gets no more requests. `gone` is called when nothing refers to it any more.
   void remove(const rpc::Id& id, std::function<void()> gone);
   /// Releases all hands of a session and ends it. A full queue of its shard delays this.
-  void end(const rpc::Id& id);
+  /// @param why  told to its clients
+  void end(const rpc::Id& id, wire::CloseReason why = wire::CloseReason::kServerStops);
   /// Moves a session to another shard of its tick rate, between two ticks. Requests of the session wait meanwhile.
   /// @param there, before  kernel's program with the session at `to`, and the one in force; valid until `done`
   /// @param done           false: its shard still serves it, or it is over; try again later

@@ -9,8 +9,17 @@
 namespace tandem::server {
 
 /// Why a session ended. kAllLeft: in a scene without an end, all participants left in an orderly way. kOperator: by an
-/// order. kTimeLimit: the time that was given when it was created is over.
-enum class EndReason : std::uint8_t { kScene, kSignal, kStartTimeout, kPeersLost, kAllLeft, kOperator, kTimeLimit };
+/// order. kTimeLimit: the time that was given when it was created is over. kGivenUp: another server may own it.
+enum class EndReason : std::uint8_t {
+  kScene,
+  kSignal,
+  kStartTimeout,
+  kPeersLost,
+  kAllLeft,
+  kOperator,
+  kTimeLimit,
+  kGivenUp
+};
 
 /// Decision to end a session because its participants are absent: reason and event.
 struct SessionEnding {

@@ -77,6 +77,10 @@ std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
 }
 
 std::string held_reason_text(const SessionStatus& status, const SceneSpec& scene) {
+  if (!status.may_act)
+    return "the directory of the service does not answer, so another server may own the session; all hands engage "
+           "again "
+           "when it answers";
   std::string text;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     if (status.seats[i].authority_max <= 0) continue;

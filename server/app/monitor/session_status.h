@@ -54,6 +54,8 @@ struct SessionStatus {
   std::array<SeatStatus, kSeatsMax> seats{};
   MachineStatus machine;
   StopLatch stop;
+  /// The server knows for certain that no other one owns the session; false: all hands are disengaged.
+  bool may_act = true;
   bool waiting = false;  ///< it has not begun, or waits for participants after a restart, even while it is stopped
 };
 /// Seats whose client is alive, bit i for seat i.

@@ -16,21 +16,21 @@
 
 #include "common/auth/io/state_directory.h"
 #include "common/io/event_fd.h"
-#include "server/app/process/checkpoint_mailbox.h"
+#include "server/app/process/snapshot_keeper.h"
 #include "server/session/session_snapshot.h"
 
 namespace tandem::server {
 
 /// Snapshot files for restarts: one per session, replaced atomically when a newer checkpoint arrives. Its own thread
 /// writes them, so a slow disk delays no tick; it only makes the files older.
-class CheckpointStore {
+class CheckpointStore final : public SnapshotKeeper {
  public:
   /// @param folder   directory for its owner only; created if missing
   /// @param prefix   of the file names, to distinguish servers that share a directory
   /// @param trouble  receives write errors on the store's thread, once per session until a write succeeds
   [[nodiscard]] static std::expected<std::unique_ptr<CheckpointStore>, std::string> open(
       const std::string& folder, std::string prefix, std::function<void(const std::string&)> trouble);
-  ~CheckpointStore();
+  ~CheckpointStore() override;
 
   // ---- Before `start` ----
   struct Found {
@@ -44,14 +44,10 @@ class CheckpointStore {
   void start();
 
   // ---- Any time, from one thread ----
-  /// Adds a session whose checkpoints are to be stored. @param kept everything but checkpoint and time
-  [[nodiscard]] std::shared_ptr<CheckpointMailbox> add(SessionSnapshot kept);
-  /// Sets the removed workstations of a session; the next write stores them. Thread-safe.
-  void set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys);
-  /// Sets the names of the persons at the seats of a session; the next write stores them. Thread-safe.
-  void set_persons(const std::string& name, const std::vector<std::string>& persons);
-  /// Deletes the file of a session that has ended.
-  void remove(const std::string& name);
+  [[nodiscard]] std::shared_ptr<CheckpointMailbox> add(SessionSnapshot kept) override;
+  void set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys) override;
+  void set_persons(const std::string& name, const std::vector<std::string>& persons) override;
+  void remove(const std::string& name) override;
   /// Writes the newest checkpoints and ends the thread. Files remain.
   void stop();
   /// Deletes all files at once, without the thread: before a process exits on request.

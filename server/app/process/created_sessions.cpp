@@ -91,32 +91,40 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
 
   if (!shards_.assign(place->slot, place->shard))
     return ErrorReply{ErrorCode::kInternal, "the kernel gives no memory for the distribution of datagrams", 5};
-  auto opened = SessionInstance::open(*options, static_cast<std::uint8_t>(place->slot), 1,
-                                      !control_.ephemeral_keys() && !options->tickets_only);
+  auto opened = SessionInstance::open(*options, {.slot = static_cast<std::uint8_t>(place->slot),
+                                                 .with_code = !control_.ephemeral_keys() && !options->tickets_only});
   if (!opened)
     return ErrorReply{ErrorCode::kBadFrame, reply_text({{wanted.name, 0, 0, "", "", opened.error().texts.front()}}), 0};
   SessionInstance& session = **opened;
   session.keep_options(options, wanted.life_s == 0
                                     ? std::nullopt
                                     : std::optional(io::monotonic_now() + std::chrono::seconds(wanted.life_s)));
-  hints_.set_several();
-  bool served = false;
   rpc::SessionCreated created{.session = {}, .code = session.code(), .tickets = {}};
+  auto served = serve_opened(std::move(*opened));
+  if (!served)
+    return ErrorReply{ErrorCode::kNotNow, "the thread of this tick rate takes no sessions at present; try again", 1};
+  created.session = std::move(*served);
+  return created;
+}
+
+std::optional<rpc::ListedSession> SessionTable::serve_opened(std::unique_ptr<SessionInstance> opened) {
+  SessionInstance& session = *opened;
+  hints_.set_several();
+  std::optional<rpc::ListedSession> listed;
   control_.change([&](SessionRegistry& registry, const auto& done) {
     registry.add_running(registration_of(session), [&, done](bool accepted) {
-      served = accepted;
-      if (served) created.session = SessionRegistry::listed(registry.entries().back());
+      if (accepted) listed = SessionRegistry::listed(registry.entries().back());
       done();
     });
   });
-  if (!served) {
+  if (!listed) {
     control_.change([&](SessionRegistry& registry, const auto& done) { registry.remove(session.id(), done); });
-    return ErrorReply{ErrorCode::kNotNow, "the thread of this tick rate takes no sessions at present; try again", 1};
+    return std::nullopt;
   }
-  sessions_.push_back(std::move(*opened));
+  sessions_.push_back(std::move(opened));
   announce(session);
   start_recording(session);
-  return created;
+  return listed;
 }
 
 void SessionTable::end_session(SessionOrder order) {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "common/auth/io/state_directory.h"
+#include "common/io/clock.h"
 #include "server/session/session_invariant_checker.h"
 
 namespace tandem::server {
@@ -61,6 +62,8 @@ Time LiveSession::tick(Time now, Time due, std::uint32_t missed, const MachineSt
   late_ticks_ += machine.late ? 1 : 0;
   missed_ticks_ += missed;
   session_.lifecycle().set_load_state(machine.load_state);
+  const std::int64_t act_until = act_until_.load(std::memory_order_relaxed);
+  session_.lifecycle().set_may_act(act_until == kAlways || io::boottime_now() < Time{Duration{act_until}});
   const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
   const bool every_tick = reported_ || recording_.load(std::memory_order_relaxed);
   session_.set_telemetry_every_tick(every_tick);
@@ -125,6 +128,7 @@ void LiveSession::publish(Time now, const MachineStatus& machine) noexcept {
   status_.time = session_.clock().time();
   status_.stop = session_.stop_control().latch();
   status_.waiting = !session_.start_condition().begun() || session_.start_condition().recovering();
+  status_.may_act = session_.lifecycle().may_act();
   status_.machine = machine;
   status_.machine.late_ticks = late_ticks_;
   status_.machine.missed_ticks = missed_ticks_;

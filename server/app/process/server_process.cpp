@@ -50,7 +50,7 @@ class ServerProcess {
     sessions_->announce_all();
     output_.print(format("Ctrl-C ends the session%s gently\n", sessions_->all().size() == 1 ? "" : "s"));
     io::systemd_notify("READY=1");
-    while (!sessions_->all().empty()) run_once();
+    while (!sessions_->all().empty() || (options_.service && !drain_began_)) run_once();
     complete_recordings();
     output_.print_posted();
     if (checkpoints_) checkpoints_->stop();
@@ -160,7 +160,7 @@ class ServerProcess {
                     {.event = event.more ? "shed" : "shed_less", .text = event.text});
       if (!io::logs_json()) output_.note(event.text);
     }
-    if (std::exchange(realtime_reported_, true)) return;
+    if (sessions_->all().empty() || std::exchange(realtime_reported_, true)) return;
     const bool realtime = sessions_->all().front()->live_session().status().machine.realtime;
     if (const std::string notice = io::realtime_warning(realtime, memory_locked_, awake_.granted()); !notice.empty())
       output_.note(notice);

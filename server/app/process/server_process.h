@@ -29,6 +29,8 @@ struct ServerOptions {
   /// Called a few times per second while the first session waits for its required seats. Returns why it waits in vain:
   /// the server then ends. Empty: no such check.
   std::function<std::string()> start_problem{};
+  /// The server is a member of a service: it runs on without sessions, and opens only what it owns.
+  bool service = false;
   bool quiet = false;
   bool no_restore = false;       ///< ignores all checkpoints
   bool sessions_resume = false;  ///< a signal ends the server but keeps its sessions: the next start restores them

@@ -23,7 +23,7 @@ namespace {
 
 const char* to_text(EndReason end) {
   constexpr const char* kNames[] = {"scene",       "signal",   "nobody_came", "peers_lost",
-                                    "people_left", "operator", "time_limit"};
+                                    "people_left", "operator", "time_limit",  "given_up"};
   return kNames[static_cast<std::size_t>(end)];
 }
 
@@ -77,39 +77,56 @@ std::string readable_scene_text(const SessionOptions& options) {
 
 }  // namespace
 
-SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves, std::uint8_t slot,
-                                 const SessionSnapshot* kept)
+SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves, const Opening& opening)
     : options_(&plan),
-      id_(kept != nullptr ? kept->id : auth::random_bytes<auth::Id16>()),
+      id_(opening.kept != nullptr ? opening.kept->id
+          : opening.id            ? *opening.id
+                                  : auth::random_bytes<auth::Id16>()),
       queue_(TickQueue::capacity_for(plan.scene.seats.size(), plan.scene.tools.size()), plan.scene.seats.size(),
              plan.scene.tools.size()),
       recorder_(plan.scene, queue_, trace_),
-      live_session_(std::make_unique<LiveSession>(plan.scene, std::move(slaves), slot, queue_,
-                                                  kept != nullptr ? &kept->checkpoint : nullptr)),
+      live_session_(std::make_unique<LiveSession>(plan.scene, std::move(slaves), opening.slot, queue_,
+                                                  opening.kept != nullptr ? &opening.kept->checkpoint : nullptr)),
       desk_(std::make_shared<RecordingDesk>(plan.scene.seats.size(), plan.record.pseudonyms)) {
   live_session_->set_recorded(!plan.json.empty() || !plan.trace.empty() || !plan.reports.empty());
 }
 
 std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> SessionInstance::open(
-    const SessionOptions& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code, const SessionSnapshot* kept) {
+    const SessionOptions& plan, const Opening& opening) {
+  const SessionSnapshot* const kept = opening.kept;
   const Time now = io::monotonic_now();
   auto slaves = make_local_slaves(plan.scene, now, kept != nullptr ? &kept->checkpoint : nullptr);
   if (!slaves) return std::unexpected(OpenError{io::kExitUsage, slaves.error()});
-  std::unique_ptr<SessionInstance> run{new SessionInstance(plan, std::move(*slaves), slot, kept)};
+  std::unique_ptr<SessionInstance> run{new SessionInstance(plan, std::move(*slaves), opening)};
   if (!plan.record.target.empty() && plan.record.from_start) run->attach_journal(now, kept);
-  run->epoch_ = kept != nullptr ? kept->checkpoint.epoch + 1 : epoch;
+  run->epoch_ = kept != nullptr ? std::max(kept->checkpoint.epoch + 1, opening.epoch) : opening.epoch;
   if (kept != nullptr) {
     run->snapshot_ = *kept;
     const std::int64_t age_s = std::clamp<std::int64_t>(auth::wall_seconds() - kept->written_s, 0, kResumeLifeS);
     run->resume_until_ = now + kResumeLife - std::chrono::seconds(age_s);
   }
   // A restored session keeps its code, because participants have noted it.
-  if (with_code) run->code_ = kept != nullptr && !kept->code.empty() ? kept->code : make_session_code();
+  if (opening.with_code)
+    run->code_ = kept != nullptr && !kept->code.empty() ? kept->code
+                 : !opening.code.empty()                ? opening.code
+                                                        : make_session_code();
   if (const auto problem = run->json_.open(plan.json, true); !problem.empty())
     return std::unexpected(OpenError{io::kExitUsage, {"--json: " + problem}});
   if (const auto problem = run->trace_.open(plan.trace, false); !problem.empty())
     return std::unexpected(OpenError{io::kExitUsage, {"--trace: " + problem}});
   return run;
+}
+
+void SessionInstance::set_keeper(SnapshotKeeper* keeper) {
+  keeper_ = keeper;
+  if (keeper == nullptr) return;
+  SessionSnapshot kept = snapshot_ ? *snapshot_ : SessionSnapshot{};
+  kept.checkpoint = {};
+  kept.id = id_;
+  kept.name = options_->name;
+  kept.code = code_;
+  kept.written_s = 0;
+  live_session_->persist_to(keeper->add(std::move(kept)), epoch_);
 }
 
 void SessionInstance::attach_journal(Time start, const SessionSnapshot* kept) {

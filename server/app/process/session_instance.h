@@ -1,6 +1,7 @@
 #pragma once
 
 #include <expected>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "server/app/monitor/session_ending.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/recorder.h"
+#include "server/app/process/snapshot_keeper.h"
 #include "server/app/recording/live_recording.h"
 #include "server/app/recording/recording_target.h"
 #include "server/session/session_snapshot.h"
@@ -38,12 +40,18 @@ class SessionInstance {
     int code = 1;  ///< exit code
     std::vector<std::string> texts;
   };
+  struct Opening {
+    std::uint8_t slot = 0;
+    std::uint64_t epoch = 1;                ///< lowest epoch; a restored session has at least the next one
+    bool with_code = true;                  ///< clients may join by a code
+    const SessionSnapshot* kept = nullptr;  ///< snapshot to restore; null: a new session
+    std::optional<auth::Id16> id{};         ///< of a new session; nullopt: a random one
+    std::string code{};                     ///< of a new session; empty: a random one
+  };
   /// @param plan  must outlive this
-  /// @param kept  snapshot to restore, with the next epoch; null: a new session
-  /// @return the session, ready to be served in `slot`, or the errors
-  [[nodiscard]] static std::expected<std::unique_ptr<SessionInstance>, OpenError> open(
-      const SessionOptions& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code,
-      const SessionSnapshot* kept = nullptr);
+  /// @return the session, ready to be served, or the errors
+  [[nodiscard]] static std::expected<std::unique_ptr<SessionInstance>, OpenError> open(const SessionOptions& plan,
+                                                                                       const Opening& opening);
 
   [[nodiscard]] const SessionOptions& options() const noexcept { return *options_; }
   [[nodiscard]] LiveSession& live_session() noexcept { return *live_session_; }
@@ -64,6 +72,14 @@ class SessionInstance {
     ends_at_ = ends_at;
   }
   [[nodiscard]] std::optional<Time> ends_at() const noexcept { return ends_at_; }
+
+  /// Keeps the newest snapshots of the session; null: nothing does. It must outlive this.
+  [[nodiscard]] SnapshotKeeper* keeper() const noexcept { return keeper_; }
+  void set_keeper(SnapshotKeeper* keeper);
+  /// Makes this a session of a service: `on_over` as OwnedSession has it.
+  void set_owned(std::function<void(bool)> on_over) { on_over_ = std::move(on_over); }
+  /// Called when a session of a service is over; null: it is of this server only.
+  [[nodiscard]] const std::function<void(bool)>& on_over() const noexcept { return on_over_; }
 
   /// Notes and participants for a recording, and its state; it exists without one too.
   [[nodiscard]] const std::shared_ptr<RecordingDesk>& recording_desk() const noexcept { return desk_; }
@@ -94,13 +110,15 @@ class SessionInstance {
   [[nodiscard]] std::string outcome_text(const RunReport& report) const;
 
  private:
-  SessionInstance(const SessionOptions& plan, LocalSlaves slaves, std::uint8_t slot, const SessionSnapshot* kept);
+  SessionInstance(const SessionOptions& plan, LocalSlaves slaves, const Opening& opening);
   /// Begins the journal of the session's inputs. @param start  time at which its slaves were made
   void attach_journal(Time start, const SessionSnapshot* kept);
 
   std::shared_ptr<const SessionOptions> created_;  ///< first, because the other members refer to it
   const SessionOptions* options_;
   std::optional<Time> ends_at_;
+  SnapshotKeeper* keeper_ = nullptr;
+  std::function<void(bool)> on_over_;
   auth::Id16 id_;
   std::string code_;
   std::uint64_t epoch_ = 1;

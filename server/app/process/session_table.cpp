@@ -25,6 +25,7 @@ SessionTable::SessionTable(const ServerOptions& options, ShardPool& shards, Cont
       hints_(control.address(), control.folder(), control.ephemeral_keys(), options.sessions.size() > 1) {}
 
 int SessionTable::open() {
+  if (options_.service) return 0;  // its sessions come with `open_owned`
   for (std::size_t slot = 0; slot < options_.sessions.size(); ++slot) {
     const SessionOptions& session = options_.sessions[slot];
     CheckpointStore::Found found;
@@ -50,24 +51,15 @@ void SessionTable::begin() {
 std::expected<std::unique_ptr<SessionInstance>, int> SessionTable::open_session(const SessionOptions& options,
                                                                                 std::size_t slot, std::uint64_t epoch,
                                                                                 const SessionSnapshot* snapshot) {
-  auto made = SessionInstance::open(options, static_cast<std::uint8_t>(slot), epoch,
-                                    !control_.ephemeral_keys() && !options.tickets_only, snapshot);
+  auto made = SessionInstance::open(options, {.slot = static_cast<std::uint8_t>(slot),
+                                              .epoch = epoch,
+                                              .with_code = !control_.ephemeral_keys() && !options.tickets_only,
+                                              .kept = snapshot});
   if (!made) {
     for (const std::string& text : made.error().texts) output_.error(text);
     return std::unexpected(made.error().code);
   }
-  SessionInstance& session = **made;
-  if (checkpoints_ != nullptr)
-    session.live_session().persist_to(
-        checkpoints_->add(
-            {{},
-             session.id(),
-             options.name,
-             session.code(),
-             0,
-             snapshot != nullptr ? snapshot->removed_workstations : decltype(snapshot->removed_workstations){},
-             snapshot != nullptr ? snapshot->persons : decltype(snapshot->persons){}}),
-        session.epoch());
+  (*made)->set_keeper(checkpoints_);
   return std::move(*made);
 }
 
@@ -108,12 +100,10 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
                            session.snapshot() != nullptr ? session.resume_until() : Time{}};
   made.recording = session.recording_desk();
   made.no_recording = no_recording(session);
-  if (checkpoints_ != nullptr && !session.created()) {
-    made.on_removed = [store = checkpoints_, name = session.options().name](const auto& keys) {
-      store->set_removed(name, keys);
-    };
-    made.on_persons = [store = checkpoints_, name = session.options().name](const auto& persons) {
-      store->set_persons(name, persons);
+  if (SnapshotKeeper* const keeper = session.keeper(); keeper != nullptr) {
+    made.on_removed = [keeper, name = session.options().name](const auto& keys) { keeper->set_removed(name, keys); };
+    made.on_persons = [keeper, name = session.options().name](const auto& persons) {
+      keeper->set_persons(name, persons);
     };
   }
   if (session.snapshot() != nullptr)
@@ -208,14 +198,16 @@ void SessionTable::write_audit_events(SessionInstance& session) {
 
 void SessionTable::drain() {
   draining_ = true;
-  // A created session does not return with the server, so its clients are closed before those of the shards.
+  // A created session does not return with the server, so its clients are closed before those of the shards. A session
+  // of a service goes on at another server.
   control_.change([this](SessionRegistry& registry, const auto& done) {
     for (const auto& s : sessions_)
-      if (s->created()) registry.end(s->id());
+      if (s->created())
+        registry.end(s->id(), s->on_over() ? wire::CloseReason::kServerReturns : wire::CloseReason::kServerStops);
     done();
   });
   for (const auto& s : sessions_)
-    if (!s->end) s->end = EndReason::kSignal;
+    if (!s->end) s->end = s->on_over() ? EndReason::kGivenUp : EndReason::kSignal;
 }
 
 bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
@@ -227,7 +219,8 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   // server stops.
   if (!draining_)
     control_.change([&](SessionRegistry& registry, const auto& done) { registry.remove(session.id(), done); });
-  if (checkpoints_ != nullptr && !session.created() && !(draining_ && will_resume())) checkpoints_->remove(name);
+  const bool kept = session.on_over() ? session.end == EndReason::kGivenUp : draining_ && will_resume();
+  if (session.keeper() != nullptr && !kept) session.keeper()->remove(name);
   const auto slot = session.live_session().slot();
   const SessionInstance::Verdict verdict = session.finish();
   session.end_recording();
@@ -236,7 +229,8 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
                 {.event = "session_over", .session = name, .text = session.outcome_text(verdict.report)});
   if (!verdict.problem.empty()) output_.error(verdict.problem);
   reply_ended(id);
-  if (!session.options().restart || draining_ || control_.registry().drain().due()) {
+  if (session.on_over()) session.on_over()(kept);
+  if (session.on_over() || !session.options().restart || draining_ || control_.registry().drain().due()) {
     if (!session.created()) exit_code_ = std::max(exit_code_, verdict.code);
     if (draining_) {
       finished_.push_back(std::move(place));

@@ -10,6 +10,7 @@
 #include "server/app/monitor/server_hints.h"
 #include "server/app/monitor/server_output.h"
 #include "server/app/process/checkpoint_store.h"
+#include "server/app/process/owned_session.h"
 #include "server/app/process/server_process.h"
 #include "server/app/process/shard_pool.h"
 #include "server/policy/shard_balancer.h"
@@ -25,7 +26,8 @@ class SessionTable {
   SessionTable(const ServerOptions& options, ShardPool& shards, ControlServer& control, CheckpointStore* checkpoints,
                ServerOutput& output);
 
-  /// Opens all sessions, and restores those that the last server left. @return exit code; 0: no error
+  /// Opens all sessions, and restores those that the last server left. A member of a service opens none: those that
+  /// it owns come with `open_owned`. @return exit code; 0: no error
   [[nodiscard]] int open();
   /// Passes the sessions to the shards and the control server, before either runs.
   void begin();
@@ -47,6 +49,11 @@ class SessionTable {
   /// Executes an operator's order: creates a session, or begins to end one. Its reply follows on the control thread,
   /// for an end when the session is over.
   void execute(SessionOrder order);
+  /// Opens a session that this server owns in its service, and serves it. @return why it cannot; empty: it is served
+  [[nodiscard]] std::string open_owned(OwnedSession owned);
+  /// Ends a session of a service that another server may own by now: releases all hands at once and tells the clients
+  /// to join again; its snapshot stays. Nothing happens if this server does not serve it.
+  void give_up(const std::string& name);
   /// Reports about recordings, also of sessions that are over, and forgets those that are complete.
   void service_recordings();
   /// Recordings of sessions that are over are not complete yet.
@@ -64,6 +71,9 @@ class SessionTable {
     SessionOrder order;
   };
   [[nodiscard]] rpc::Body create_session(const rpc::CreateSession& wanted);
+  /// Registers a session that was opened at run time, and passes it to its running shard.
+  /// @return the session as lists have it; nullopt: the shard does not serve it, and it is gone
+  [[nodiscard]] std::optional<rpc::ListedSession> serve_opened(std::unique_ptr<SessionInstance> opened);
   /// Why the server cannot record a session, and the remedy; empty: it can.
   [[nodiscard]] std::string no_recording(const SessionInstance& session) const;
   [[nodiscard]] rpc::Body record_session(const rpc::RecordSession& wanted);

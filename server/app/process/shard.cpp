@@ -210,7 +210,7 @@ void Shard::execute(Time now, ShardRequest& request) noexcept {
           slots_of(live->session(), request.peers).remove(request.place, request.cid, wire::CloseReason::kRevoked));
       break;
     case ShardRequest::What::kEndSession:
-      live->session().end(wire::CloseReason::kServerStops);
+      live->session().end(request.why);
       break;
     case ShardRequest::What::kMoveSession:
       begin_move(request);

@@ -20,7 +20,7 @@ struct ShardRequest {
     kQuerySeat,    ///< whether `seat` is available
     kAdmit,        ///< attach `connection` to `seat`
     kAdmitPeer,    ///< admit `connection.link` as a peer without a seat
-    kEndSession,   ///< end the session: release all hands, then send CLOSE
+    kEndSession,   ///< end the session: release all hands, then send CLOSE with reason `why`
     kCommand,      ///< execute `command` of a control connection; result in `outcome`
     kRevokeSeat,   ///< remove the client `cid` from `seat`; result and tick in `outcome`
     kQueryPeers,   ///< number of free slots of `peers`, in `place`
@@ -42,6 +42,7 @@ struct ShardRequest {
   bool every_tick = true;  ///< kAdmitPeer: the watcher records the session
   std::size_t place = 0;   ///< slot of a peer, or number of free slots; kAdmitPeer, out: the peer's slot
   std::uint32_t cid = 0;
+  wire::CloseReason why = wire::CloseReason::kServerStops;
   Shard* target = nullptr;  ///< kMoveSession: of the same tick rate, with a socket of the same port
   /// kMoveSession: the kernel's program that gives the session's datagrams to the target, and the one in force.
   const io::SteeringProgram *steering = nullptr, *steering_before = nullptr;

@@ -104,6 +104,10 @@ TEST(SessionInputs, OfLoadAndSettingsReplay) {
   r.run(100);
   r.s.session->lifecycle().set_load_state({});
   r.s.session->set_record_interval(1);
+  r.run(100);
+  r.s.session->lifecycle().set_may_act(false);
+  r.run(300);
+  r.s.session->lifecycle().set_may_act(true);
   r.run(300);
   r.expect_equal();
 }

@@ -21,7 +21,7 @@ struct Living : SessionParts {
         }) {}
   /// Advances by one tick. @return the state then
   State step() {
-    lifecycle.report_overload({});
+    lifecycle.report_changes({});
     lifecycle.step({}, tools);
     return lifecycle.state();
   }
@@ -66,16 +66,38 @@ TEST(SessionLifecycle, ReportsBeginAndEndOfAnOverloadOnceTheSessionRuns) {
   EXPECT_TRUE(s.events().empty());
   s.start.begin({});
   EXPECT_EQ(s.step(), State::kOverloaded);
-  s.lifecycle.report_overload({});
+  s.lifecycle.report_changes({});
   auto events = s.events();
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].what, What::kOverload);
   EXPECT_EQ(events[0].seat, AuditEvent::kNoSeat);
   s.lifecycle.set_load_state({});
-  s.lifecycle.report_overload({});
+  s.lifecycle.report_changes({});
   events = s.events();
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].what, What::kOverloadCleared);
+}
+
+TEST(SessionLifecycle, DisengagesAllWhileTheServerMayNotAct) {
+  Living s;
+  s.lifecycle.set_may_act(false);
+  EXPECT_EQ(s.step(), State::kWaiting);
+  EXPECT_TRUE(s.lifecycle.disengages_all());
+  EXPECT_TRUE(s.events().empty()) << "nothing runs yet";
+  s.start.begin({});
+  EXPECT_EQ(s.lifecycle.state(), State::kHeld);
+  s.lifecycle.report_changes({});
+  s.lifecycle.report_changes({});
+  auto events = s.events();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].what, What::kLeaseDoubtful);
+  EXPECT_FALSE(s.lifecycle.clock_stopped()) << "the session's time goes on, as in an overload";
+  s.lifecycle.set_may_act(true);
+  EXPECT_FALSE(s.lifecycle.disengages_all());
+  s.lifecycle.report_changes({});
+  events = s.events();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].what, What::kLeaseRenewed);
 }
 
 }  // namespace

@@ -72,6 +72,8 @@ export const recordingsEn = {
   'event.authority-refused': 'A change of the authority over {tool} by {who} is rejected',
   'event.authority-canceled': 'An announced change of the authority over {tool} by {who} is canceled',
   'event.authority-deferred': 'A change of the authority over {tool} by {who} waits',
+  'event.lease-doubtful': 'Another server may own the session by now, so all hands are released',
+  'event.lease-renewed': 'The server owns the session for certain again',
   'event.by.timeline': 'the plan of the scene',
   'event.by.console': 'a console',
   'event.by.session': 'the session',

@@ -75,6 +75,8 @@ export const recordingsFr: Readonly<Record<keyof typeof recordingsEn, string>> =
   'event.authority-refused': 'Un changement de l’autorité sur {tool} par {who} est refusé',
   'event.authority-canceled': 'Un changement annoncé de l’autorité sur {tool} par {who} est annulé',
   'event.authority-deferred': 'Un changement de l’autorité sur {tool} par {who} attend',
+  'event.lease-doubtful': 'Un autre serveur pourrait avoir repris la séance : toutes les mains sont relâchées',
+  'event.lease-renewed': 'Le serveur est de nouveau sûr d’avoir la séance',
   'event.by.timeline': 'le plan de la scène',
   'event.by.console': 'une console',
   'event.by.session': 'la session',

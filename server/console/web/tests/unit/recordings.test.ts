@@ -42,6 +42,8 @@ const kAuditWords = [
   'authority-refused',
   'authority-canceled',
   'authority-deferred',
+  'lease-doubtful',
+  'lease-renewed',
 ];
 
 const kScene: Scene = {

@@ -1,0 +1,56 @@
+// Sessions that this server owns in a service of several servers.
+#include <algorithm>
+#include <utility>
+
+#include "server/app/process/session_table.h"
+
+namespace tandem::server {
+
+std::string SessionTable::open_owned(OwnedSession owned) {
+  if (draining_) return "this server is draining and takes no sessions";
+  const std::string& name = owned.options->name;
+  if (std::ranges::any_of(sessions_, [&](const auto& s) { return s->options().name == name; }))
+    return "this server has a session " + name + " that is not over yet";
+  const auto place = find_place(owned.options->scene);
+  if (!place) return place.error().text;
+  if (!shards_.assign(place->slot, place->shard)) return "the kernel gives no memory for the distribution of datagrams";
+  CheckpointStore::Found found;
+  if (owned.snapshot) {
+    // Another machine wrote the time. Clocks may differ, so participants have the whole time to come back from now on.
+    owned.snapshot->written_s = auth::wall_seconds();
+    found.incompatibility = incompatibility(*owned.snapshot, name, owned.options->scene, owned.snapshot->written_s);
+    if (found.incompatibility.empty()) found.snapshot = std::move(owned.snapshot);
+  }
+  auto opened = SessionInstance::open(*owned.options, {.slot = static_cast<std::uint8_t>(place->slot),
+                                                       .epoch = owned.revision,
+                                                       .with_code = !owned.code.empty(),
+                                                       .kept = found.snapshot ? &*found.snapshot : nullptr,
+                                                       .id = owned.id,
+                                                       .code = owned.code});
+  if (!opened) return opened.error().texts.front();
+  SessionInstance& session = **opened;
+  session.keep_options(std::move(owned.options), owned.ends_at);
+  session.set_keeper(owned.keeper);
+  session.set_owned(std::move(owned.on_over));
+  if (!serve_opened(std::move(*opened))) return "the thread of this tick rate takes no sessions at present";
+  report_restored(session, found);
+  return {};
+}
+
+void SessionTable::give_up(const std::string& name) {
+  const auto found = std::ranges::find_if(
+      sessions_, [&](const auto& s) { return s->options().name == name && s->on_over() != nullptr; });
+  if (found == sessions_.end()) return;
+  SessionInstance& session = **found;
+  session.live_session().set_act_until(Time{});
+  if (session.end == EndReason::kGivenUp) return;
+  session.end = EndReason::kGivenUp;
+  report(session, session.live_session().status(),
+         {"given_up", "", "GIVEN UP: another server may own the session now; its clients join there", true});
+  control_.change([&](SessionRegistry& registry, const auto& done) {
+    registry.end(session.id(), wire::CloseReason::kServerReturns);
+    done();
+  });
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,172 @@
+// Sessions of a service of several servers: opened as this server's own, given up, ended. Without clients.
+#include <map>
+
+#include "common/io/event_fd.h"
+#include "server/app/control/session_registry.h"
+#include "tests/server/app/process/table_rig.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+using Names = std::vector<std::string>;
+
+/// Keeps what the table passes on.
+class KeptSnapshots final : public SnapshotKeeper {
+ public:
+  std::shared_ptr<CheckpointMailbox> add(SessionSnapshot kept) override {
+    last = std::move(kept);
+    mailbox = std::make_shared<CheckpointMailbox>(wake_);
+    return mailbox;
+  }
+  void set_removed(const std::string&, const std::vector<std::array<std::byte, 32>>&) override {}
+  void set_persons(const std::string&, const std::vector<std::string>&) override {}
+  void remove(const std::string& name) override { removed.push_back(name); }
+  SessionSnapshot last;
+  std::shared_ptr<CheckpointMailbox> mailbox;
+  Names removed;
+
+ private:
+  io::EventFd wake_;
+};
+
+/// Options of a member of a service whose shards tick at the rate of scene `lesson`.
+ServerOptions member() {
+  ServerOptions options = options_with({lesson("configured")});
+  options.service = true;
+  return options;
+}
+
+struct Member {
+  /// A session of scene `lesson` as `revision` of its ownership.
+  OwnedSession owned(std::uint64_t revision) {
+    return {.options = std::make_shared<const SessionOptions>(lesson("exam")),
+            .id = {std::byte{7}},
+            .code = "ABCDEFGHJK",
+            .revision = revision,
+            .keeper = &kept,
+            .on_over = [this](bool given_up) { overs.push_back(given_up); }};
+  }
+  /// The checkpoint that the session has published last; the test fails after 10 s without one.
+  Checkpoint checkpoint() {
+    Checkpoint newest;
+    for (int i = 0; i < 1000; ++i) {
+      if (kept.mailbox->take(newest)) return newest;
+      poll(nullptr, 0, 10);
+    }
+    ADD_FAILURE() << "no checkpoint for 10 s";
+    return newest;
+  }
+  SessionInstance& only() { return *rig.table->all().front(); }
+  void service_until_over() {
+    rig.wait_until_over(only());
+    rig.table->service(io::monotonic_now());
+  }
+  KeptSnapshots kept;
+  std::vector<bool> overs;
+  TableRig rig{member()};
+};
+
+TEST(OwnedSessions, AreServedUnderTheirIdCodeAndRevision) {
+  Member m;
+  m.rig.start();
+  EXPECT_TRUE(m.rig.table->all().empty()) << "a member opens only what it owns";
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(4711)), "");
+  ASSERT_EQ(m.rig.names(), Names{"exam"});
+  EXPECT_EQ(m.only().id(), m.owned(0).id);
+  EXPECT_EQ(m.only().code(), "ABCDEFGHJK");
+  EXPECT_EQ(m.only().epoch(), 4711U);
+  EXPECT_EQ(m.kept.last.name, "exam");
+  EXPECT_EQ(m.kept.last.code, "ABCDEFGHJK");
+  EXPECT_EQ(m.checkpoint().epoch, 4711U);
+  EXPECT_NE(m.rig.table->open_owned(m.owned(4712)).find("has a session exam"), std::string::npos);
+}
+
+TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
+  Member m;
+  m.rig.start();
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(10)), "");
+  SessionSnapshot snapshot = m.kept.last;
+  snapshot.checkpoint = m.checkpoint();
+  snapshot.checkpoint.session_tick = 1234;
+  snapshot.checkpoint.begun = true;
+  snapshot.written_s = 1;  // by a machine whose clock is wrong by decades
+  m.rig.table->give_up("exam");
+  m.service_until_over();
+  OwnedSession again = m.owned(500);
+  again.snapshot = snapshot;
+  ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
+  EXPECT_EQ(m.only().epoch(), 500U);
+  ASSERT_NE(m.only().snapshot(), nullptr);
+  EXPECT_EQ(m.checkpoint().session_tick, 1234U);
+  m.rig.table->service(io::monotonic_now() + 599s);
+  EXPECT_FALSE(m.only().end) << "participants have the whole time to come back";
+
+  // A snapshot of another scene is not used, and the epoch is the revision nevertheless.
+  m.rig.table->give_up("exam");
+  m.service_until_over();
+  snapshot.checkpoint.scene = {};
+  again = m.owned(600);
+  again.snapshot = snapshot;
+  ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
+  EXPECT_EQ(m.only().snapshot(), nullptr);
+  EXPECT_EQ(m.only().epoch(), 600U);
+}
+
+TEST(OwnedSessions, KeepTheirSnapshotWhenTheyAreGivenUp) {
+  Member m;
+  m.rig.start();
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(3)), "");
+  m.rig.table->give_up("another");
+  EXPECT_FALSE(m.only().end);
+  m.rig.table->give_up("exam");
+  m.rig.table->give_up("exam");
+  EXPECT_EQ(m.only().end, EndReason::kGivenUp);
+  m.service_until_over();
+  EXPECT_TRUE(m.rig.table->all().empty());
+  EXPECT_EQ(m.overs, std::vector{true});
+  EXPECT_TRUE(m.kept.removed.empty());
+  EXPECT_EQ(m.rig.table->exit_code(), 0);
+}
+
+TEST(OwnedSessions, TakeTheirSnapshotAlongWhenTheyEnd) {
+  Member m;
+  m.rig.start();
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(3)), "");
+  const rpc::Body reply = m.rig.order(rpc::EndSession{.session_id = m.only().id()});
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(reply));
+  EXPECT_EQ(m.overs, std::vector{false});
+  EXPECT_EQ(m.kept.removed, Names{"exam"});
+}
+
+TEST(OwnedSessions, AreGivenUpByADrain) {
+  Member m;
+  m.rig.start();
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(3)), "");
+  m.rig.table->drain();
+  EXPECT_EQ(m.only().end, EndReason::kGivenUp);
+  EXPECT_NE(m.rig.table->open_owned(m.owned(4)).find("draining"), std::string::npos);
+  m.service_until_over();
+  EXPECT_EQ(m.overs, std::vector{true});
+  EXPECT_TRUE(m.kept.removed.empty());
+}
+
+/// The tick itself reads the clock: nothing else runs here.
+TEST(OwnedSessions, HoldFromTheTimeThatWasSet) {
+  Member m;
+  m.rig.start();
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(3)), "");
+  LiveSession& live = m.only().live_session();
+  const auto acts = [&](bool wanted) {
+    for (int i = 0; i < 1000 && live.status().may_act != wanted; ++i) poll(nullptr, 0, 10);
+    return live.status().may_act;
+  };
+  EXPECT_TRUE(acts(true));
+  live.set_act_until(io::boottime_now() + 50ms);
+  EXPECT_FALSE(acts(false));
+  live.set_act_until(io::boottime_now() + 1h);
+  EXPECT_TRUE(acts(true));
+}
+
+}  // namespace
+}  // namespace tandem::server
