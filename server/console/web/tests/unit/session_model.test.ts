@@ -134,9 +134,8 @@ describe('SessionModel', () => {
       if (seat && n % 37 === 0) seat.trips += 1;
       if (seat && n % 50 === 0) seat.heard = !seat.heard;
       if (n % 20 === 0) session.event(`event ${n}`);
-      const frame = JSON.stringify(session.state(n, 0, 'ina', 'INSTRUCTOR'));
-      // Most states are the same shape; parsing each tenth keeps the test short.
-      const message = n % 10 === 0 ? parseMessage(frame) : null;
+      // Most states have the same shape; each tenth as a message keeps the test short.
+      const message = n % 10 === 0 ? parseMessage(JSON.stringify(session.state(n, 0, 'ina', 'INSTRUCTOR'))) : null;
       if (message) model.apply(message, n * 200);
       const event = session.events[session.events.length - 1];
       if (event && n % 20 === 0) model.apply({ ...event, number: n } as GatewayMessage, n * 200);
