@@ -1,0 +1,76 @@
+#include "server/service/registry_entries.h"
+
+#include <nlohmann/json.hpp>
+
+#include "common/auth/key_fingerprint.h"
+#include "common/base/hex.h"
+
+namespace tandem::server {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Rows {
+  std::optional<WorkstationRow> workstation;
+  std::optional<CodeRow> code;
+};
+
+/// Reads `{"KEY": "64 digits", "TIME": seconds}`.
+bool read_pair(const Json& in, const char* key, const char* time, Sha256& digest, std::int64_t& seconds) {
+  if (!in.is_object()) return false;
+  const auto hex = in.find(key), at = in.find(time);
+  if (hex == in.end() || at == in.end() || !hex->is_string() || !at->is_number_integer()) return false;
+  if (!auth::from_hex(hex->get<std::string>(), digest)) return false;
+  seconds = at->get<std::int64_t>();
+  return true;
+}
+
+std::optional<Rows> parse_entry(std::string_view text) {
+  if (text.size() > kRegistryEntryMax) return std::nullopt;
+  const Json in = Json::parse(text, nullptr, false);
+  if (!in.is_object()) return std::nullopt;
+  Rows rows;
+  if (const auto found = in.find("workstation"); found != in.end()) {
+    WorkstationRow& row = rows.workstation.emplace();
+    if (!read_pair(*found, "spki", "enrolled_at", row.spki, row.enrolled_at)) return std::nullopt;
+  }
+  if (const auto found = in.find("code"); found != in.end()) {
+    CodeRow& row = rows.code.emplace();
+    if (!read_pair(*found, "hash", "not_after", row.hash, row.not_after)) return std::nullopt;
+  }
+  return rows;
+}
+
+}  // namespace
+
+RegistryEntries entries_of(const RegistryLists& lists) {
+  std::map<std::string, Json> made;
+  for (const WorkstationRow& row : lists.workstations)
+    made[row.name]["workstation"] = {{"spki", to_hex(row.spki)}, {"enrolled_at", row.enrolled_at}};
+  for (const CodeRow& row : lists.codes)
+    made[row.workstation]["code"] = {{"hash", to_hex(row.hash)}, {"not_after", row.not_after}};
+  RegistryEntries entries;
+  for (const auto& [name, json] : made) entries[name] = json.dump();
+  return entries;
+}
+
+RegistryLists lists_of(const RegistryEntries& entries) {
+  RegistryLists lists;
+  for (const auto& [name, text] : entries) {
+    auto rows = parse_entry(text);
+    if (!rows) continue;
+    if (rows->workstation) {
+      rows->workstation->name = name;
+      lists.workstations.push_back(std::move(*rows->workstation));
+    }
+    if (rows->code) {
+      rows->code->workstation = name;
+      lists.codes.push_back(std::move(*rows->code));
+    }
+  }
+  return lists;
+}
+
+bool readable_entry(std::string_view text) { return parse_entry(text).has_value(); }
+
+}  // namespace tandem::server

@@ -1,0 +1,151 @@
+#include "server/service/shared_registry.h"
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace tandem::server {
+namespace {
+
+const std::string kNone;
+const std::string kMark = ".mark";  // no name of a workstation has a point
+
+const std::string& text_in(const RegistryEntries& entries, const std::string& name) {
+  const auto found = entries.find(name);
+  return found == entries.end() ? kNone : found->second;
+}
+
+}  // namespace
+
+std::string to_text(const RegistryAgreement& agreed) {
+  return nlohmann::json{{"mark", agreed.mark}, {"entries", agreed.entries}}.dump(1) + "\n";
+}
+
+std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text) {
+  const auto in = nlohmann::json::parse(text, nullptr, false);
+  if (!in.is_object() || !in.contains("mark") || !in["mark"].is_string() || !in.contains("entries") ||
+      !in["entries"].is_object())
+    return std::nullopt;
+  RegistryAgreement agreed{in["mark"].get<std::string>(), {}};
+  for (const auto& [name, value] : in["entries"].items()) {
+    if (!value.is_string() || !readable_entry(value.get<std::string>())) return std::nullopt;
+    agreed.entries[name] = value.get<std::string>();
+  }
+  return agreed;
+}
+
+const std::string& SharedRegistry::stored_text(const std::string& name) const {
+  const auto found = stored_.find(name);
+  return found == stored_.end() ? kNone : found->second.text;
+}
+
+bool SharedRegistry::unreadable(const std::string& name) const {
+  const auto found = stored_.find(name);
+  return found != stored_.end() && found->second.text.empty();
+}
+
+std::string SharedRegistry::merged(const std::string& name) const {
+  const std::string &before = text_in(agreed_.entries, name), &local = text_in(local_, name),
+                    &stored = stored_text(name);
+  if (unreadable(name)) return local;
+  if (local == before) return stored;
+  if (stored == before || local == stored) return local;
+  return local.empty() ? local : stored;  // both changed: a revocation wins, else the directory
+}
+
+std::vector<std::string> SharedRegistry::names() const {
+  std::set<std::string> all;
+  for (const auto& [name, text] : agreed_.entries) all.insert(name);
+  for (const auto& [name, text] : local_) all.insert(name);
+  for (const auto& [name, entry] : stored_) all.insert(name);
+  all.erase(kMark);
+  return {all.begin(), all.end()};
+}
+
+directory::Request SharedRegistry::change(const std::string& name, std::string text, Time now,
+                                          directory::OperationId operation) {
+  operation_ = operation;
+  sent_ = now;
+  changing_ = name;
+  change_ = std::move(text);
+  const auto known = stored_.find(name);
+  directory::Transaction change{{{prefix_ + name, directory::Condition::Of::kModified,
+                                  known == stored_.end() ? 0 : known->second.modified}},
+                                {},
+                                {}};
+  if (change_.empty()) {
+    change.then.push_back(directory::Erase{prefix_ + name});
+  } else {
+    change.then.push_back(directory::Put{prefix_ + name, change_, 0});
+  }
+  return change;
+}
+
+std::optional<directory::Request> SharedRegistry::poll_request(Time now, directory::OperationId operation,
+                                                               Duration retry_after) {
+  if (auto request = follower_.poll_request(now, operation, retry_after)) return request;
+  if (operation_ != 0 && now - sent_ >= retry_after) operation_ = 0;  // a later answer is ignored; the follower tells
+  if (refused_) {
+    refused_ = false;
+    next_ = now + kPause;
+  }
+  if (!follower_.follows() || operation_ != 0 || now < next_) return std::nullopt;
+  if (stored_text(kMark).empty()) return change(kMark, new_mark_, now, operation);
+  agree();
+  for (const std::string& name : names())
+    if (std::string wanted = merged(name); !unreadable(name) && wanted != stored_text(name))
+      return change(name, std::move(wanted), now, operation);
+  return std::nullopt;
+}
+
+bool SharedRegistry::on_reply(const directory::Reply& reply) {
+  if (const auto news = follower_.on_reply(reply)) {
+    if (news->all) stored_.clear();
+    for (const directory::Change& change : news->changes) apply(change);
+    return true;
+  }
+  if (operation_ == 0 || reply.operation != operation_) return false;
+  operation_ = 0;
+  // If it was not written, another server has changed the name meanwhile, of which the follower tells.
+  refused_ = reply.outcome != directory::Outcome::kDone || !reply.held;
+  if (refused_) return true;
+  if (change_.empty()) {
+    stored_.erase(changing_);
+  } else {
+    stored_[changing_] = {change_, reply.revision};
+  }
+  return true;
+}
+
+void SharedRegistry::apply(const directory::Change& change) {
+  const std::string name = change.entry.key.substr(prefix_.size());
+  if (change.erased) {
+    stored_.erase(name);
+    return;
+  }
+  const bool readable = name == kMark || readable_entry(change.entry.value);
+  if (!readable) ++rejected_;
+  stored_[name] = {readable ? change.entry.value : "", change.entry.modified};
+}
+
+void SharedRegistry::agree() {
+  if (agreed_.mark != stored_text(kMark)) agreed_ = {stored_text(kMark), {}};
+  for (const std::string& name : names()) {
+    const std::string& local = text_in(local_, name);
+    if (unreadable(name) || local != stored_text(name)) continue;
+    if (local.empty()) {
+      agreed_.entries.erase(name);
+    } else {
+      agreed_.entries[name] = local;
+    }
+  }
+}
+
+std::optional<RegistryEntries> SharedRegistry::wanted() const {
+  if (!follower_.follows() || agreed_.mark.empty() || agreed_.mark != stored_text(kMark)) return std::nullopt;
+  RegistryEntries all;
+  for (const std::string& name : names())
+    if (std::string text = merged(name); !text.empty()) all[name] = std::move(text);
+  return all == local_ ? std::nullopt : std::optional(std::move(all));
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/directory/prefix_follower.h"
+#include "server/service/registry_entries.h"
+
+namespace tandem::server {
+
+/// What files and directory had in common.
+struct RegistryAgreement {
+  std::string mark;  ///< of that directory
+  RegistryEntries entries;
+  friend bool operator==(const RegistryAgreement&, const RegistryAgreement&) = default;
+};
+/// As one text for a file, and back. Reads any bytes; nullopt: they are no such text.
+[[nodiscard]] std::string to_text(const RegistryAgreement& agreed);
+[[nodiscard]] std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text);
+
+/// Keeps the workstations and codes of a server equal to those of its service: what was enrolled, issued or revoked at
+/// one server holds at all. Each server has its own files, which its commands change; this class compares three states
+/// of each name: as of the last agreement, in the files, in the directory. A change on one side goes to the other. If
+/// both sides changed, a revocation wins, else the directory.
+///
+/// While the directory does not answer, the files hold as they are. A directory that was begun from nothing gets what
+/// the files have: a mark in it, drawn at random, tells it from the one of the last agreement. Pure: no clock, file,
+/// socket or thread.
+class SharedRegistry {
+ public:
+  static constexpr Duration kPause = std::chrono::milliseconds(50);  ///< after a change that was not written
+
+  /// @param prefix  of the directory's keys, begins and ends with "/"
+  /// @param agreed  `agreed()` from the time before a restart; empty: there was none
+  /// @param mark    random text, for a directory without one
+  SharedRegistry(const std::string& prefix, RegistryAgreement agreed, std::string mark)
+      : prefix_(prefix + "registry/"), follower_(prefix_), agreed_(std::move(agreed)), new_mark_(std::move(mark)) {}
+
+  /// Sets the entries of the files as they are now.
+  void set_local(RegistryEntries local) { local_ = std::move(local); }
+
+  /// Returns the request to begin now, if there is one.
+  [[nodiscard]] std::optional<directory::Request> poll_request(Time now, directory::OperationId operation,
+                                                               Duration retry_after);
+  /// Takes a reply. Returns whether it belongs to this object.
+  bool on_reply(const directory::Reply& reply);
+
+  /// Returns the entries that the files must have, if they have others. The caller writes them, unless the files have
+  /// changed meanwhile, and calls `set_local`.
+  [[nodiscard]] std::optional<RegistryEntries> wanted() const;
+  /// Entries on which files and directory agree; the caller stores them for the next start.
+  [[nodiscard]] const RegistryAgreement& agreed() const noexcept { return agreed_; }
+  /// The copy of the directory is complete and follows it.
+  [[nodiscard]] bool follows() const noexcept { return follower_.follows(); }
+  /// Keys of the directory that cannot be read; they change nothing here.
+  [[nodiscard]] std::uint64_t rejected() const noexcept { return rejected_; }
+
+ private:
+  struct Stored {
+    std::string text;  ///< empty: it cannot be read
+    directory::Revision modified = 0;
+  };
+  void apply(const directory::Change& change);
+  /// Text that both sides should have; empty: none.
+  [[nodiscard]] std::string merged(const std::string& name) const;
+  [[nodiscard]] const std::string& stored_text(const std::string& name) const;
+  [[nodiscard]] bool unreadable(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> names() const;
+  [[nodiscard]] directory::Request change(const std::string& key, std::string text, Time now,
+                                          directory::OperationId operation);
+  void agree();
+
+  std::string prefix_;
+  directory::PrefixFollower follower_;
+  RegistryAgreement agreed_;
+  std::string new_mark_;
+  RegistryEntries local_;
+  std::map<std::string, Stored, std::less<>> stored_;
+  directory::OperationId operation_ = 0;  ///< of a change under way; 0: none
+  std::string changing_, change_;         ///< its name and text
+  Time sent_{}, next_{};
+  bool refused_ = false;
+  std::uint64_t rejected_ = 0;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,236 @@
+// Workstations and codes of several servers, kept equal through a directory in memory, in virtual time.
+#include "server/service/shared_registry.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/rng.h"
+#include "tests/common/base/counts.h"
+#include "tests/server/service/service_fixture.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+WorkstationRow workstation(const std::string& name, int key) { return {name, {std::byte(key)}, 1000 + key}; }
+CodeRow code(const std::string& name, int hash) { return {{std::byte(hash)}, name, 2000 + hash}; }
+
+/// A server with its two lists, as its files have them.
+struct Desk {
+  Desk(directory::ModelStore& store, std::string drawn, RegistryAgreement agreed = {})
+      : directory(store), registry("/t/", std::move(agreed), std::move(drawn)) {}
+
+  void step(Time now) {
+    registry.set_local(entries_of(lists));
+    while (auto request = registry.poll_request(now, operation + 1, 1s)) directory.begin(++operation, *request);
+    while (const auto reply = directory.poll()) registry.on_reply(*reply);
+    if (const auto wanted = registry.wanted()) lists = lists_of(*wanted);
+  }
+  void enroll(const std::string& name, int key) {
+    std::erase_if(lists.workstations, [&](const WorkstationRow& row) { return row.name == name; });
+    std::erase_if(lists.codes, [&](const CodeRow& row) { return row.workstation == name; });
+    lists.workstations.push_back(workstation(name, key));
+  }
+  void issue(const std::string& name, int hash) {
+    std::erase_if(lists.codes, [&](const CodeRow& row) { return row.workstation == name; });
+    lists.codes.push_back(code(name, hash));
+  }
+  void revoke(const std::string& name) {
+    std::erase_if(lists.workstations, [&](const WorkstationRow& row) { return row.name == name; });
+    std::erase_if(lists.codes, [&](const CodeRow& row) { return row.workstation == name; });
+  }
+  [[nodiscard]] int key_of(const std::string& name) const {
+    for (const WorkstationRow& row : lists.workstations)
+      if (row.name == name) return std::to_integer<int>(row.spki[0]);
+    return 0;
+  }
+
+  RegistryLists lists;
+  test::CuttableDirectory directory;
+  SharedRegistry registry;
+  directory::OperationId operation = 0;
+};
+
+struct Desks {
+  explicit Desks(std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) desk.push_back(std::make_unique<Desk>(store, "mark" + std::to_string(i)));
+  }
+  void pass(Duration time) {
+    for (const Time end = now + time; now < end; now += 20ms) {
+      store.advance(now);
+      for (const auto& d : desk) d->step(now);
+    }
+  }
+  Desk& operator[](std::size_t i) { return *desk[i]; }
+  directory::ModelStore store;
+  std::vector<std::unique_ptr<Desk>> desk;
+  Time now{1s};
+};
+
+TEST(RegistryEntries, HaveOneTextPerNameAndReadBack) {
+  const RegistryLists lists{{workstation("a", 1), workstation("b", 2)}, {code("b", 3), code("c", 4)}};
+  const RegistryEntries entries = entries_of(lists);
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_EQ(entries.at("a"), "{\"workstation\":{\"enrolled_at\":1001,\"spki\":\"01" + std::string(62, '0') + "\"}}");
+  EXPECT_EQ(lists_of(entries), lists);
+  for (const char* bad : {"", "{", "[]", "{\"workstation\":1}", "{\"workstation\":{\"spki\":\"0\",\"enrolled_at\":1}}",
+                          "{\"code\":{\"hash\":7,\"not_after\":1}}"})
+    EXPECT_FALSE(readable_entry(bad)) << bad;
+  EXPECT_FALSE(readable_entry(std::string(5000, ' ') + "{}"));
+  EXPECT_TRUE(readable_entry("{\"key of a later version\":1}"));
+}
+
+TEST(RegistryEntries, OfAnAgreementReadBackFromAFile) {
+  const RegistryAgreement agreed{"mark", entries_of({{workstation("a", 1)}, {code("b", 2)}})};
+  EXPECT_EQ(parse_registry_agreement(to_text(agreed)), agreed);
+  for (const char* bad : {"", "{}", "{\"mark\":1,\"entries\":{}}", "{\"mark\":\"m\",\"entries\":{\"a\":\"x\"}}"})
+    EXPECT_FALSE(parse_registry_agreement(bad)) << bad;
+}
+
+TEST(SharedRegistry, BringsAnEnrolmentACodeAndARevocationToAllServers) {
+  Desks desks(3);
+  desks[0].enroll("a", 1);
+  desks[1].issue("b", 7);
+  desks.pass(1s);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(desks[i].key_of("a"), 1);
+    EXPECT_EQ(desks[i].lists.codes, std::vector{code("b", 7)});
+  }
+  desks[2].enroll("b", 2);  // with the code that another server issued, which is used up everywhere
+  desks[1].revoke("a");
+  desks.pass(1s);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(desks[i].key_of("a"), 0);
+    EXPECT_EQ(desks[i].key_of("b"), 2);
+    EXPECT_TRUE(desks[i].lists.codes.empty());
+  }
+}
+
+TEST(SharedRegistry, GivesOneKeyToACodeThatTwoServersAcceptedAtOnce) {
+  Desks desks(2);
+  desks[0].issue("a", 7);
+  desks.pass(1s);
+  desks[0].enroll("a", 1);
+  desks[1].enroll("a", 2);
+  desks.pass(1s);
+  EXPECT_EQ(desks[0].key_of("a"), desks[1].key_of("a"));
+  EXPECT_NE(desks[0].key_of("a"), 0);
+}
+
+TEST(SharedRegistry, KeepsARevocationThatWasMadeWhileAServerWasCutOff) {
+  Desks desks(2);
+  desks[0].enroll("a", 1);
+  desks[0].enroll("b", 1);
+  desks.pass(1s);
+  desks[1].directory.cut = true;
+  desks.pass(5s);
+  desks[0].revoke("a");
+  desks[1].enroll("a", 3);  // the server that was cut off does not know of it
+  desks[1].revoke("b");
+  desks[0].enroll("b", 4);
+  desks.pass(1s);
+  EXPECT_EQ(desks[1].key_of("a"), 3) << "its files hold while it is cut off";
+  desks[1].directory.cut = false;
+  desks.pass(3s);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(desks[i].key_of("b"), 0) << "a revocation wins, on whichever side it was made";
+    EXPECT_EQ(desks[i].key_of("a"), desks[0].key_of("a"));
+  }
+}
+
+TEST(SharedRegistry, KnowsAfterARestartWhatWasRevokedMeanwhile) {
+  Desks desks(2);
+  desks[0].enroll("a", 1);
+  desks[0].enroll("b", 2);
+  desks.pass(1s);
+  const RegistryAgreement agreed = desks[1].registry.agreed();
+  const RegistryLists files = desks[1].lists;
+  desks.desk.pop_back();
+  desks[0].revoke("a");
+  desks.pass(1s);
+  desks.desk.push_back(std::make_unique<Desk>(desks.store, "other", agreed));
+  desks[1].lists = files;
+  desks[1].enroll("c", 3);  // while the server did not run
+  desks.pass(1s);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(desks[i].key_of("a"), 0);
+    EXPECT_EQ(desks[i].key_of("b"), 2);
+    EXPECT_EQ(desks[i].key_of("c"), 3);
+  }
+}
+
+TEST(SharedRegistry, LosesNothingWhenTheDirectoryIsBegunFromNothing) {
+  directory::ModelStore first, second;
+  Time now{1s};
+  const auto run = [&](directory::ModelStore& store, Desk& desk) {
+    for (int i = 0; i < 100; ++i) {
+      store.advance(now += 20ms);
+      desk.step(now);
+    }
+  };
+  Desk desk(first, "one");
+  desk.enroll("a", 1);
+  run(first, desk);
+  ASSERT_EQ(desk.registry.agreed().entries.size(), 1U);
+  Desk again(second, "two", desk.registry.agreed());
+  again.lists = desk.lists;
+  run(second, again);
+  EXPECT_EQ(again.key_of("a"), 1);
+  EXPECT_EQ(again.registry.agreed().mark, "two");
+}
+
+TEST(SharedRegistry, LeavesAloneWhatItCannotRead) {
+  Desks desks(2);
+  desks[0].enroll("a", 1);
+  desks.pass(1s);
+  test::CuttableDirectory by_hand(desks.store);
+  by_hand.begin(1, directory::Transaction{{}, {directory::Put{"/t/registry/a", "newer form", 0}}, {}});
+  desks.pass(1s);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(desks[i].key_of("a"), 1);
+    EXPECT_EQ(desks[i].registry.rejected(), 1U);
+  }
+  EXPECT_EQ(desks.store.entries().at("/t/registry/a").value, "newer form");
+}
+
+// Random changes at random servers, of which each is cut off now and then: in the end all have the same lists.
+TEST(SharedRegistry, AgreesAfterRandomChanges) {
+  const std::uint64_t count = tandem::test::seeds(20);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    Desks desks(3);
+    for (int i = 0; i < 200; ++i) {
+      Desk& desk = desks[draws.below(3)];
+      const std::string name = "w" + std::to_string(draws.below(5));
+      const int number = 1 + static_cast<int>(draws.below(200));
+      switch (draws.below(5)) {
+        case 0:
+          desk.revoke(name);
+          break;
+        case 1:
+          desk.issue(name, number);
+          break;
+        case 2:
+          desk.directory.cut = !desk.directory.cut;
+          break;
+        default:
+          desk.enroll(name, number);
+      }
+      desks.pass(Duration{static_cast<std::int64_t>(draws.below(300'000'000))});
+    }
+    for (const auto& desk : desks.desk) desk->directory.cut = false;
+    desks.pass(5s);
+    for (const auto& desk : desks.desk) {
+      EXPECT_EQ(entries_of(desk->lists), entries_of(desks[0].lists));
+      EXPECT_EQ(desk->registry.agreed(), desks[0].registry.agreed());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tandem::server
