@@ -10,12 +10,12 @@
 #include "common/transport/digest.h"
 
 namespace tandem::auth {
-namespace {
-
-constexpr std::string_view kLabel = "tandem-ticket-key-v1 ";
-constexpr std::size_t kTextSize = kLabel.size() + 64 + 1;
-
-}  // namespace
+TicketVerifier TicketVerifier::of(const std::array<std::byte, 32>& key) noexcept {
+  TicketVerifier out{key, 0};
+  const auto hash = transport::sha256(key);
+  for (std::size_t i = 0; i < 4; ++i) out.kid |= std::to_integer<std::uint32_t>(hash[i]) << (8 * i);
+  return out;
+}
 
 bool TicketVerifier::verifies(std::span<const std::byte> message, const Signature& signature) const noexcept {
   return crypto_sign_verify_detached(raw(signature.data()), raw(message.data()), message.size(), raw(key.data())) == 0;
@@ -23,8 +23,7 @@ bool TicketVerifier::verifies(std::span<const std::byte> message, const Signatur
 
 TicketKey::TicketKey(const Secret<32>& seed) noexcept : seed_(seed) {
   crypto_sign_seed_keypair(raw(verifier_.key.data()), raw(expanded_.bytes.data()), raw(seed.bytes.data()));
-  const auto hash = transport::sha256(verifier_.key);
-  for (std::size_t i = 0; i < 4; ++i) verifier_.kid |= std::to_integer<std::uint32_t>(hash[i]) << (8 * i);
+  verifier_ = TicketVerifier::of(verifier_.key);
 }
 
 Signature TicketKey::sign(std::span<const std::byte> message) const noexcept {
@@ -34,23 +33,23 @@ Signature TicketKey::sign(std::span<const std::byte> message) const noexcept {
   return signature;
 }
 
-SecretBuffer TicketKey::to_text() const {
+SecretBuffer TicketKey::to_text(std::string_view label) const {
   std::string hex = to_hex(seed_.bytes);
-  SecretBuffer text(kTextSize);
+  SecretBuffer text(label.size() + hex.size() + 1);
   const auto out = text.bytes();
-  std::ranges::copy(bytes_of(kLabel), out.begin());
-  std::ranges::copy(bytes_of(hex), out.begin() + static_cast<std::ptrdiff_t>(kLabel.size()));
+  std::ranges::copy(bytes_of(label), out.begin());
+  std::ranges::copy(bytes_of(hex), out.begin() + static_cast<std::ptrdiff_t>(label.size()));
   out.back() = std::byte{'\n'};
   wipe(hex);
   return text;
 }
 
-std::expected<TicketKey, std::string> TicketKey::from_text(std::span<const std::byte> text) {
+std::expected<TicketKey, std::string> TicketKey::from_text(std::span<const std::byte> text, std::string_view label) {
   Secret<32> seed;
   const std::string_view line = text_of(text);
-  if (line.size() != kTextSize || !line.starts_with(kLabel) || line.back() != '\n' ||
-      !from_hex(line.substr(kLabel.size(), 64), seed.bytes))
-    return std::unexpected("holds no ticket key: expected one line `tandem-ticket-key-v1` and 64 hex digits");
+  if (line.size() != label.size() + 64 + 1 || !line.starts_with(label) || line.back() != '\n' ||
+      !from_hex(line.substr(label.size(), 64), seed.bytes))
+    return std::unexpected("holds no such key: expected one line `" + std::string(label) + "` and 64 hex digits");
   return TicketKey(seed);
 }
 

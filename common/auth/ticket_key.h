@@ -6,6 +6,7 @@
 #include <expected>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "common/base/secret.h"
 
@@ -18,6 +19,7 @@ struct TicketVerifier {
   std::array<std::byte, 32> key{};
   std::uint32_t kid = 0;  ///< key id in tickets: the first four bytes of the key's SHA-256, little-endian
 
+  [[nodiscard]] static TicketVerifier of(const std::array<std::byte, 32>& key) noexcept;
   /// Verifies strictly: rejects keys and signatures of small order, and signatures in a non-canonical form.
   [[nodiscard]] bool verifies(std::span<const std::byte> message, const Signature& signature) const noexcept;
 };
@@ -31,9 +33,13 @@ class TicketKey {
   [[nodiscard]] Signature sign(std::span<const std::byte> message) const noexcept;
   [[nodiscard]] const TicketVerifier& verifier() const noexcept { return verifier_; }
 
-  /// Returns one line of text for a file of mode 0600: `tandem-ticket-key-v1 HEX`.
-  [[nodiscard]] SecretBuffer to_text() const;
-  [[nodiscard]] static std::expected<TicketKey, std::string> from_text(std::span<const std::byte> text);
+  /// First words of the files of keys. The key of a service signs vouchers, and no ticket.
+  static constexpr std::string_view kTicketLabel = "tandem-ticket-key-v1 ", kServiceLabel = "tandem-service-key-v1 ";
+
+  /// Returns one line of text for a file of mode 0600: the label and the key in hex.
+  [[nodiscard]] SecretBuffer to_text(std::string_view label = kTicketLabel) const;
+  [[nodiscard]] static std::expected<TicketKey, std::string> from_text(std::span<const std::byte> text,
+                                                                       std::string_view label = kTicketLabel);
 
  private:
   Secret<32> seed_;

@@ -61,6 +61,28 @@ std::expected<KeyFingerprint, std::string> fingerprint_of_key(X509_PUBKEY* key) 
   return KeyFingerprint{transport::sha256(bytes)};
 }
 
+/// Object identifier of the credential: the arc 2.25 of UUIDs needs no registration [ITU-T X.667].
+struct CredentialId {
+  ASN1_OBJECT* object = OBJ_txt2obj("2.25.153576311631204445934303684696471065803", 1);
+  CredentialId() = default;
+  CredentialId(const CredentialId&) = delete;
+  CredentialId& operator=(const CredentialId&) = delete;
+  ~CredentialId() { ASN1_OBJECT_free(object); }
+};
+
+bool add_credential(X509* certificate, std::span<const std::byte> credential) {
+  const CredentialId id;
+  ASN1_OCTET_STRING* const content = ASN1_OCTET_STRING_new();
+  X509_EXTENSION* extension = nullptr;
+  const bool made = id.object != nullptr && content != nullptr &&
+                    ASN1_OCTET_STRING_set(content, raw(credential.data()), static_cast<int>(credential.size())) == 1 &&
+                    X509_EXTENSION_create_by_OBJ(&extension, id.object, 0, content) != nullptr;
+  const bool added = made && X509_add_ext(certificate, extension, -1) == 1;
+  X509_EXTENSION_free(extension);
+  ASN1_OCTET_STRING_free(content);
+  return added;
+}
+
 }  // namespace
 
 void TlsKey::Free::operator()(evp_pkey_st* key) const noexcept { EVP_PKEY_free(key); }
@@ -96,7 +118,8 @@ KeyFingerprint TlsKey::fingerprint() const {
 }
 
 Certificate Certificate::self_signed(const TlsKey& key, std::string_view common_name,
-                                     std::span<const std::byte, 16> serial, std::int64_t now) {
+                                     std::span<const std::byte, 16> serial, std::int64_t now,
+                                     std::span<const std::byte> credential) {
   Certificate made(X509_new());
   X509* const x = made.handle();
   if (x == nullptr) fail("make a certificate");
@@ -109,13 +132,13 @@ Certificate Certificate::self_signed(const TlsKey& key, std::string_view common_
   BN_free(big);
   X509_NAME* const name = X509_get_subject_name(x);
   constexpr std::int64_t kSeconds = Certificate::kYears * 365 * 24 * 3600;
-  const bool good = numbered && X509_set_version(x, X509_VERSION_3) == 1 &&
-                    ASN1_TIME_set(X509_getm_notBefore(x), now) != nullptr &&
-                    ASN1_TIME_set(X509_getm_notAfter(x), now + kSeconds) != nullptr &&
-                    X509_NAME_add_entry_by_NID(name, NID_commonName, MBSTRING_UTF8, raw(common_name.data()),
-                                               static_cast<int>(common_name.size()), -1, 0) == 1 &&
-                    X509_set_issuer_name(x, name) == 1 && X509_set_pubkey(x, key.handle()) == 1 &&
-                    X509_sign(x, key.handle(), EVP_sha256()) > 0;
+  const bool good =
+      numbered && X509_set_version(x, X509_VERSION_3) == 1 && ASN1_TIME_set(X509_getm_notBefore(x), now) != nullptr &&
+      ASN1_TIME_set(X509_getm_notAfter(x), now + kSeconds) != nullptr &&
+      X509_NAME_add_entry_by_NID(name, NID_commonName, MBSTRING_UTF8, raw(common_name.data()),
+                                 static_cast<int>(common_name.size()), -1, 0) == 1 &&
+      X509_set_issuer_name(x, name) == 1 && X509_set_pubkey(x, key.handle()) == 1 &&
+      (credential.empty() || add_credential(x, credential)) && X509_sign(x, key.handle(), EVP_sha256()) > 0;
   if (!good) fail("make a certificate");
   return made;
 }
@@ -143,6 +166,15 @@ std::expected<KeyFingerprint, std::string> fingerprint_of(const x509_st* certifi
   const EVP_PKEY* const key = X509_get0_pubkey(certificate);
   if (key == nullptr || !is_p256(key)) return std::unexpected(kNotP256);
   return fingerprint_of_key(X509_get_X509_PUBKEY(certificate));
+}
+
+std::vector<std::byte> credential_in(const x509_st* certificate) {
+  const CredentialId id;
+  const int at = id.object == nullptr ? -1 : X509_get_ext_by_OBJ(certificate, id.object, -1);
+  const ASN1_OCTET_STRING* const content = at < 0 ? nullptr : X509_EXTENSION_get_data(X509_get_ext(certificate, at));
+  if (content == nullptr) return {};
+  const auto* const first = reinterpret_cast<const std::byte*>(ASN1_STRING_get0_data(content));
+  return {first, first + ASN1_STRING_length(content)};
 }
 
 Identity Identity::make(std::string_view common_name, std::span<const std::byte, 16> serial, std::int64_t now) {

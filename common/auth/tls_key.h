@@ -8,6 +8,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "common/auth/key_fingerprint.h"
 #include "common/base/secret.h"
@@ -47,9 +49,11 @@ class Certificate {
 
   /// @param serial  random
   /// @param now     seconds since 1970, UTC; the certificate is valid from then on, for 30 years of 365 days
+  /// @param credential  encoded MemberCredential (proto/rpc/service_codec.h) of a server; empty: none
   /// @throws std::runtime_error if OpenSSL fails
   [[nodiscard]] static Certificate self_signed(const TlsKey& key, std::string_view common_name,
-                                               std::span<const std::byte, 16> serial, std::int64_t now);
+                                               std::span<const std::byte, 16> serial, std::int64_t now,
+                                               std::span<const std::byte> credential = {});
   [[nodiscard]] static std::expected<Certificate, std::string> from_pem(std::span<const std::byte> pem);
   [[nodiscard]] std::string to_pem() const;
 
@@ -67,6 +71,15 @@ class Certificate {
 /// Returns the KeyFingerprint of the key in a certificate. @return an error if the key is not a P-256 key, the only
 /// accepted kind
 [[nodiscard]] std::expected<KeyFingerprint, std::string> fingerprint_of(const x509_st* certificate);
+/// Returns the MemberCredential in a certificate, not decoded; empty: it has none.
+[[nodiscard]] std::vector<std::byte> credential_in(const x509_st* certificate);
+
+/// Key that a server shows in the handshake, and its credential.
+struct PresentedKey : KeyFingerprint {
+  explicit PresentedKey(const KeyFingerprint& key, std::vector<std::byte> shown = {})
+      : KeyFingerprint(key), credential(std::move(shown)) {}
+  std::vector<std::byte> credential;  ///< encoded MemberCredential; empty: it belongs to no service
+};
 
 /// A key and its certificate: the identity of a machine in TLS.
 struct Identity {

@@ -1,35 +1,11 @@
 #include "proto/rpc/ticket_codec.h"
 
-#include <algorithm>
-
 #include "common/base/raw_bytes.h"
+#include "proto/rpc/canonical_bytes.h"
 #include "proto/rpc/rpc_bounds.h"
 #include "proto/schema/ticket.pb.h"
 
 namespace tandem::rpc {
-namespace {
-
-/// The library writes the fields of these messages in the order of their numbers: they have no map and no extension.
-template <class Message>
-std::vector<std::byte> serialized(const Message& message) {
-  std::vector<std::byte> out(message.ByteSizeLong());
-  message.SerializeToArray(out.data(), static_cast<int>(out.size()));
-  return out;
-}
-
-template <class Message>
-bool parse(std::span<const std::byte> bytes, Message& out) {
-  return bytes.size() <= kSignedTicketMax && out.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()));
-}
-
-/// Rejects encodings that differ from the only one: unknown, repeated or reordered fields and long numbers.
-template <class Value>
-std::optional<Value> if_canonical(Value value, std::span<const std::byte> bytes) {
-  return std::ranges::equal(encode(value), bytes) ? std::optional{std::move(value)} : std::nullopt;
-}
-
-}  // namespace
-
 std::vector<std::byte> encode(const TicketContent& content) {
   pb::Ticket out;
   out.set_role(content.role);
@@ -57,8 +33,8 @@ std::vector<std::byte> encode(const SignedTicket& ticket) {
 std::optional<TicketContent> decode_ticket_content(std::span<const std::byte> bytes) {
   pb::Ticket in;
   TicketContent out;
-  const bool good = parse(bytes, in) && take(in.ticket_id(), out.ticket_id) && take(in.session_id(), out.session_id) &&
-                    take(in.workstation(), out.workstation);
+  const bool good = parse(bytes, in, kSignedTicketMax) && take(in.ticket_id(), out.ticket_id) &&
+                    take(in.session_id(), out.session_id) && take(in.workstation(), out.workstation);
   if (!good) return std::nullopt;
   out.role = in.role();
   out.force_scale = in.force_scale();
@@ -73,7 +49,7 @@ std::optional<TicketContent> decode_ticket_content(std::span<const std::byte> by
 std::optional<SignedTicket> decode_signed_ticket(std::span<const std::byte> bytes) {
   pb::SignedTicket in;
   SignedTicket out;
-  if (!parse(bytes, in) || !take(in.signature(), out.signature)) return std::nullopt;
+  if (!parse(bytes, in, kSignedTicketMax) || !take(in.signature(), out.signature)) return std::nullopt;
   out.version = in.version();
   out.kid = in.kid();
   const auto content = bytes_of(in.ticket());

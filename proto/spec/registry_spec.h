@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,34 @@ struct CodeRow {
   friend bool operator==(const CodeRow&, const CodeRow&) = default;
 };
 
+/// Public keys of a service by which a workstation recognises its servers [Ed25519].
+struct ServicePin {
+  std::array<std::byte, 32> key{};
+  std::array<std::byte, 32> previous{};  ///< the key before the newest change
+  std::int64_t previous_until = 0;       ///< last second in which vouchers of `previous` count; 0: none does
+  friend bool operator==(const ServicePin&, const ServicePin&) = default;
+};
+
 /// A server that a workstation knows.
 struct ServerRow {
+  static constexpr std::size_t kMembersMax = 16;
+
   std::string address;  ///< HOST:PORT as dialled
   Sha256 spki{};
-  std::string name;  ///< name of this workstation at the server
+  std::string name;                      ///< name of this workstation at the server
+  std::optional<ServicePin> service{};   ///< the server's service; nullopt: it belongs to none
+  std::vector<std::string> members{};    ///< HOST:PORT of the servers of that service, at most kMembersMax
   friend bool operator==(const ServerRow&, const ServerRow&) = default;
+};
+
+/// Membership of a server in a service, as its member file has it. No signature is checked.
+struct MemberRow {
+  std::string name;                                 ///< of the server in the service
+  std::array<std::byte, 32> service_key{};          ///< public key of the service
+  std::string ticket_key;                           ///< the line of a ticket key; secret
+  std::vector<std::byte> voucher;                   ///< an encoded statement (proto/rpc/service_codec.h)
+  std::vector<std::vector<std::byte>> key_changes;  ///< encoded statements, oldest first
+  friend bool operator==(const MemberRow&, const MemberRow&) = default;
 };
 
 /// A session that a running server publishes for commands on the same machine. They use it to write a ticket for a

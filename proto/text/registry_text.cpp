@@ -6,29 +6,14 @@
 
 #include "common/base/hex.h"
 #include "proto/schema/registry.pb.h"
-#include "proto/text/text_format_reader.h"
+#include "proto/text/registry_reader.h"
 
 namespace tandem {
 namespace {
 
+using text::bytes_from;
 using text::child_path;
 using text::MessageValidator;
-
-constexpr std::string_view kHexDigits = "0123456789abcdef";
-
-template <std::size_t N>
-std::array<std::byte, N> bytes_from(const std::string& hex, MessageValidator& validator, const std::string& key) {
-  std::array<std::byte, N> out{};
-  bool good = hex.size() == 2 * N;
-  for (std::size_t i = 0; good && i < 2 * N; ++i) {
-    const auto digit = kHexDigits.find(hex[i]);
-    good = digit != std::string_view::npos;
-    if (good) out[i / 2] |= static_cast<std::byte>(i % 2 == 0 ? digit << 4 : digit);
-  }
-  if (!good && validator.is_set(key))
-    validator.error(key, "must be " + std::to_string(2 * N) + " lower-case hex digits");
-  return out;
-}
 
 /// Checks the form HOST:PORT only; a client that dials the address checks the rest.
 void check_address(const std::string& address, MessageValidator& validator, const std::string& key) {
@@ -45,22 +30,6 @@ void once(std::set<Value>& seen, const Value& value, MessageValidator& validator
   if (!seen.insert(value).second) validator.error(key, "occurs twice; delete one of the two rows");
 }
 
-template <class File>
-File read(std::string_view text, MessageValidator& validator) {
-  File file;
-  if (text.size() > text::kTextMax) {
-    validator.error_at({}, "", "is longer than 1 MiB");
-    return file;
-  }
-  text::read_text_format(text, file, validator);
-  validator.check_limits(file);
-  return file;
-}
-
-std::string header(std::string_view what) {
-  return "# " + std::string(what) + " Written by Tandem: a program that runs may replace it.\n";
-}
-
 std::string row(std::string_view key, const std::string& value) {
   return "  " + std::string(key) + ": \"" + value + "\"\n";
 }
@@ -71,18 +40,12 @@ std::string row(std::string_view key, std::int64_t value) {
   return row(key, static_cast<std::uint64_t>(std::max<std::int64_t>(value, 0)));
 }
 
-template <class T>
-std::expected<T, InputErrors> verdict(T&& value, MessageValidator& validator) {
-  if (validator.ok()) return std::forward<T>(value);
-  return std::unexpected(validator.take());
-}
-
 }  // namespace
 
 std::expected<std::vector<WorkstationRow>, InputErrors> parse_workstations(std::string_view text,
                                                                            std::string_view file) {
   MessageValidator validator(file);
-  const auto in = read<pb::WorkstationBookFile>(text, validator);
+  const auto in = text::read_registry_file<pb::WorkstationBookFile>(text, validator);
   std::vector<WorkstationRow> rows;
   std::set<std::string> names;
   std::set<Sha256> keys;
@@ -94,12 +57,12 @@ std::expected<std::vector<WorkstationRow>, InputErrors> parse_workstations(std::
     once(keys, spki, validator, child_path(at, "spki_sha256"));
     rows.push_back({w.name(), spki, static_cast<std::int64_t>(w.enrolled_at_s())});
   }
-  return verdict(std::move(rows), validator);
+  return text::registry_verdict(std::move(rows), validator);
 }
 
 std::expected<std::vector<CodeRow>, InputErrors> parse_codes(std::string_view text, std::string_view file) {
   MessageValidator validator(file);
-  const auto in = read<pb::EnrolmentCodeFile>(text, validator);
+  const auto in = text::read_registry_file<pb::EnrolmentCodeFile>(text, validator);
   std::vector<CodeRow> rows;
   std::set<Sha256> hashes;
   for (int i = 0; i < in.code_size(); ++i) {
@@ -109,12 +72,12 @@ std::expected<std::vector<CodeRow>, InputErrors> parse_codes(std::string_view te
     once(hashes, hash, validator, child_path(at, "sha256"));
     rows.push_back({hash, c.workstation(), static_cast<std::int64_t>(c.not_after_s())});
   }
-  return verdict(std::move(rows), validator);
+  return text::registry_verdict(std::move(rows), validator);
 }
 
 std::expected<std::vector<ServerRow>, InputErrors> parse_servers(std::string_view text, std::string_view file) {
   MessageValidator validator(file);
-  const auto in = read<pb::KnownServerFile>(text, validator);
+  const auto in = text::read_registry_file<pb::KnownServerFile>(text, validator);
   std::vector<ServerRow> rows;
   std::set<std::string> addresses;
   for (int i = 0; i < in.server_size(); ++i) {
@@ -122,14 +85,30 @@ std::expected<std::vector<ServerRow>, InputErrors> parse_servers(std::string_vie
     const std::string at = child_path("", "server", i);
     check_address(s.address(), validator, child_path(at, "address"));
     once(addresses, s.address(), validator, child_path(at, "address"));
-    rows.push_back({s.address(), bytes_from<32>(s.spki_sha256(), validator, child_path(at, "spki_sha256")), s.name()});
+    ServerRow& row =
+        rows.emplace_back(s.address(), bytes_from<32>(s.spki_sha256(), validator, child_path(at, "spki_sha256")),
+                          s.name(), std::nullopt, std::vector<std::string>{});
+    if (s.has_service_key()) {
+      row.service.emplace().key = bytes_from<32>(s.service_key(), validator, child_path(at, "service_key"));
+      if (s.has_service_key_before())
+        row.service->previous = bytes_from<32>(s.service_key_before(), validator, child_path(at, "service_key_before"));
+      row.service->previous_until = static_cast<std::int64_t>(s.service_key_before_until_s());
+    }
+    if (s.has_service_key_before() != s.has_service_key_before_until_s() ||
+        (s.has_service_key_before() && !s.has_service_key()))
+      validator.error(child_path(at, "service_key_before"),
+                      "stands only together with service_key and service_key_before_until_s");
+    for (int k = 0; k < s.member_size(); ++k) {
+      check_address(s.member(k), validator, child_path(at, "member", k));
+      row.members.push_back(s.member(k));
+    }
   }
-  return verdict(std::move(rows), validator);
+  return text::registry_verdict(std::move(rows), validator);
 }
 
 std::expected<ServingSpec, InputErrors> parse_serving(std::string_view text, std::string_view file) {
   MessageValidator validator(file);
-  const auto in = read<pb::ServingFile>(text, validator);
+  const auto in = text::read_registry_file<pb::ServingFile>(text, validator);
   check_address(in.address(), validator, "address");
   ServingSpec out{in.address(), {}};
   std::set<std::array<std::byte, 16>> ids;
@@ -153,11 +132,12 @@ std::expected<ServingSpec, InputErrors> parse_serving(std::string_view text, std
     }
     out.sessions.push_back(std::move(session));
   }
-  return verdict(std::move(out), validator);
+  return text::registry_verdict(std::move(out), validator);
 }
 
 std::string print_workstations(const std::vector<WorkstationRow>& rows) {
-  std::string out = header("Enrolled workstations; to revoke one, `tandem-server revoke NAME` or delete its row.");
+  std::string out =
+      text::registry_header("Enrolled workstations; to revoke one, `tandem-server revoke NAME` or delete its row.");
   for (const WorkstationRow& r : rows)
     out += "workstation {\n" + row("name", r.name) + row("spki_sha256", to_hex(r.spki)) +
            row("enrolled_at_s", r.enrolled_at) + "}\n";
@@ -165,7 +145,7 @@ std::string print_workstations(const std::vector<WorkstationRow>& rows) {
 }
 
 std::string print_codes(const std::vector<CodeRow>& rows) {
-  std::string out = header("Hashes of one-time enrolment codes that were not used yet.");
+  std::string out = text::registry_header("Hashes of one-time enrolment codes that were not used yet.");
   for (const CodeRow& r : rows)
     out += "code {\n" + row("sha256", to_hex(r.hash)) + row("workstation", r.workstation) +
            row("not_after_s", r.not_after) + "}\n";
@@ -173,14 +153,21 @@ std::string print_codes(const std::vector<CodeRow>& rows) {
 }
 
 std::string print_servers(const std::vector<ServerRow>& rows) {
-  std::string out = header("Servers this workstation was enrolled at.");
-  for (const ServerRow& r : rows)
-    out += "server {\n" + row("address", r.address) + row("spki_sha256", to_hex(r.spki)) + row("name", r.name) + "}\n";
+  std::string out = text::registry_header("Servers this workstation was enrolled at.");
+  for (const ServerRow& r : rows) {
+    out += "server {\n" + row("address", r.address) + row("spki_sha256", to_hex(r.spki)) + row("name", r.name);
+    if (r.service) out += row("service_key", to_hex(r.service->key));
+    if (r.service && r.service->previous_until > 0)
+      out += row("service_key_before", to_hex(r.service->previous)) +
+             row("service_key_before_until_s", r.service->previous_until);
+    for (const std::string& member : r.members) out += row("member", member);
+    out += "}\n";
+  }
   return out;
 }
 
 std::string print_serving(const ServingSpec& serving) {
-  std::string out = header("Sessions of the running server.") + "address: \"" + serving.address + "\"\n";
+  std::string out = text::registry_header("Sessions of the running server.") + "address: \"" + serving.address + "\"\n";
   for (const OpenSession& s : serving.sessions) {
     out += "session {\n" + row("id", to_hex(s.id)) + (s.code.empty() ? std::string() : row("code", s.code)) +
            row("name", s.name) + row("epoch", s.epoch);

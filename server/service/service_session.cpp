@@ -51,6 +51,7 @@ std::string to_text(const ServiceSession& session) {
   return dumped({{"id", to_hex(session.id)},
                  {"code", session.code},
                  {"scene", session.scene},
+                 {"scene_name", session.scene_name},
                  {"duration_s", session.duration_s},
                  {"tickets_only", session.tickets_only},
                  {"restart", session.restart},
@@ -59,7 +60,7 @@ std::string to_text(const ServiceSession& session) {
 }
 
 std::optional<ServiceSession> parse_service_session(std::string_view text) {
-  constexpr std::size_t kCodeMax = 255;
+  constexpr std::size_t kTextMax = 255;
   constexpr double kDurationMax = 3e6;
   if (text.size() > kServiceSessionMax) return std::nullopt;
   const Json in = Json::parse(text, nullptr, false);
@@ -67,10 +68,13 @@ std::optional<ServiceSession> parse_service_session(std::string_view text) {
   ServiceSession out;
   std::string id;
   const bool complete = read(in, "id", id) && read_id(id, out.id) && read(in, "code", out.code) &&
-                        read(in, "scene", out.scene) && read(in, "duration_s", out.duration_s) &&
-                        read(in, "tickets_only", out.tickets_only) && read(in, "restart", out.restart) &&
-                        read(in, "created", out.created) && read(in, "ends_s", out.ends_s);
-  if (!complete || out.code.size() > kCodeMax || out.scene.empty() || out.ends_s < 0) return std::nullopt;
+                        read(in, "scene", out.scene) && read(in, "scene_name", out.scene_name) &&
+                        read(in, "duration_s", out.duration_s) && read(in, "tickets_only", out.tickets_only) &&
+                        read(in, "restart", out.restart) && read(in, "created", out.created) &&
+                        read(in, "ends_s", out.ends_s);
+  if (!complete || out.code.size() > kTextMax || out.scene.empty() || out.scene_name.empty() ||
+      out.scene_name.size() > kTextMax || out.ends_s < 0)
+    return std::nullopt;
   if (!(out.duration_s >= 0 && out.duration_s <= kDurationMax)) return std::nullopt;
   return out;
 }

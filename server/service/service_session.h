@@ -14,6 +14,7 @@ struct ServiceSession {
   rpc::Id id{};
   std::string code;           ///< session code; empty: tickets only
   std::string scene;          ///< text of the scene file
+  std::string scene_name;     ///< of the scene, 1 to 255 bytes
   double duration_s = 0;      ///< replaces the duration of the scene [s]; 0: that of the scene
   bool tickets_only = false;  ///< no client joins by the code
   bool restart = false;       ///< when the session is over, a new one replaces it

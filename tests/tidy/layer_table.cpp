@@ -26,14 +26,15 @@ const std::array<Layer, 56> kLayers{{
      "common/transport sees time and bytes: base, the datagram structs, OpenSSL, libsodium and libipsec-mb, no "
      "sockets, threads, clocks"},
     {"common/auth",
-     {"common/base", "common/auth", "common/transport/digest.h", "proto/rpc/ticket_codec.h",
-      "proto/spec/registry_spec.h", "proto/spec/access_role.h"},
+     {"common/base", "common/auth", "common/transport/digest.h", "proto/rpc/service_codec.h",
+      "proto/rpc/ticket_codec.h", "proto/spec/registry_spec.h", "proto/spec/access_role.h"},
      {"openssl", "sodium"},
      "common/auth decides over values it is given: base, digests, encoded tickets, the plain rows of the registry, "
      "OpenSSL and libsodium"},
     {"common/auth/io",
      {"common/base", "common/io", "common/auth", "proto/rpc/rpc_codec.h", "proto/rpc/rpc_messages.h",
-      "proto/text/registry_text.h", "proto/spec/registry_spec.h"},
+      "proto/rpc/service_codec.h", "proto/text/registry_text.h", "proto/text/service_text.h",
+      "proto/spec/registry_spec.h"},
      {"openssl", "asio"},
      "common/auth/io keeps keys and the registry in files and sends frames over TLS: auth, control frames, registry "
      "text, OpenSSL and asio"},

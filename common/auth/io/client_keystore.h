@@ -32,6 +32,13 @@ class ClientKeystore {
   [[nodiscard]] std::expected<std::vector<ServerRow>, std::string> servers() const;
   /// @return the error, empty if the data are on disk
   [[nodiscard]] std::string store_server(const ServerRow& server) const;
+  /// Stores what a server of a service has proved: its service's keys and, unless empty, the addresses of members. It
+  /// changes the rows of the service that was pinned so far, and that of the server itself.
+  /// @param before  the pin so far; nullopt: none
+  /// @param server  key of the server
+  /// @return the error; empty if the data are on disk, or were there already
+  [[nodiscard]] std::string store_service(const std::optional<ServicePin>& before, const KeyFingerprint& server,
+                                          const ServicePin& pin, const std::vector<std::string>& members) const;
 
  private:
   ClientKeystore(StateDirectory folder, Identity identity)

@@ -4,19 +4,34 @@
 
 namespace tandem::auth {
 
-std::expected<const Identity*, std::string> IdentitySelector::operator()(const KeyFingerprint& server) {
+std::expected<const Identity*, std::string> IdentitySelector::operator()(const PresentedKey& server) {
+  service_.reset();
+  service_before_.reset();
+  server_ = server;
   auto found = find(server);
   if (found) selected_ = (*found)->fingerprint();
   return found;
 }
 
-std::expected<const Identity*, std::string> IdentitySelector::find(const KeyFingerprint& server) {
+std::expected<const Identity*, std::string> IdentitySelector::find(const PresentedKey& server) {
   std::vector<ServerRow> known;
   if (own_) {
     auto rows = own_->servers();
     if (!rows) return std::unexpected(rows.error());
     known = std::move(*rows);
-    if (std::ranges::find(known, server.sha256, &ServerRow::spki) != known.end()) return &own_->identity();
+    if (const auto row = std::ranges::find(known, server.sha256, &ServerRow::spki); row != known.end()) {
+      service_before_ = row->service;
+      const std::int64_t now = wall_seconds();
+      if (row->service) {
+        // The server is trusted by its own key; its statements count only if they continue the known key.
+        const auto member = accept_member(server.credential, *row->service, server, now);
+        service_ = member ? member->pin : *row->service;
+      } else if (const auto pin = first_pin(server.credential, server, now)) {
+        service_ = *pin;
+      }
+      return &own_->identity();
+    }
+    if (auto member = find_member(server, known)) return std::move(*member);
   }
   auto local = find_local_keys(runtime_, server);
   if (!local) return std::unexpected(local.error());
@@ -37,6 +52,28 @@ std::expected<const Identity*, std::string> IdentitySelector::find(const KeyFing
                            "`tandem-server enroll NAME` with that --state and `tandem-client enroll STRING` here");
   return std::unexpected("this workstation does not know the server at " + address_ +
                          "; run `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
+}
+
+std::optional<std::expected<const Identity*, std::string>> IdentitySelector::find_member(
+    const PresentedKey& server, const std::vector<ServerRow>& known) {
+  std::string why;
+  for (const ServerRow& row : known) {
+    if (!row.service || server.credential.empty()) continue;
+    auto member = accept_member(server.credential, *row.service, server, wall_seconds());
+    if (!member) {
+      why = member.error();
+      continue;
+    }
+    service_before_ = row.service;
+    service_ = member->pin;
+    return &own_->identity();
+  }
+  if (why.empty()) return std::nullopt;
+  return std::unexpected(address_ + ": " + why);
+}
+
+std::string IdentitySelector::store_service(const std::vector<std::string>& members) const {
+  return own_ && service_ ? own_->store_service(service_before_, server_, *service_, members) : std::string{};
 }
 
 std::expected<RuntimeDirectory, std::string> publish_local_keys(ServerKeystore& server, const std::string& runtime,

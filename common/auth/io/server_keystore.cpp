@@ -68,6 +68,10 @@ std::expected<KeyFingerprint, std::string> ServerKeystore::init(const std::strin
 std::string ServerKeystore::rotate_ticket_key(const std::string& path, std::int64_t now) {
   auto trust = open(path);
   if (!trust) return trust.error();
+  if (trust->membership() != nullptr)
+    return trust->folder()->path_of(kMemberFile) +
+           ": this server belongs to a service, whose servers share one ticket key; replace it where the service's "
+           "folder is: `tandem-server service rotate FOLDER --new-ticket-key`, then `vouch` and `join` for each server";
   // A running server holds the old key and its redeemed tickets in memory.
   if (std::string problem = trust->begin_serving(now); !problem.empty()) return problem;
   if (std::string problem = trust->folder_->replace(kTicketKeyFile, random_ticket_key().to_text().bytes());
@@ -76,7 +80,45 @@ std::string ServerKeystore::rotate_ticket_key(const std::string& path, std::int6
   return trust->audit(now, "ticket_key_renewed", "");
 }
 
+std::expected<ServiceMembership, std::string> ServerKeystore::join_service(const std::string& path,
+                                                                           std::span<const std::byte> member,
+                                                                           const std::string& file, std::int64_t now) {
+  auto trust = open_alone(path);  // a damaged or expired membership can be renewed
+  if (!trust) return std::unexpected(trust.error());
+  const KeyFingerprint own = trust->identity().fingerprint();
+  auto membership = read_membership(member, file, own);
+  if (!membership) return std::unexpected(membership.error());
+  if (std::string problem = membership_problem(membership->first, own, now); !problem.empty())
+    return std::unexpected(file + ": " + problem);
+  // A running server holds the old ticket key and its redeemed tickets in memory.
+  if (std::string problem = trust->begin_serving(now); !problem.empty()) return std::unexpected(std::move(problem));
+  if (std::string problem = trust->folder_->replace(kMemberFile, member); !problem.empty())
+    return std::unexpected(std::move(problem));
+  if (std::string problem = trust->audit(now, "service_joined", membership->first.name); !problem.empty())
+    return std::unexpected("the server is a member now, but the audit log has no record of it: " + problem);
+  return std::move(membership->first);
+}
+
 std::expected<ServerKeystore, std::string> ServerKeystore::open(const std::string& path) {
+  auto trust = open_alone(path);
+  if (!trust) return trust;
+  const auto bytes = trust->folder_->read(kMemberFile);
+  if (!bytes) return std::unexpected(bytes.error());
+  if (!*bytes) return trust;
+  auto member =
+      read_membership((*bytes)->bytes(), trust->folder_->path_of(kMemberFile), trust->identity().fingerprint());
+  if (!member) return std::unexpected(member.error());
+  // The certificate is only the container of the key. It is made again with what clients check.
+  Identity identity = std::move(trust->identity_);
+  identity.certificate =
+      Certificate::self_signed(identity.key, "tandem server", random_bytes<std::array<std::byte, 16>>(),
+                               member->first.not_before, member->first.credential());
+  ServerKeystore joined(std::move(identity), std::move(member->second), trust->folder_);
+  joined.membership_ = std::move(member->first);
+  return joined;
+}
+
+std::expected<ServerKeystore, std::string> ServerKeystore::open_alone(const std::string& path) {
   auto folder = StateDirectory::open(path, StateDirectory::Missing::kIsAnError, init_hint(path));
   if (!folder) return std::unexpected(folder.error());
   const auto key = needed(*folder, kKeyFile), certificate = needed(*folder, kCertificateFile),
@@ -99,15 +141,20 @@ std::vector<std::string> ServerKeystore::find_errors(const std::string& path) {
   std::vector<std::string> wrong;
   for (const char* name : {kKeyFile, kCertificateFile, kTicketKeyFile})
     if (const auto file = needed(*folder, name); !file) wrong.push_back(file.error());
-  for (const char* name :
-       {ServerRegistry::kWorkstationsFile, ServerRegistry::kCodesFile, TicketRedeemer::kFile, ServingFile::kFile})
+  for (const char* name : {ServerRegistry::kWorkstationsFile, ServerRegistry::kCodesFile, TicketRedeemer::kFile,
+                           ServingFile::kFile, kMemberFile})
     if (const auto file = folder->read(name); !file) wrong.push_back(file.error());
   if (folder->has(kAuditFile))
     if (std::string trouble = AppendFile(*folder, kAuditFile, AppendFile::TornLine::kEnded).problem(); !trouble.empty())
       wrong.push_back(std::move(trouble));
   if (std::string trouble = folder->write_problem(); !trouble.empty()) wrong.push_back(std::move(trouble));
   if (!wrong.empty()) return wrong;
-  if (const auto trust = open(path); !trust) wrong.push_back(trust.error());
+  const auto trust = open(path);
+  if (!trust) wrong.push_back(trust.error());
+  if (trust && trust->membership() != nullptr)
+    if (std::string trouble = membership_problem(*trust->membership(), trust->identity().fingerprint(), wall_seconds());
+        !trouble.empty())
+      wrong.push_back(std::move(trouble));
   if (const auto used = TicketRedeemer::read(*folder); !used) wrong.push_back(used.error());
   return wrong;
 }
@@ -129,6 +176,9 @@ ServerKeystore::ServerKeystore(Identity identity, TicketKey ticket_key, std::sha
 
 std::string ServerKeystore::begin_serving(std::int64_t now) {
   if (!folder_) return {};
+  if (membership_)
+    if (std::string problem = membership_problem(*membership_, identity_.fingerprint(), now); !problem.empty())
+      return problem;
   // A command that checks for a running server must not be mistaken for one.
   const auto lists = DirectoryLock::wait(*folder_, ServerRegistry::kLock);
   if (!lists) return lists.error();

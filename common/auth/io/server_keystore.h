@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/auth/io/audit_log.h"
 #include "common/auth/io/server_registry.h"
+#include "common/auth/io/service_membership.h"
 #include "common/auth/io/serving_file.h"
 #include "common/auth/io/state_directory.h"
 #include "common/auth/io/ticket_redeemer.h"
@@ -26,12 +28,22 @@ class ServerKeystore {
   static constexpr const char* kCertificateFile = "server_cert.pem";
   static constexpr const char* kTicketKeyFile = "ticket_key";
   static constexpr const char* kAuditFile = AuditLog::kFile;
+  static constexpr const char* kMemberFile = "member.textproto";  ///< only of a server that belongs to a service
 
   /// Creates keys and empty lists in a directory that has none yet. @return the server's fingerprint
   [[nodiscard]] static std::expected<KeyFingerprint, std::string> init(const std::string& path, std::int64_t now);
   /// Replaces the key that signs tickets, which invalidates all issued tickets. Keys, workstations and codes stay.
-  /// @return the error, such as a server that runs from the directory
+  /// @return the error, such as a server that runs from the directory, or that belongs to a service
   [[nodiscard]] static std::string rotate_ticket_key(const std::string& path, std::int64_t now);
+  /// Makes the server of a directory a member of a service, or renews its membership. From then on it signs and accepts
+  /// tickets with the service's ticket key.
+  /// @param member  text of the member file
+  /// @param file    its name, for errors
+  /// @return the membership, or the error, such as a server that runs from the directory
+  [[nodiscard]] static std::expected<ServiceMembership, std::string> join_service(const std::string& path,
+                                                                                  std::span<const std::byte> member,
+                                                                                  const std::string& file,
+                                                                                  std::int64_t now);
   /// Reads a directory that `init` created.
   [[nodiscard]] static std::expected<ServerKeystore, std::string> open(const std::string& path);
   /// Returns all errors of such a directory, each with its remedy. Empty: `open` and `begin_serving` would succeed, if
@@ -41,11 +53,13 @@ class ServerKeystore {
   [[nodiscard]] static ServerKeystore ephemeral(std::int64_t now);
 
   /// Marks this process as the one that serves from the directory, reads the redeemed tickets and removes expired ones.
-  /// Required before tickets are redeemed. @return the error, such as another running server
+  /// Required before tickets are redeemed. @return the error, such as another running server, or an expired voucher
   [[nodiscard]] std::string begin_serving(std::int64_t now);
 
   [[nodiscard]] const Identity& identity() const noexcept { return identity_; }
   [[nodiscard]] const TicketKey& ticket_key() const noexcept { return ticket_key_; }
+  /// Membership in a service; null: the server belongs to none.
+  [[nodiscard]] const ServiceMembership* membership() const noexcept { return membership_ ? &*membership_ : nullptr; }
   [[nodiscard]] bool on_disk() const noexcept { return folder_ != nullptr; }
   [[nodiscard]] const StateDirectory* folder() const noexcept { return folder_.get(); }
 
@@ -63,11 +77,14 @@ class ServerKeystore {
   [[nodiscard]] const AuditLog& audit_log() const noexcept { return *audit_; }
 
  private:
+  /// As `open`, without the membership.
+  [[nodiscard]] static std::expected<ServerKeystore, std::string> open_alone(const std::string& path);
   /// @param folder  null: ephemeral keys
   ServerKeystore(Identity identity, TicketKey ticket_key, std::shared_ptr<const StateDirectory> folder);
 
   Identity identity_;
   TicketKey ticket_key_;
+  std::optional<ServiceMembership> membership_;
   std::shared_ptr<const StateDirectory> folder_;
   std::shared_ptr<AuditLog> audit_ = std::make_shared<AuditLog>();
   ServerRegistry registry_;

@@ -11,7 +11,7 @@
 namespace tandem::auth {
 namespace {
 
-/// Largest certificate chain accepted [bytes]; a certificate of this system has 500.
+/// Largest certificate chain accepted [bytes]; a certificate of this system has 500, and a credential 2560 at most.
 constexpr long kCertificatesMax = 4096;
 /// In the ALPN format: each name follows its length.
 constexpr std::array<unsigned char, 9> kAlpnList{8, 't', 'a', 'n', 'd', 'e', 'm', '/', '1'};
@@ -105,7 +105,8 @@ struct ClientTls::State {
       const X509* const leaf = X509_STORE_CTX_get0_cert(store);
       const auto fingerprint =
           leaf == nullptr ? std::unexpected(std::string("the server shows no certificate")) : fingerprint_of(leaf);
-      auto identity = fingerprint ? state.judge(*fingerprint) : std::unexpected(fingerprint.error());
+      auto identity = fingerprint ? state.judge(PresentedKey(*fingerprint, credential_in(leaf)))
+                                  : std::unexpected(fingerprint.error());
       good = identity.has_value() && *identity != nullptr;
       if (good) {
         state.identity = *identity;

@@ -29,7 +29,7 @@ class ClientTls {
  public:
   /// Called once per handshake with the key that the server presents.
   /// @return the identity to present (the callback's owner keeps it alive), or why this server is rejected
-  using IdentityCallback = std::function<std::expected<const Identity*, std::string>(const KeyFingerprint& server)>;
+  using IdentityCallback = std::function<std::expected<const Identity*, std::string>(const PresentedKey& server)>;
 
   /// @throws std::runtime_error
   explicit ClientTls(IdentityCallback judge);

@@ -13,6 +13,7 @@
 #include "server/app/commands/server_commands.h"
 #include "server/app/control/server_keys.h"
 #include "server/app/process/server_process.h"
+#include "server/app/service/service_config.h"
 
 namespace tandem::server {
 namespace {
@@ -127,6 +128,11 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
   std::error_code error;
   if (!plan.scenes.empty() && !fs::is_directory(plan.scenes, error))
     errors.push_back(config.scenes.error(config.file, "is not a folder"));
+  plan.directory = service_options_from(
+      config, config.listen.text.empty() ? std::nullopt : std::optional(control.listen),
+      [&config](const std::string& named) { return path_beside_config(config, named); }, errors);
+  plan.service = plan.directory.has_value();
+  plan.version = TANDEM_VERSION;
   for (const ConfiguredSessionSpec& session : config.sessions)
     plan.sessions.push_back(session_options_from(config, session, errors));
   control.limits.accept = {limits.accepts_per_s, limits.accepts_burst, limits.accepts_per_s_all,

@@ -17,9 +17,10 @@ void add_repair_command(const io::Command& root);       ///< closes recordings t
 void add_recordings_command(const io::Command& root);   ///< lists, exports and deletes recordings
 
 // Administration of the state folder: keys, workstations, codes and tickets.
-void add_init_command(const io::Command& root);    ///< creates the keys, or replaces the one that signs tickets
-void add_enroll_command(const io::Command& root);  ///< issues the one-time string that enrols a workstation
-void add_ticket_command(const io::Command& root);  ///< writes a ticket
-void add_revoke_command(const io::Command& root);  ///< revokes a workstation
+void add_init_command(const io::Command& root);     ///< creates the keys, or replaces the one that signs tickets
+void add_enroll_command(const io::Command& root);   ///< issues the one-time string that enrols a workstation
+void add_ticket_command(const io::Command& root);   ///< writes a ticket
+void add_revoke_command(const io::Command& root);   ///< revokes a workstation
+void add_service_command(const io::Command& root);  ///< makes several servers one service
 
 }  // namespace tandem::server

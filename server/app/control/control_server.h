@@ -55,6 +55,8 @@ class ControlServer {
   [[nodiscard]] SessionRegistry& registry() noexcept { return registry_; }
   /// Orders of operators to create and end sessions, for the thread that executes them.
   [[nodiscard]] SessionOrders& orders() noexcept { return orders_; }
+  /// Keys of this server.
+  [[nodiscard]] const auth::ServerKeystore& trust() const noexcept { return trust_; }
   /// Its `post` is for any thread.
   [[nodiscard]] AuditWriter& audit() noexcept { return audit_; }
 

@@ -32,16 +32,22 @@ void SessionTable::reply(const SessionOrder& order, rpc::Body body) {
   });
 }
 
+std::optional<ErrorReply> SessionTable::creation_problem() const {
+  if (draining_) return ErrorReply{ErrorCode::kDraining, "this server is draining and creates no sessions", 10};
+  const auto created = static_cast<std::size_t>(std::ranges::count_if(sessions_, [&](const auto& session) {
+    return session->created() && std::ranges::find(options_.sessions, session->options().name, &SessionOptions::name) ==
+                                     options_.sessions.end();
+  }));
+  if (created < options_.created_max) return std::nullopt;
+  return ErrorReply{ErrorCode::kFull,
+                    options_.created_max == 0
+                        ? "this server creates no sessions (limits { created_sessions: 0 })"
+                        : format("%zu created sessions are open, and this server allows %zu; end one first", created,
+                                 options_.created_max),
+                    0};
+}
+
 std::expected<SessionTable::Place, ErrorReply> SessionTable::find_place(const SceneSpec& scene) const {
-  const auto created = static_cast<std::size_t>(
-      std::ranges::count_if(sessions_, [](const auto& session) { return session->created(); }));
-  if (created >= options_.created_max)
-    return std::unexpected(ErrorReply{
-        ErrorCode::kFull,
-        options_.created_max == 0 ? "this server creates no sessions (limits { created_sessions: 0 })"
-                                  : format("%zu created sessions are open, and this server allows %zu; end one first",
-                                           created, options_.created_max),
-        0});
   if (sessions_.size() >= rpc::kSessionsMax)
     return std::unexpected(ErrorReply{ErrorCode::kFull,
                                       format("%zu sessions are open, and a server has at most %zu; end one first",
@@ -67,7 +73,7 @@ std::expected<SessionTable::Place, ErrorReply> SessionTable::find_place(const Sc
 }
 
 rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
-  if (draining_) return ErrorReply{ErrorCode::kDraining, "this server is draining and creates no sessions", 10};
+  if (auto problem = creation_problem()) return std::move(*problem);
   const bool configured =
       std::ranges::find(options_.sessions, wanted.name, &SessionOptions::name) != options_.sessions.end();
   if (configured || std::ranges::any_of(sessions_, [&](const auto& s) { return s->options().name == wanted.name; }))

@@ -18,6 +18,7 @@
 #include "server/app/monitor/load_events.h"
 #include "server/app/process/session_table.h"
 #include "server/app/recording/leftover_repair.h"
+#include "server/app/service/service_host.h"
 
 namespace tandem::server {
 namespace {
@@ -52,6 +53,7 @@ class ServerProcess {
     io::systemd_notify("READY=1");
     while (!sessions_->all().empty() || (options_.service && !drain_began_)) run_once();
     complete_recordings();
+    if (service_) service_->leave();
     output_.print_posted();
     if (checkpoints_) checkpoints_->stop();
     output_.clear();
@@ -74,6 +76,11 @@ class ServerProcess {
     control_ = std::move(*opened);
     if (const std::string problem = open_checkpoint_store(); !problem.empty()) return trouble(problem);
     sessions_.emplace(options_, shards_, *control_, checkpoints_.get(), output_);
+    if (options_.directory) {
+      auto service = ServiceHost::open({options_, *sessions_, shards_, *control_, output_});
+      if (!service) return trouble(service.error());
+      service_ = std::move(*service);
+    }
     leftovers_.emplace(recording_folders(), [this](const RecordingRepair& repair) { report_repair(repair); });
     if (const int code = sessions_->open(); code != 0) return code;
     if (checkpoints_) checkpoints_->start();
@@ -83,6 +90,7 @@ class ServerProcess {
     for (const auto& shard : shards_.all()) control_->registry().requests().watch(*shard);
     if (const auto problem = control_->start(); !problem.empty()) return trouble(problem);
     shards_.run();
+    if (service_) service_->start();
     // Scripts wait for this line.
     output_.print("listening on " + io::to_text(control_->address()) + "\n");
     if (options_.on_listening) options_.on_listening(io::to_text(control_->address()));
@@ -127,6 +135,7 @@ class ServerProcess {
   void run_once() {
     std::vector<pollfd> files{{signals_.get(), POLLIN, 0}};
     files.push_back({control_->orders().fd(), POLLIN, 0});
+    if (service_) files.push_back({service_->fd(), POLLIN, 0});
     for (const auto& session : sessions_->all()) files.push_back({session->live_session().over_fd(), POLLIN, 0});
     if (poll(files.data(), files.size(), kPollIntervalMs) > 0 && files[0].revents != 0) take_signal();
     const Time now = io::monotonic_now();
@@ -136,7 +145,9 @@ class ServerProcess {
     if (drain_began_ && now - *drain_began_ > kDrainMax) exit_now("the sessions did not end within 3 s");
     feed_watchdog();
     report_machine();
-    while (auto order = control_->orders().take()) sessions_->execute(std::move(*order));
+    while (auto order = control_->orders().take())
+      if (!service_ || !service_->take(*order)) sessions_->execute(std::move(*order));
+    if (service_) service_->step(now);
     check_start();
     sessions_->service(now);
     sessions_->balance(now);
@@ -219,6 +230,7 @@ class ServerProcess {
   ShardPool shards_;
   std::unique_ptr<ControlServer> control_;
   std::unique_ptr<CheckpointStore> checkpoints_;  ///< null: no client could resume after a restart
+  std::unique_ptr<ServiceHost> service_;          ///< null: the server is alone; it outlives the sessions
   std::optional<SessionTable> sessions_;
   LoadEvents load_events_;
   std::optional<LeftoverRepair> leftovers_;

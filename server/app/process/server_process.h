@@ -9,6 +9,7 @@
 #include "server/app/control/control_options.h"
 #include "server/app/process/session_creation.h"
 #include "server/app/process/session_instance.h"
+#include "server/app/service/service_options.h"
 
 namespace tandem::server {
 
@@ -31,6 +32,8 @@ struct ServerOptions {
   std::function<std::string()> start_problem{};
   /// The server is a member of a service: it runs on without sessions, and opens only what it owns.
   bool service = false;
+  std::optional<ServiceOptions> directory{};  ///< of the service; only with `service`
+  std::string version = "unknown";            ///< of the program
   bool quiet = false;
   bool no_restore = false;       ///< ignores all checkpoints
   bool sessions_resume = false;  ///< a signal ends the server but keeps its sessions: the next start restores them

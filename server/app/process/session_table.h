@@ -49,6 +49,8 @@ class SessionTable {
   /// Executes an operator's order: creates a session, or begins to end one. Its reply follows on the control thread,
   /// for an end when the session is over.
   void execute(SessionOrder order);
+  /// Why no operator may create another session now; nullopt: one may.
+  [[nodiscard]] std::optional<rpc::ErrorReply> creation_problem() const;
   /// Opens a session that this server owns in its service, and serves it. @return why it cannot; empty: it is served
   [[nodiscard]] std::string open_owned(OwnedSession owned);
   /// Ends a session of a service that another server may own by now: releases all hands at once and tells the clients

@@ -11,20 +11,20 @@
 #include <vector>
 
 #include "common/io/event_fd.h"
-#include "server/app/process/checkpoint_mailbox.h"
+#include "server/app/process/snapshot_keeper.h"
 #include "server/session/session_snapshot.h"
 
 namespace tandem::server {
 
 /// Collects the newest snapshots of this server's sessions for the directory of its service. Thread-safe.
-class DirectorySnapshots {
+class DirectorySnapshots final : public SnapshotKeeper {
  public:
   /// Adds a session whose checkpoints are to be kept, in the place of an earlier one of its name.
   /// @param kept  everything but checkpoint and time
-  [[nodiscard]] std::shared_ptr<CheckpointMailbox> add(SessionSnapshot kept);
-  void set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys);
-  void set_persons(const std::string& name, const std::vector<std::string>& persons);
-  void remove(const std::string& name);
+  [[nodiscard]] std::shared_ptr<CheckpointMailbox> add(SessionSnapshot kept) override;
+  void set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys) override;
+  void set_persons(const std::string& name, const std::vector<std::string>& persons) override;
+  void remove(const std::string& name) override;
 
   /// Takes the snapshots that changed since the last call: name of the session, and bytes of `encode_snapshot`.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> take();

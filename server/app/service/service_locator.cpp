@@ -55,7 +55,7 @@ std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
     for (const auto& [name, entry] : member.catalogue().entries()) {
       std::string owner = member.owner_of(name);
       if (!entry.spec || owner == server_) continue;
-      Elsewhere there{{.id = entry.spec->id, .name = name}, std::move(owner)};
+      Elsewhere there{{entry.spec->id, name, {}, {}}, std::move(owner)};
       static_cast<void>(read_listed(entry.listed_text, there.session));
       list.push_back(std::move(there));
     }

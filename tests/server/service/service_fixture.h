@@ -21,6 +21,7 @@ inline ServiceSession session_spec(int number, const std::string& scene = "scene
   spec.id[0] = static_cast<std::byte>(number);
   spec.code = "CODE00000" + std::to_string(number % 10);
   spec.scene = scene;
+  spec.scene_name = "contact";
   return spec;
 }
 

@@ -19,7 +19,7 @@ TEST(IdentitySelector, MatchesServerKeysThenTheRuntimeDirectory) {
     auto own = ClientKeystore::open(folder.path("c"));
     EXPECT_TRUE(own);
     auto choice = std::make_unique<IdentitySelector>("h:1", std::move(*own), folder.path("run"));
-    const auto got = (*choice)(seen);
+    const auto got = (*choice)(PresentedKey(seen));
     return std::tuple{got.has_value() ? (*got)->fingerprint() : KeyFingerprint{}, choice->local() != nullptr,
                       got.has_value() ? std::string() : got.error()};
   };

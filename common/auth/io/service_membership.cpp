@@ -1,0 +1,49 @@
+#include "common/auth/io/service_membership.h"
+
+#include "common/base/raw_bytes.h"
+#include "proto/text/service_text.h"
+
+namespace tandem::auth {
+namespace {
+
+/// Returns the command that makes a new member file.
+std::string renewal(const std::string& name, const KeyFingerprint& server) {
+  return "where the service's folder is, run `tandem-server service vouch FOLDER --name " +
+         (name.empty() ? "NAME" : name) + " --key " + server.hex() +
+         " --out FILE`, and here `tandem-server service join FILE`";
+}
+
+}  // namespace
+
+std::expected<std::pair<ServiceMembership, TicketKey>, std::string> read_membership(std::span<const std::byte> text,
+                                                                                    const std::string& file,
+                                                                                    const KeyFingerprint& server) {
+  auto row = parse_member(text_of(text), file);
+  if (!row) return std::unexpected(to_text(row.error()) + "make a new member file: " + renewal({}, server));
+  std::string line = row->ticket_key + "\n";
+  auto ticket_key = TicketKey::from_text(bytes_of(line));
+  wipe(line);
+  wipe(row->ticket_key);
+  if (!ticket_key) return std::unexpected(file + ": ticket_key " + ticket_key.error());
+  const auto statement = rpc::decode_service_statement(row->voucher);
+  const auto content = statement ? rpc::decode_voucher_content(statement->content) : std::nullopt;
+  const auto voucher =
+      check_voucher(row->voucher, ServicePin{row->service_key, {}, 0}, server, content ? content->not_before : 0);
+  if (!voucher)
+    return std::unexpected(file + ": " + to_text(voucher.error()) + ". This server's key is " + server.hex() + ": " +
+                           renewal(row->name, server));
+  if (voucher->name != row->name)
+    return std::unexpected(file + ": name is " + row->name + ", and its voucher names " + voucher->name + ": " +
+                           renewal(row->name, server));
+  return std::pair{ServiceMembership{row->service_key, std::move(row->voucher), row->name, std::move(row->key_changes),
+                                     voucher->not_before, voucher->not_after},
+                   std::move(*ticket_key)};
+}
+
+std::string membership_problem(const ServiceMembership& membership, const KeyFingerprint& server, std::int64_t now) {
+  const auto voucher = check_voucher(membership.voucher, ServicePin{membership.service_key, {}, 0}, server, now);
+  if (voucher) return {};
+  return to_text(voucher.error()) + ". Clients would reject this server: " + renewal(membership.name, server);
+}
+
+}  // namespace tandem::auth

@@ -1,0 +1,47 @@
+#include "server/app/service/service_config.h"
+
+#include "proto/io/scene_file.h"
+
+namespace tandem::server {
+
+std::optional<ServiceOptions> service_options_from(const ServerConfigSpec& config,
+                                                   const std::optional<io::SocketAddress>& listen,
+                                                   const std::function<std::string(const std::string&)>& path,
+                                                   InputErrors& errors) {
+  if (!config.directory) return std::nullopt;
+  const DirectorySpec& in = *config.directory;
+  ServiceOptions out;
+  for (const LocatedText& endpoint : in.endpoints) out.etcd.endpoints.push_back(endpoint.text);
+  const auto read = [&](const LocatedText& file, std::string& into) {
+    if (file.text.empty()) return;
+    if (auto text = read_text_file(path(file.text)))
+      into = std::move(*text);
+    else
+      errors.push_back(file.error(config.file, to_text(text.error())));
+  };
+  read(in.authority, out.etcd.authority);
+  read(in.certificate, out.etcd.certificate);
+  read(in.private_key, out.etcd.key);
+  out.etcd.name_in_certificate = in.name_in_certificate;
+  out.prefix = in.prefix;
+  out.times = lease_times(std::chrono::seconds(in.ttl_s));
+  if (const auto problem = out.times.problem())
+    errors.push_back(in.whole.error(config.file, "has an unusable ttl_s: " + *problem));
+  out.etcd.answer_limit = out.times.answer_limit;
+  out.server = in.server.text;
+  out.zone = in.zone;
+  out.address = in.address.text;
+  if (!in.address.text.empty()) {
+    if (const auto address = io::parse_address(in.address.text, 1); !address)
+      errors.push_back(in.address.error(config.file, address.error()));
+    else if (address->any())
+      errors.push_back(in.address.error(config.file, "is no address that clients can reach; name this computer's own"));
+  } else if (listen && listen->any()) {
+    errors.push_back(in.whole.error(config.file,
+                                    "needs `address`: `listen` names all addresses of this computer, and other servers "
+                                    "send clients to one; write HOST:PORT of this server"));
+  }
+  return out;
+}
+
+}  // namespace tandem::server

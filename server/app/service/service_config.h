@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/io/socket_address.h"
+#include "proto/spec/server_config_spec.h"
+#include "server/app/service/service_options.h"
+
+namespace tandem::server {
+
+/// Options of a member of a service, with the certificates read. Adds all mistakes to `errors`.
+/// @param listen  address of the control connections; nullopt: it is wrong, and reported already
+/// @param path    path of a file that the configuration names
+[[nodiscard]] std::optional<ServiceOptions> service_options_from(
+    const ServerConfigSpec& config, const std::optional<io::SocketAddress>& listen,
+    const std::function<std::string(const std::string&)>& path, InputErrors& errors);
+
+}  // namespace tandem::server

@@ -1,0 +1,269 @@
+#include "server/app/service/service_host.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/auth/io/state_directory.h"
+#include "common/base/format.h"
+#include "common/base/hex.h"
+#include "common/io/clock.h"
+#include "common/io/processors.h"
+#include "proto/text/scene_text.h"
+#include "server/app/control/session_registry.h"
+#include "server/app/service/service_specs.h"
+#include "server/directory/io/etcd_directory.h"
+
+namespace tandem::server {
+namespace {
+
+constexpr Duration kPublishInterval = std::chrono::seconds(1);
+constexpr Duration kFormerRunMax = std::chrono::seconds(5);  // to end here before the next one opens
+constexpr Duration kLeaveMax = std::chrono::milliseconds(800);
+constexpr double kLoadStep = 0.05;  // [cores] a smaller change of the load writes nothing
+
+std::uint64_t drawn_seed() {
+  std::uint64_t seed = 0;
+  for (const std::byte b : auth::random_bytes<std::array<std::byte, 8>>())
+    seed = seed << 8 | std::to_integer<unsigned>(b);
+  return seed;
+}
+
+}  // namespace
+
+std::expected<std::unique_ptr<ServiceHost>, std::string> ServiceHost::open(const Parts& parts) {
+  const ServiceOptions& in = *parts.options.directory;
+  std::string server = in.server;
+  if (server.empty())
+    return std::unexpected(
+        "this server has no name in its service: write directory { server: \"NAME\" } in the configuration");
+  if (parts.control.ephemeral_keys())
+    return std::unexpected(
+        "a member of a service needs a state folder with keys that last: make one with `tandem-server init`, and name "
+        "it "
+        "with `state` in the configuration");
+  directory::ServerRecord record;
+  record.address = in.address.empty() ? io::to_text(parts.control.address()) : in.address;
+  record.key = to_hex(parts.control.trust().identity().fingerprint().sha256);
+  record.version = parts.options.version;
+  record.zone = in.zone;
+  return std::unique_ptr<ServiceHost>(new ServiceHost(parts, std::move(server), std::move(record)));
+}
+
+ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::ServerRecord record)
+    : parts_(parts),
+      server_(std::move(server)),
+      record_(std::move(record)),
+      news_(server_, joined_endpoints(parts.options.directory->etcd), parts.options.directory->times) {
+  const ServiceOptions& in = *parts.options.directory;
+  ServiceMemberOptions options{
+      .server = server_, .prefix = in.prefix, .times = in.times, .key = RandomKey{drawn_seed()}, .configured = {}};
+  for (const SessionOptions& session : parts.options.sessions)
+    options.configured.emplace(session.name, spec_of(session));
+  thread_ = std::make_unique<ServiceThread>(std::move(options), std::make_unique<directory::EtcdDirectory>(in.etcd),
+                                            snapshots_);
+  locator_ = std::make_unique<ServiceLocator>(server_, *thread_);
+  publish_load();
+}
+
+void ServiceHost::step(Time now) {
+  if (leaving_) return;
+  thread_->clear_fd();
+  while (auto event = thread_->take_event()) execute(std::move(*event), now);
+  for (std::size_t n = waiting_.size(); n > 0; --n) {
+    Waiting next = std::move(waiting_.front());
+    waiting_.erase(waiting_.begin());
+    if (!serves(parts_.sessions, next.event.session))
+      open_session(next.event);
+    else if (now < next.until)
+      waiting_.push_back(std::move(next));
+    else
+      open_failed(next.event, "its former run on this server does not end");
+  }
+  set_act_until();
+  report(thread_->with([this](const ServiceMember& member, Time t) { return news_.update(t, member.status(t)); }));
+  if (published_ && now - *published_ < kPublishInterval) return;
+  published_ = now;
+  publish_load();
+  publish_lists();
+}
+
+void ServiceHost::execute(ServiceEvent event, Time now) {
+  switch (event.kind) {
+    case ServiceEvent::Kind::kOpen:
+      if (!serves(parts_.sessions, event.session)) return open_session(event);
+      waiting_.push_back({std::move(event), now + kFormerRunMax});
+      return;
+    case ServiceEvent::Kind::kGiveUp:
+      std::erase_if(waiting_, [&](const Waiting& w) { return w.event.session == event.session; });
+      snapshots_.remove(event.session);
+      parts_.sessions.give_up(event.session);
+      thread_->with([&](ServiceMember& member, Time) { member.on_given_up(event.session); });
+      return;
+    case ServiceEvent::Kind::kRefused:
+      reply(event.order, rpc::ErrorReply{rpc::ErrorCode::kNotAllowed, event.text, 0});
+      return;
+  }
+}
+
+std::expected<std::shared_ptr<const SessionOptions>, std::string> ServiceHost::options_of(
+    const std::string& session, const ServiceSession& spec) const {
+  SessionOptions options{.name = session, .reports = parts_.options.reports, .record = parts_.options.record};
+  const auto configured = std::ranges::find(parts_.options.sessions, session, &SessionOptions::name);
+  if (configured != parts_.options.sessions.end()) options = *configured;
+  if (const std::string problem = read_spec(spec, options); !problem.empty()) return std::unexpected(problem);
+  return std::make_shared<const SessionOptions>(std::move(options));
+}
+
+void ServiceHost::open_session(const ServiceEvent& event) {
+  const auto options = options_of(event.session, event.spec);
+  if (!options) return open_failed(event, options.error());
+  OwnedSession owned{
+      .options = *options,
+      .id = event.spec.id,
+      .code = event.spec.code,
+      .revision = static_cast<std::uint64_t>(event.revision),
+      .keeper = &snapshots_,
+      .on_over = [this, name = event.session, spec = event.spec](bool given_up) { on_over(name, spec, given_up); }};
+  if (event.spec.ends_s > 0)
+    owned.ends_at = io::monotonic_now() + std::chrono::seconds(event.spec.ends_s - auth::wall_seconds());
+  if (!event.snapshot.empty()) {
+    if (auto snapshot = decode_snapshot(std::as_bytes(std::span(event.snapshot))))
+      owned.snapshot = std::move(*snapshot);
+    else
+      parts_.output.error("session " + event.session + " starts from the beginning: its snapshot in the directory " +
+                          snapshot.error());
+  }
+  if (const std::string why = parts_.sessions.open_owned(std::move(owned)); !why.empty())
+    return open_failed(event, why);
+  set_act_until();
+  thread_->with([&](ServiceMember& member, Time) { member.on_opened(event.session); });
+  published_.reset();
+  if (event.order == 0) return;
+  rpc::SessionCreated created{.session = {}, .code = event.spec.code, .tickets = {}};
+  parts_.control.change([&](const SessionRegistry& registry, const auto& done) {
+    if (const SessionEntry* const entry = registry.find(event.spec.id))
+      created.session = SessionRegistry::listed(*entry);
+    done();
+  });
+  reply(event.order, std::move(created));
+}
+
+void ServiceHost::open_failed(const ServiceEvent& event, const std::string& why) {
+  const std::string text = "session " + event.session + " of the service cannot be opened here: " + why;
+  parts_.output.report(io::Level::kWarn, {.event = "service_open_failed", .session = event.session, .text = text},
+                       text);
+  thread_->with([&](ServiceMember& member, Time now) {
+    if (event.order == 0) return member.on_open_failed(now, event.session);
+    member.on_opened(event.session);  // a session that was never open has to leave nothing
+    member.end(event.session);
+  });
+  reply(event.order, rpc::ErrorReply{rpc::ErrorCode::kNotNow, why, 1});
+}
+
+void ServiceHost::on_over(const std::string& session, const ServiceSession& spec, bool given_up) {
+  listed_.erase(session);
+  if (leaving_ || given_up) return;
+  thread_->with([&](ServiceMember& member, Time) {
+    if (!spec.restart) return member.end(session);
+    ServiceSession next = spec;
+    next.id = auth::random_bytes<auth::Id16>();
+    if (!next.code.empty()) next.code = make_session_code();
+    member.replace(session, std::move(next));
+  });
+}
+
+void ServiceHost::reply(std::uint64_t order, rpc::Body body) {
+  const auto found = orders_.find(order);
+  if (found == orders_.end()) return;
+  const SessionOrder answered = std::move(found->second);
+  orders_.erase(found);
+  parts_.control.change([&](SessionRegistry&, const auto& done) {
+    answered.answer(std::move(body));
+    done();
+  });
+}
+
+std::optional<rpc::ErrorReply> ServiceHost::creation_problem(const rpc::CreateSession& wanted) const {
+  const auto taken = [&](const SessionOptions& session) { return session.name == wanted.name; };
+  if (std::ranges::any_of(parts_.options.sessions, taken) || serves(parts_.sessions, wanted.name))
+    return rpc::ErrorReply{
+        rpc::ErrorCode::kNotAllowed,
+        "a session " + wanted.name + " exists already; choose another name, or end that session first", 0};
+  if (const auto problem = parts_.sessions.creation_problem()) return *problem;
+  return std::nullopt;
+}
+
+bool ServiceHost::take(SessionOrder& order) {
+  const auto* const wanted = std::get_if<rpc::CreateSession>(&order.body);
+  if (wanted == nullptr) return false;
+  const std::uint64_t number = ++newest_order_;
+  const std::string name = wanted->name;
+  std::optional<rpc::ErrorReply> problem = creation_problem(*wanted);
+  std::optional<ServiceSession> spec;
+  if (!problem) {
+    const auto options = created_session_options(*wanted, parts_.options.scenes);
+    if (options) {
+      spec = spec_of(*options);
+      spec->created = true;
+      if (wanted->life_s > 0) spec->ends_s = auth::wall_seconds() + wanted->life_s;
+    } else {
+      problem = options.error();
+    }
+  }
+  orders_.emplace(number, std::move(order));
+  if (spec && !thread_->with(
+                  [&](ServiceMember& member, Time now) { return member.create(now, name, std::move(*spec), number); }))
+    problem =
+        rpc::ErrorReply{rpc::ErrorCode::kNotAllowed,
+                        "a session " + name + " exists already; choose another name, or end that session first", 0};
+  if (problem) reply(number, std::move(*problem));
+  return true;
+}
+
+void ServiceHost::set_act_until() {
+  const Time until = thread_->with([](const ServiceMember& member, Time) { return member.act_until(); });
+  for (const auto& session : parts_.sessions.all())
+    if (session->on_over() && session->end != EndReason::kGivenUp) session->live_session().set_act_until(until);
+}
+
+void ServiceHost::publish_load() {
+  double used = 0;
+  for (const auto& shard : parts_.shards.all()) used += shard->load().cpu_share();
+  record_.used = kLoadStep * std::round(used / kLoadStep);
+  record_.capacity = parts_.options.control.load_limits.core * io::available_processors();
+  record_.drains = parts_.control.registry().drain().due().has_value();
+  thread_->with([&](ServiceMember& member, Time) { member.describe(record_); });
+}
+
+void ServiceHost::publish_lists() {
+  std::vector<std::pair<std::string, std::string>> lists;
+  parts_.control.change([&](const SessionRegistry& registry, const auto& done) {
+    for (const SessionEntry& entry : registry.entries())
+      if (entry.open()) lists.emplace_back(entry.registration.name, listed_text(SessionRegistry::listed(entry)));
+    done();
+  });
+  thread_->with([&](ServiceMember& member, Time) {
+    for (auto& [session, text] : lists)
+      if (std::string& before = listed_[session]; before != text) member.set_listed(session, before = std::move(text));
+  });
+}
+
+void ServiceHost::report(const std::vector<ServiceNews::Line>& lines) {
+  for (const ServiceNews::Line& line : lines)
+    parts_.output.report(line.warning ? io::Level::kWarn : io::Level::kInfo, {.event = line.event, .text = line.text},
+                         line.text);
+}
+
+void ServiceHost::leave() {
+  leaving_ = true;
+  if (!thread_->leave(kLeaveMax)) {
+    const std::string text =
+        "the directory did not confirm the end of this server; other servers begin its sessions when "
+        "its lease has ended";
+    parts_.output.report(io::Level::kWarn, {.event = "service_left", .text = text}, text);
+  }
+  thread_->stop();
+}
+
+}  // namespace tandem::server

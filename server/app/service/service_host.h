@@ -1,0 +1,88 @@
+#pragma once
+
+#include <expected>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/app/process/session_table.h"
+#include "server/app/service/directory_snapshots.h"
+#include "server/app/service/service_locator.h"
+#include "server/app/service/service_thread.h"
+#include "server/service/service_news.h"
+
+namespace tandem::server {
+
+/// Connects a server process to its service: serves the sessions that the member owns, creates sessions for operators,
+/// publishes snapshots, lists and load, and reports to the operator. All members belong to the main loop's thread,
+/// except `locator`.
+class ServiceHost {
+ public:
+  /// Parts of the server process; all must outlive this.
+  struct Parts {
+    const ServerOptions& options;
+    SessionTable& sessions;
+    ShardPool& shards;
+    ControlServer& control;
+    ServerOutput& output;
+  };
+
+  /// @pre `parts.options.directory` is set
+  /// @return the host, not yet started; or the error with its remedy
+  [[nodiscard]] static std::expected<std::unique_ptr<ServiceHost>, std::string> open(const Parts& parts);
+
+  /// Begins to register the server, after the control server was started.
+  void start() { thread_->start(); }
+  /// Descriptor that is readable when `step` has to be called.
+  [[nodiscard]] int fd() const noexcept { return thread_->fd(); }
+  /// Executes the orders of the member, and publishes load and lists. @param now  of the monotonic clock
+  void step(Time now);
+  /// Takes an order to create a session. @return false: it is another order, and untouched
+  [[nodiscard]] bool take(SessionOrder& order);
+  /// Hands all sessions over, after the last one is over and before the process ends.
+  void leave();
+  /// For the control plane's thread.
+  [[nodiscard]] SessionLocator& locator() noexcept { return *locator_; }
+  [[nodiscard]] ServiceStatus status() {
+    return thread_->with([](const ServiceMember& member, Time now) { return member.status(now); });
+  }
+
+ private:
+  /// A session that the member owns and that cannot be opened until its former run here is over.
+  struct Waiting {
+    ServiceEvent event;
+    Time until{};
+  };
+
+  ServiceHost(const Parts& parts, std::string server, directory::ServerRecord record);
+  void execute(ServiceEvent event, Time now);
+  void open_session(const ServiceEvent& event);
+  void open_failed(const ServiceEvent& event, const std::string& why);
+  void reply(std::uint64_t order, rpc::Body body);
+  void on_over(const std::string& session, const ServiceSession& spec, bool given_up);
+  [[nodiscard]] std::optional<rpc::ErrorReply> creation_problem(const rpc::CreateSession& wanted) const;
+  [[nodiscard]] std::expected<std::shared_ptr<const SessionOptions>, std::string> options_of(
+      const std::string& session, const ServiceSession& spec) const;
+  void set_act_until();
+  void publish_load();
+  void publish_lists();
+  void report(const std::vector<ServiceNews::Line>& lines);
+
+  Parts parts_;
+  std::string server_;
+  directory::ServerRecord record_;
+  DirectorySnapshots snapshots_;
+  std::unique_ptr<ServiceThread> thread_;
+  std::unique_ptr<ServiceLocator> locator_;
+  ServiceNews news_;
+  std::vector<Waiting> waiting_;
+  std::map<std::uint64_t, SessionOrder> orders_;  ///< creations without a reply, by number
+  std::uint64_t newest_order_ = 0;
+  std::map<std::string, std::string> listed_;  ///< as last published
+  std::optional<Time> published_;
+  bool leaving_ = false;
+};
+
+}  // namespace tandem::server
