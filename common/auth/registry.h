@@ -16,6 +16,13 @@
 /// access is in common/auth/io.
 namespace tandem::auth {
 
+/// The lists of workstations and codes of a server.
+struct RegistryLists {
+  std::vector<WorkstationRow> workstations;
+  std::vector<CodeRow> codes;
+  friend bool operator==(const RegistryLists&, const RegistryLists&) = default;
+};
+
 /// Returns whether a name has 1 to 32 characters of A-Z a-z 0-9 _ -
 [[nodiscard]] bool is_valid_name(std::string_view name) noexcept;
 

@@ -1,6 +1,7 @@
 #include "server/service/registry_entries.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "common/auth/key_fingerprint.h"
 #include "common/base/hex.h"
@@ -43,7 +44,7 @@ std::optional<Rows> parse_entry(std::string_view text) {
 
 }  // namespace
 
-RegistryEntries entries_of(const RegistryLists& lists) {
+RegistryEntries entries_of(const auth::RegistryLists& lists) {
   std::map<std::string, Json> made;
   for (const WorkstationRow& row : lists.workstations)
     made[row.name]["workstation"] = {{"spki", to_hex(row.spki)}, {"enrolled_at", row.enrolled_at}};
@@ -54,8 +55,8 @@ RegistryEntries entries_of(const RegistryLists& lists) {
   return entries;
 }
 
-RegistryLists lists_of(const RegistryEntries& entries) {
-  RegistryLists lists;
+auth::RegistryLists lists_of(const RegistryEntries& entries) {
+  auth::RegistryLists lists;
   for (const auto& [name, text] : entries) {
     auto rows = parse_entry(text);
     if (!rows) continue;

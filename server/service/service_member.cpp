@@ -37,6 +37,7 @@ ServiceMember::ServiceMember(ServiceMemberOptions options, directory::Directory&
       ownership_(options_.server, "", options_.times, names_),
       catalogue_(keys_),
       writer_(names_, kWritePause),
+      registry_(options_.prefix, options_.agreed, options_.registry_mark),
       placement_(options_.key),
       newest_(kOwnOperations) {}
 
@@ -66,7 +67,7 @@ void ServiceMember::step(Time now) {
     } else if (reply->operation == revoking_) {
       left_ = reply->outcome == Outcome::kDone || reply->outcome == Outcome::kNoLease;
       revoking_ = 0;
-    } else if (!catalogue_.on_reply(*reply) && !writer_.on_reply(*reply)) {
+    } else if (!catalogue_.on_reply(*reply) && !writer_.on_reply(*reply) && !registry_.on_reply(*reply)) {
       on_session_reply(now, *reply);
     }
   }
@@ -81,6 +82,7 @@ void ServiceMember::step(Time now) {
   const Duration retry = 2 * options_.times.answer_limit;
   if (const auto request = catalogue_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = writer_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
+  if (const auto request = registry_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   while (const auto operation = ownership_.poll_operation(now)) begin(operation->id, operation->request);
   take_notices(now);
 }

@@ -13,6 +13,7 @@
 #include "server/service/fenced_writer.h"
 #include "server/service/service_catalogue.h"
 #include "server/service/service_session.h"
+#include "server/service/shared_registry.h"
 
 namespace tandem::server {
 
@@ -24,6 +25,8 @@ struct ServiceMemberOptions {
   RandomKey key{0};  ///< for the draws of placement
   /// Sessions of the configuration, with the id and code that they get if this server begins them.
   std::map<std::string, ServiceSession> configured{};
+  RegistryAgreement agreed{};    ///< of the registry, from before a restart
+  std::string registry_mark{};  ///< random, for a directory without one
 };
 
 /// An order of the member to its server; orders are carried out in sequence.
@@ -122,6 +125,8 @@ class ServiceMember {
   [[nodiscard]] std::map<std::string, directory::ServerRecord> members() const;
   /// Name of a session's owner, as far as known; empty: none.
   [[nodiscard]] std::string owner_of(std::string_view session) const;
+  /// Workstations and codes of the service.
+  [[nodiscard]] SharedRegistry& registry() noexcept { return registry_; }
   [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }
   [[nodiscard]] ServiceStatus status(Time now) const;
   /// Time from which no hand of any session of this server may be engaged.
@@ -175,6 +180,7 @@ class ServiceMember {
   directory::Ownership ownership_;
   ServiceCatalogue catalogue_;
   FencedWriter writer_;
+  SharedRegistry registry_;
   directory::Placement placement_;
   directory::ServerRecord record_;
   std::map<std::string, Entry, std::less<>> entries_;

@@ -127,7 +127,13 @@ void SharedRegistry::apply(const directory::Change& change) {
   stored_[name] = {readable ? change.entry.value : "", change.entry.modified};
 }
 
+void SharedRegistry::set_local(RegistryEntries local) {
+  local_ = std::move(local);
+  agree();
+}
+
 void SharedRegistry::agree() {
+  if (!follower_.follows() || stored_text(kMark).empty()) return;
   if (agreed_.mark != stored_text(kMark)) agreed_ = {stored_text(kMark), {}};
   for (const std::string& name : names()) {
     const std::string& local = text_in(local_, name);

@@ -40,7 +40,7 @@ class SharedRegistry {
       : prefix_(prefix + "registry/"), follower_(prefix_), agreed_(std::move(agreed)), new_mark_(std::move(mark)) {}
 
   /// Sets the entries of the files as they are now.
-  void set_local(RegistryEntries local) { local_ = std::move(local); }
+  void set_local(RegistryEntries local);
 
   /// Returns the request to begin now, if there is one.
   [[nodiscard]] std::optional<directory::Request> poll_request(Time now, directory::OperationId operation,

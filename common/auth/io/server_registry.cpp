@@ -122,6 +122,25 @@ std::expected<Revoked, std::string> ServerRegistry::revoke(std::string_view name
   return gone;
 }
 
+std::expected<bool, std::string> ServerRegistry::replace(const RegistryLists& expected, RegistryLists wanted,
+                                                         std::int64_t now) {
+  bool same = false;
+  std::string problem = modify([&](Lists& lists) {
+    same = lists == expected;
+    if (same) lists = wanted;
+  });
+  if (!problem.empty()) return std::unexpected(std::move(problem));
+  if (!same) return false;
+  const auto lacks = [](const RegistryLists& lists, const WorkstationRow& row) {
+    return std::ranges::find(lists.workstations, row) == lists.workstations.end();
+  };
+  for (const WorkstationRow& row : expected.workstations)
+    if (lacks(wanted, row)) audit(now, "revoked_in_service", row.name, to_hex(row.spki));
+  for (const WorkstationRow& row : wanted.workstations)
+    if (lacks(expected, row)) audit(now, "enrolled_in_service", row.name, to_hex(row.spki));
+  return true;
+}
+
 std::string ServerRegistry::enroll_without_code(const WorkstationRow& row) {
   return modify([&](Lists& lists) {
     std::erase_if(lists.workstations,

@@ -50,14 +50,18 @@ class ServerRegistry {
   /// Enrols without a code, for the demo workstation that the server creates itself.
   [[nodiscard]] std::string enroll_without_code(const WorkstationRow& row);
 
+  /// Returns both present lists.
+  [[nodiscard]] std::expected<RegistryLists, std::string> lists() const { return read(); }
+  /// Replaces both lists, if they are still `expected`, and writes who was enrolled or revoked at another server of the
+  /// service to the audit log. @return whether they were; or the error
+  [[nodiscard]] std::expected<bool, std::string> replace(const RegistryLists& expected, RegistryLists wanted,
+                                                         std::int64_t now);
+
   /// Why the lists cannot be read; empty if they can.
   [[nodiscard]] std::string problem() const;
 
  private:
-  struct Lists {
-    std::vector<WorkstationRow> workstations;
-    std::vector<CodeRow> codes;
-  };
+  using Lists = RegistryLists;
   [[nodiscard]] std::expected<Lists, std::string> read() const;
   /// Reads both lists under the lock, applies `change` and writes the changed lists.
   template <class Change>

@@ -16,7 +16,8 @@ std::expected<auth::ServerKeystore, std::string> open_server_keys(const io::Sock
   if (!book) return std::unexpected(book.error());
   const auto codes = trust->registry().pending_codes(now);
   if (!codes) return std::unexpected(codes.error());
-  if (!listen.loopback() && book->empty() && *codes == 0)
+  // A member of a service gets the lists from the others.
+  if (!listen.loopback() && book->empty() && *codes == 0 && trust->membership() == nullptr)
     return std::unexpected("no client could join: no workstation is enrolled in " + *path +
                            ". Run `tandem-server enroll" + auth::server_state_option(*path) +
                            " NAME --address HOST:PORT` for each, then start again");

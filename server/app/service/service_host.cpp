@@ -42,26 +42,34 @@ std::expected<std::unique_ptr<ServiceHost>, std::string> ServiceHost::open(const
         "a member of a service needs a state folder with keys that last: make one with `tandem-server init`, and name "
         "it "
         "with `state` in the configuration");
+  auto keys = auth::ServerKeystore::open(parts.control.folder());
+  if (!keys) return std::unexpected(keys.error());
   directory::ServerRecord record;
   record.address = in.address.empty() ? io::to_text(parts.control.address()) : in.address;
   record.key = to_hex(parts.control.trust().identity().fingerprint().sha256);
   record.version = parts.options.version;
   record.zone = in.zone;
-  return std::unique_ptr<ServiceHost>(new ServiceHost(parts, std::move(server), std::move(record)));
+  return std::unique_ptr<ServiceHost>(new ServiceHost(parts, std::move(server), std::move(record), std::move(*keys)));
 }
 
-ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::ServerRecord record)
+ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::ServerRecord record,
+                         auth::ServerKeystore keys)
     : parts_(parts),
       server_(std::move(server)),
       record_(std::move(record)),
       news_(server_, joined_endpoints(parts.options.directory->etcd), parts.options.directory->times) {
   const ServiceOptions& in = *parts.options.directory;
   ServiceMemberOptions options{
-      .server = server_, .prefix = in.prefix, .times = in.times, .key = RandomKey{drawn_seed()}, .configured = {}};
+      .server = server_, .prefix = in.prefix, .times = in.times, .key = RandomKey{drawn_seed()}, .configured = {},
+      .agreed = RegistryMirror::read_agreement(*keys.folder()),
+      .registry_mark = to_hex(auth::random_bytes<auth::Id16>())};
   for (const SessionOptions& session : parts.options.sessions)
     options.configured.emplace(session.name, spec_of(session));
   thread_ = std::make_unique<ServiceThread>(std::move(options), std::make_unique<directory::EtcdDirectory>(in.etcd),
                                             snapshots_);
+  registry_ = std::make_unique<RegistryMirror>(std::move(keys), *thread_, [this](const std::string& what) {
+    parts_.output.post_message("workstations of the service: " + what);
+  });
   locator_ = std::make_unique<ServiceLocator>(server_, *thread_);
   publish_load();
 }
@@ -257,6 +265,7 @@ void ServiceHost::report(const std::vector<ServiceNews::Line>& lines) {
 
 void ServiceHost::leave() {
   leaving_ = true;
+  registry_->stop();
   if (!thread_->leave(kLeaveMax)) {
     const std::string text =
         "the directory did not confirm the end of this server; other servers begin its sessions when "

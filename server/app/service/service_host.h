@@ -9,6 +9,7 @@
 
 #include "server/app/process/session_table.h"
 #include "server/app/service/directory_snapshots.h"
+#include "server/app/service/registry_mirror.h"
 #include "server/app/service/service_locator.h"
 #include "server/app/service/service_thread.h"
 #include "server/service/service_news.h"
@@ -34,7 +35,10 @@ class ServiceHost {
   [[nodiscard]] static std::expected<std::unique_ptr<ServiceHost>, std::string> open(const Parts& parts);
 
   /// Begins to register the server, after the control server was started.
-  void start() { thread_->start(); }
+  void start() {
+    thread_->start();
+    registry_->start();
+  }
   /// Descriptor that is readable when `step` has to be called.
   [[nodiscard]] int fd() const noexcept { return thread_->fd(); }
   /// Executes the orders of the member, and publishes load and lists. @param now  of the monotonic clock
@@ -56,7 +60,7 @@ class ServiceHost {
     Time until{};
   };
 
-  ServiceHost(const Parts& parts, std::string server, directory::ServerRecord record);
+  ServiceHost(const Parts& parts, std::string server, directory::ServerRecord record, auth::ServerKeystore keys);
   void execute(ServiceEvent event, Time now);
   void open_session(const ServiceEvent& event);
   void open_failed(const ServiceEvent& event, const std::string& why);
@@ -75,6 +79,7 @@ class ServiceHost {
   directory::ServerRecord record_;
   DirectorySnapshots snapshots_;
   std::unique_ptr<ServiceThread> thread_;
+  std::unique_ptr<RegistryMirror> registry_;
   std::unique_ptr<ServiceLocator> locator_;
   ServiceNews news_;
   std::vector<Waiting> waiting_;

@@ -49,7 +49,7 @@ struct Desk {
     return 0;
   }
 
-  RegistryLists lists;
+  auth::RegistryLists lists;
   test::CuttableDirectory directory;
   SharedRegistry registry;
   directory::OperationId operation = 0;
@@ -72,7 +72,7 @@ struct Desks {
 };
 
 TEST(RegistryEntries, HaveOneTextPerNameAndReadBack) {
-  const RegistryLists lists{{workstation("a", 1), workstation("b", 2)}, {code("b", 3), code("c", 4)}};
+  const auth::RegistryLists lists{{workstation("a", 1), workstation("b", 2)}, {code("b", 3), code("c", 4)}};
   const RegistryEntries entries = entries_of(lists);
   ASSERT_EQ(entries.size(), 3U);
   EXPECT_EQ(entries.at("a"), "{\"workstation\":{\"enrolled_at\":1001,\"spki\":\"01" + std::string(62, '0') + "\"}}");
@@ -121,6 +121,25 @@ TEST(SharedRegistry, GivesOneKeyToACodeThatTwoServersAcceptedAtOnce) {
   EXPECT_NE(desks[0].key_of("a"), 0);
 }
 
+// The files take what the directory has, and change before they are looked at again.
+TEST(SharedRegistry, SendsAnEnrolmentWithACodeThatHasJustArrived) {
+  Desks desks(1);
+  desks.pass(1s);
+  test::CuttableDirectory other(desks.store);
+  const RegistryEntries arrives = entries_of({{}, {code("a", 7)}});
+  other.begin(1, directory::Transaction{{}, {directory::Put{"/t/registry/a", arrives.at("a")}}, {}});
+  SharedRegistry& registry = desks[0].registry;
+  desks[0].registry.set_local({});
+  while (const auto reply = desks[0].directory.poll()) registry.on_reply(*reply);
+  ASSERT_EQ(registry.wanted(), arrives);
+  registry.set_local(arrives);
+  desks[0].lists = {};
+  desks[0].enroll("a", 2);
+  desks.pass(1s);
+  EXPECT_EQ(desks[0].key_of("a"), 2);
+  EXPECT_EQ(desks.store.entries().at("/t/registry/a").value, entries_of(desks[0].lists).at("a"));
+}
+
 TEST(SharedRegistry, KeepsARevocationThatWasMadeWhileAServerWasCutOff) {
   Desks desks(2);
   desks[0].enroll("a", 1);
@@ -148,7 +167,7 @@ TEST(SharedRegistry, KnowsAfterARestartWhatWasRevokedMeanwhile) {
   desks[0].enroll("b", 2);
   desks.pass(1s);
   const RegistryAgreement agreed = desks[1].registry.agreed();
-  const RegistryLists files = desks[1].lists;
+  const auth::RegistryLists files = desks[1].lists;
   desks.desk.pop_back();
   desks[0].revoke("a");
   desks.pass(1s);

@@ -1,0 +1,73 @@
+#include "server/app/service/registry_mirror.h"
+
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "common/base/raw_bytes.h"
+#include "common/io/thread_without_signals.h"
+
+namespace tandem::server {
+namespace {
+
+constexpr auto kInterval = std::chrono::milliseconds(200);  // between two looks at the files
+
+}  // namespace
+
+RegistryAgreement RegistryMirror::read_agreement(const auth::StateDirectory& folder) {
+  const auto bytes = folder.read(kFile);
+  if (!bytes || !*bytes) return {};
+  return parse_registry_agreement(text_of(std::as_const(**bytes).bytes())).value_or(RegistryAgreement{});
+}
+
+void RegistryMirror::start() {
+  stored_ = read_agreement(*keys_.folder());
+  thread_ = io::thread_without_signals([this] { run(); });
+}
+
+void RegistryMirror::stop() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void RegistryMirror::run() {
+  while (true) {
+    std::string problem = compare();
+    if (!problem.empty() && problem != trouble_) on_trouble_(problem);
+    trouble_ = std::move(problem);
+    std::unique_lock lock(mutex_);
+    if (wake_.wait_for(lock, kInterval, [this] { return stopping_; })) return;
+  }
+}
+
+std::string RegistryMirror::compare() {
+  const auto lists = keys_.registry().lists();
+  if (!lists) return lists.error();
+  std::optional<RegistryEntries> wanted;
+  RegistryAgreement agreed;
+  service_.with([&](ServiceMember& member, Time) {
+    member.registry().set_local(entries_of(*lists));
+    wanted = member.registry().wanted();
+    agreed = member.registry().agreed();
+  });
+  if (wanted) {
+    const auto replaced = keys_.registry().replace(*lists, lists_of(*wanted), auth::wall_seconds());
+    if (!replaced) return replaced.error();
+    // At once, so that a change of the files from now on counts as a change of what both sides had.
+    if (*replaced)
+      service_.with([&](ServiceMember& member, Time) { member.registry().set_local(std::move(*wanted)); });
+    return {};
+  }
+  if (agreed == stored_ || agreed.mark.empty()) return {};
+  if (std::string problem = keys_.folder()->replace(kFile, std::string_view(to_text(agreed))); !problem.empty())
+    return problem;
+  stored_ = std::move(agreed);
+  return {};
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <condition_variable>
+#include <expected>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "common/auth/io/server_keystore.h"
+#include "server/app/service/service_thread.h"
+
+namespace tandem::server {
+
+/// Keeps the files with workstations and codes in a server's state folder equal to those of its service
+/// (server/service/shared_registry.h). A thread of its own reads and writes them, so that a slow disk delays no
+/// renewal of the lease. Commands in the same folder, such as `tandem-server enroll`, change the files as ever.
+class RegistryMirror {
+ public:
+  static constexpr const char* kFile = "service_registry";  ///< what files and directory had in common
+
+  /// Reads the agreement of an earlier run. A damaged file counts as none: the lists of both sides are then joined.
+  [[nodiscard]] static RegistryAgreement read_agreement(const auth::StateDirectory& folder);
+
+  /// @param keys     of the state folder, for this object alone
+  /// @param service  must outlive this
+  /// @param trouble  receives errors of the files, each once until it is over; on the thread
+  RegistryMirror(auth::ServerKeystore keys, ServiceThread& service, std::function<void(const std::string&)> trouble)
+      : keys_(std::move(keys)), service_(service), on_trouble_(std::move(trouble)) {}
+  ~RegistryMirror() { stop(); }
+
+  void start();
+  void stop();
+
+ private:
+  void run();
+  /// Compares files and directory once. @return the error
+  [[nodiscard]] std::string compare();
+
+  auth::ServerKeystore keys_;
+  ServiceThread& service_;
+  std::function<void(const std::string&)> on_trouble_;
+  RegistryAgreement stored_;
+  std::string trouble_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace tandem::server
