@@ -1,9 +1,13 @@
 #include "client/app/join_client.h"
 
+#include <poll.h>
+
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "client/app/join_hello.h"
+#include "client/app/server_addresses.h"
 #include "client/app/server_connection.h"
 #include "client/seat/seat.h"
 #include "common/base/command_hints.h"
@@ -14,18 +18,44 @@
 namespace tandem::client {
 namespace {
 
+constexpr int kOwnerRetryMs = 300;
+constexpr Duration kMemberTimeout = std::chrono::seconds(1);  // for one of several servers of a service
+
 struct Accepted {
   rpc::Hello hello;
   rpc::Welcome welcome;
 };
-/// Connects, sends the join request and returns it with the server's Welcome.
+/// Waits before the next request for a session that a server of the service is about to serve. @return false: a signal
+bool wait_for_owner(const JoinOptions& options) {
+  pollfd signals{options.signals, POLLIN, 0};
+  return ::poll(&signals, 1, kOwnerRetryMs) <= 0;
+}
+
+/// Connects, sends the join request and returns it with the server's Welcome. Follows the servers of a service to the
+/// owner of the session, and waits for it up to the timeout.
 std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
+  const Time until = io::monotonic_now() + server.options().timeout;
   if (auto connected = server.connect(); !connected) return std::unexpected(connected.error());
   auto hello = make_hello(server);
   if (!hello) return std::unexpected(hello.error());
-  auto welcome = server.request<rpc::Welcome>(*hello);
-  if (!welcome) return std::unexpected(welcome.error());
-  return Accepted{std::move(*hello), std::move(*welcome)};
+  while (true) {
+    auto reply = server.ask(*hello);
+    if (!reply) return std::unexpected(reply.error());
+    if (const auto* elsewhere = std::get_if<rpc::Elsewhere>(&*reply)) {
+      if (auto followed = server.follow(*elsewhere); !followed) return std::unexpected(followed.error());
+      continue;
+    }
+    const auto* rejected = std::get_if<rpc::ErrorReply>(&*reply);
+    if (rejected != nullptr && rejected->code == rpc::ErrorCode::kNotNow && io::monotonic_now() < until &&
+        wait_for_owner(server.options())) {
+      if (auto connected = server.connect(); !connected) return std::unexpected(connected.error());
+      continue;
+    }
+    auto welcome = server.expect<rpc::Welcome>(std::move(*reply));
+    if (!welcome) return std::unexpected(welcome.error());
+    server.remember(welcome->members);
+    return Accepted{std::move(*hello), std::move(*welcome)};
+  }
 }
 
 /// The client's end of the datagrams, with the secrets that both ends export from the connection.
@@ -58,28 +88,31 @@ std::expected<JoinedSeat, JoinError> make_seat(ServerConnection& server, const r
   if (!link) return std::unexpected(link.error());
   JoinedSeat seat{.setup = std::move(*setup),
                   .link = *link,
-                  .udp = server.options().server,
+                  .udp = server.address(),
                   .welcome = welcome,
                   .server = server.client().server(),
+                  .service = server.service(),
                   .local = server.local() != nullptr};
   if (!hello.link_test) seat.connection = server.release();
   return seat;
 }
 
-ResumeError retry_error(std::string reason) { return {ResumeError::Kind::kAgain, std::move(reason), {}}; }
+ResumeError retry_error(std::string reason) { return {.kind = ResumeError::Kind::kAgain, .reason = std::move(reason)}; }
 
 ResumeError to_resume_error(const rpc::ErrorReply& reply) {
   switch (reply.code) {
     case rpc::ErrorCode::kSeatTaken:
     case rpc::ErrorCode::kDraining:
     case rpc::ErrorCode::kInternal:
+    case rpc::ErrorCode::kNotNow:  // the session has no server yet
       return retry_error(reply.text);
     case rpc::ErrorCode::kFull:
     case rpc::ErrorCode::kBlocked:
     case rpc::ErrorCode::kTooFast:
-      return {ResumeError::Kind::kAgain, reply.text, std::chrono::seconds(reply.retry_after_s)};
+      return {
+          .kind = ResumeError::Kind::kAgain, .reason = reply.text, .wait = std::chrono::seconds(reply.retry_after_s)};
     default:
-      return {ResumeError::Kind::kGone, reply.text, {}};
+      return {.kind = ResumeError::Kind::kGone, .reason = reply.text};
   }
 }
 
@@ -99,8 +132,8 @@ std::expected<JoinedSeat, ResumeError> accept_resume(ServerConnection& server, c
   auto given = make_seat(server, *welcome, hello);
   if (!given) return std::unexpected(retry_error(given.error().reason));
   if (!same_setup(given->setup, own.setup))
-    return std::unexpected(
-        ResumeError{ResumeError::Kind::kGone, "the server returned with another scene or other limits", {}});
+    return std::unexpected(ResumeError{.kind = ResumeError::Kind::kGone,
+                                       .reason = "the server returned with another scene or other limits"});
   return std::move(*given);
 }
 
@@ -140,37 +173,100 @@ std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options)
   const auto link = channel_params(server, accepted->welcome, accepted->hello, scene->tick_hz);
   if (!link) return std::unexpected(link.error());
   return JoinedWatcher{
-      std::move(*scene), *link, options.server, {accepted->welcome, server.release(), server.workstation()}};
+      std::move(*scene), *link, server.address(), {accepted->welcome, server.release(), server.workstation()}};
 }
 
-std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, const ResumeState& own,
-                                                   const std::function<bool()>& wanted) {
+namespace {
+
+/// Asks for the seat with one secret, and follows the servers of the service to the owner of the session.
+std::expected<rpc::Body, ResumeError> ask_for_seat(ServerConnection& server, const rpc::Hello& hello,
+                                                   const ResumeState& own) {
+  while (true) {
+    auto reply = server.ask(hello);
+    const auto* elsewhere = reply ? std::get_if<rpc::Elsewhere>(&*reply) : nullptr;
+    const JoinError* failure = reply ? nullptr : &reply.error();
+    std::expected<void, JoinError> followed;
+    if (elsewhere != nullptr) followed = server.follow(*elsewhere, own.epoch);
+    if (!followed) failure = &followed.error();
+    if (failure != nullptr)
+      return std::unexpected(
+          ResumeError{.kind = failure->interrupted ? ResumeError::Kind::kInterrupted : ResumeError::Kind::kAgain,
+                      .reason = failure->reason});
+    if (elsewhere == nullptr) return std::move(*reply);
+  }
+}
+
+/// Tries to resume a seat at one address.
+std::expected<JoinedSeat, ResumeError> resume_at(const io::SocketAddress& at, const JoinOptions& options,
+                                                 const ResumeState& own, const std::function<bool()>& wanted) {
   ServerConnection server{options};
   ResumeError last;
   for (const Secret<32>& secret : own.secrets) {
-    if (auto connected = server.connect_to(own); !connected) return std::unexpected(connected.error());
-    if (!wanted()) return std::unexpected(ResumeError{ResumeError::Kind::kNotNeeded, {}, {}});
+    if (auto connected = server.connect_to(own, at); !connected) return std::unexpected(connected.error());
+    if (!wanted()) return std::unexpected(ResumeError{.kind = ResumeError::Kind::kNotNeeded, .reason = {}});
     rpc::Hello hello = base_hello(options);
     hello.session = own.session;
     hello.credential = rpc::ResumeCredential{secret};
-    const auto reply = server.ask(hello);
-    if (!reply)
-      return std::unexpected(
-          ResumeError{reply.error().interrupted ? ResumeError::Kind::kInterrupted : ResumeError::Kind::kAgain,
-                      reply.error().reason,
-                      {}});
+    const auto reply = ask_for_seat(server, hello, own);
+    if (!reply) return std::unexpected(reply.error());
     const auto* rejected = std::get_if<rpc::ErrorReply>(&*reply);
-    if (rejected == nullptr) return accept_resume(server, *reply, hello, own);
+    if (rejected == nullptr) {
+      auto given = accept_resume(server, *reply, hello, own);
+      if (given) server.remember(given->welcome.members);
+      return given;
+    }
     last = to_resume_error(*rejected);
+    last.answered = at;
+    // A server of a service that does not know the session may have an old copy of the directory: others decide.
+    if (own.service && rejected->code == rpc::ErrorCode::kNoSession) last.kind = ResumeError::Kind::kAgain;
     if (rejected->code != rpc::ErrorCode::kResume) break;
   }
   return std::unexpected(std::move(last));
 }
 
+/// Addresses at which the seat may be resumed, the likeliest first.
+std::vector<io::SocketAddress> resume_addresses(const JoinOptions& options, const ResumeState& own) {
+  JoinOptions ordered = options;
+  ordered.alternatives.insert(ordered.alternatives.begin(), options.server);
+  if (own.last) ordered.server = *own.last;
+  if (own.first) {
+    ordered.alternatives.insert(ordered.alternatives.begin(), ordered.server);
+    ordered.server = *own.first;
+  }
+  auto list = addresses_to_try(ordered, {});
+  for (const std::string& member : own.members) add_addresses(member, list);
+  return list;
+}
+
+}  // namespace
+
+std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, const ResumeState& own,
+                                                   const std::function<bool()>& wanted) {
+  const auto addresses = resume_addresses(options, own);
+  JoinOptions asking = options;
+  if (addresses.size() > 1) asking.timeout = std::min(options.timeout, kMemberTimeout);
+  std::optional<ResumeError> all;
+  for (const io::SocketAddress& at : addresses) {
+    auto given = resume_at(at, asking, own, wanted);
+    if (given || given.error().kind != ResumeError::Kind::kAgain) return given;
+    ResumeError& failed = given.error();
+    if (!all) {
+      all = std::move(failed);
+      continue;
+    }
+    all->reason += "; " + failed.reason;
+    all->wait = std::min(all->wait, failed.wait);
+    if (failed.answered && !all->answered) all->answered = failed.answered;
+  }
+  return std::unexpected(std::move(*all));
+}
+
 std::expected<rpc::SessionList, JoinError> list_sessions(const JoinOptions& options) {
   ServerConnection server{options};
   if (auto connected = server.connect(); !connected) return std::unexpected(connected.error());
-  return rpc::all_sessions([&](const rpc::Body& page) { return server.request<rpc::SessionList>(page); });
+  server.remember({});
+  return rpc::all_sessions([&](const rpc::Body& page) { return server.request<rpc::SessionList>(page); },
+                           server.service().has_value());
 }
 
 void release_seat(const io::UdpSocket& socket, const JoinedSeat& given, const hal::DeviceCaps& caps) {

@@ -15,6 +15,7 @@
 #include "common/transport/secure_channel.h"
 #include "hal/core/device.h"
 #include "proto/rpc/rpc_messages.h"
+#include "proto/spec/registry_spec.h"
 #include "proto/spec/scene_spec.h"
 #include "proto/text/seat_setup.h"
 
@@ -32,9 +33,12 @@ struct JoinOptions {
   std::string ticket = {};   ///< output of `tandem-server ticket`; empty: none
   std::string state = {};    ///< state directory with this workstation's key; empty: the default directory
   hal::DeviceCaps caps = {};
-  Duration timeout{};  ///< connect and reply timeout
-  int signals = -1;    ///< signalfd (common/io/signals.h); -1: none
-  bool watch = false;  ///< with `console`: it also gets TELEMETRY
+  Duration timeout{};                             ///< connect and reply timeout
+  int signals = -1;                               ///< signalfd (common/io/signals.h); -1: none
+  bool watch = false;                             ///< with `console`: it also gets TELEMETRY
+  std::vector<io::SocketAddress> alternatives{};  ///< tried after `server`: other addresses of it, or of its service
+  std::vector<std::string> typed{};               ///< HOST:PORT as given, for addresses learnt at earlier joins
+  std::string unresolved{};                       ///< given names without address, for errors; empty: none
   std::optional<AccessRole>
       console{};  ///< joins as console instead of a seat; the role counts only on the server's own computer
 };
@@ -45,8 +49,9 @@ struct JoinedSeat {
   transport::SecureChannel::Params link;
   io::SocketAddress udp;  ///< destination of the datagrams
   rpc::Welcome welcome;
-  auth::KeyFingerprint server;  ///< key of the server
-  bool local = false;           ///< key found in this user's runtime directory, not by enrolment
+  auth::KeyFingerprint server;          ///< key of the server
+  std::optional<ServicePin> service{};  ///< service of the server; nullopt: none, or not known to this workstation
+  bool local = false;                   ///< key found in this user's runtime directory, not by enrolment
   std::shared_ptr<auth::ControlClient>
       connection{};  ///< control connection of the join, optional for the seat; null for link tests
 };
@@ -92,6 +97,9 @@ struct ResumeState {
   SeatSetup setup;
   auth::KeyFingerprint server;
   bool local = false;  ///< true: any server key in this user's runtime directory is accepted, not only `server`
+  std::optional<ServicePin> service{};               ///< every server of this service is accepted too
+  std::vector<std::string> members{};                ///< HOST:PORT of servers of the service
+  std::optional<io::SocketAddress> last{}, first{};  ///< peer of the datagrams; where the next attempt begins
 };
 /// Reason of a failed resume.
 struct ResumeError {
@@ -101,12 +109,14 @@ struct ResumeError {
     kNotNeeded,  ///< the server answers on the old connection again
     kInterrupted,
   } kind = Kind::kAgain;
-  std::string reason;  ///< text for the user
-  Duration wait{};     ///< kAgain: shortest wait before the next attempt
+  std::string reason;                           ///< text for the user
+  Duration wait{};                              ///< kAgain: shortest wait before the next attempt
+  std::optional<io::SocketAddress> answered{};  ///< server that replied, for `ResumeState::first`
 };
-/// Tries once to resume a seat over a new TLS connection. Accepts only the same server, with the same or a higher
-/// epoch. Each secret gets one connection; `options.timeout` limits each connect and each reply. A readable
-/// `options.signals` file cancels the attempt.
+/// Tries once to resume a seat over a new TLS connection: at the server that had it, then at the other servers of its
+/// service, each for 1 s at most. Follows them to the owner of the session. Accepts only the same server or one of the
+/// same service, with the same or a higher epoch. Each secret gets one connection; `options.timeout` limits each
+/// connect and each reply. A readable `options.signals` file cancels the attempt.
 /// @param wanted  called just before the request, because the request invalidates the old connection; false cancels
 [[nodiscard]] std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, const ResumeState& own,
                                                                  const std::function<bool()>& wanted);

@@ -16,7 +16,8 @@ namespace {
 std::expected<rpc::ListedSession, JoinError> find_session(ServerConnection& server, const auth::Id16& id, bool is_id,
                                                           const std::optional<std::string>& code) {
   const JoinOptions& options = server.options();
-  const auto list = rpc::all_sessions([&](const rpc::Body& page) { return server.request<rpc::SessionList>(page); });
+  const auto list = rpc::all_sessions([&](const rpc::Body& page) { return server.request<rpc::SessionList>(page); },
+                                      server.service().has_value());
   if (!list) return std::unexpected(list.error());
   std::string names;
   const rpc::ListedSession* found = nullptr;
@@ -27,7 +28,7 @@ std::expected<rpc::ListedSession, JoinError> find_session(ServerConnection& serv
   }
   if (found != nullptr) return *found;
   if (list->sessions.empty())
-    return join_failure("no session is open at " + io::to_text(options.server) + "; start " + server.start_command());
+    return join_failure("no session is open at " + io::to_text(server.address()) + "; start " + server.start_command());
   return join_failure(options.session.empty()
                           ? "several sessions are open there: " + names + "; say which with --session"
                           : "--session " + options.session + ": no such session there; open: " + names);

@@ -6,6 +6,7 @@
 
 #include "client/app/join_client.h"
 #include "client/app/seat_runner.h"
+#include "client/app/server_addresses.h"
 
 namespace tandem::client {
 
@@ -22,15 +23,15 @@ LiveSeat::~LiveSeat() = default;
 
 std::expected<std::unique_ptr<LiveSeat>, std::string> LiveSeat::join(const LiveSeatOptions& options,
                                                                      const hal::DeviceCaps& caps) {
-  const auto server = io::parse_address(options.server, 1);
-  if (!server) return std::unexpected("server: " + server.error());
-  const auto joined = join_seat({.server = *server,
-                                 .seat = options.seat,
-                                 .session = options.session,
-                                 .ticket = options.ticket,
-                                 .state = options.state,
-                                 .caps = caps,
-                                 .timeout = options.timeout});
+  JoinOptions asking{.seat = options.seat,
+                     .session = options.session,
+                     .ticket = options.ticket,
+                     .state = options.state,
+                     .caps = caps,
+                     .timeout = options.timeout};
+  if (const std::string wrong = set_server_addresses(options.server, asking); !wrong.empty())
+    return std::unexpected("server: " + wrong);
+  const auto joined = join_seat(asking);
   if (!joined) return std::unexpected(joined.error().reason);
   auto socket = io::connect_udp(joined->udp);
   if (!socket) return std::unexpected("server: " + socket.error());

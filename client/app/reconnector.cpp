@@ -59,11 +59,12 @@ void Reconnector::work() {
       result_ = std::move(back);
       break;
     }
+    if (back.error().answered) resume_state_.first = back.error().answered;
     if (io::monotonic_now() - began >= timeout) timeout = std::min(2 * timeout, kTimeoutMax);
     const Duration wait = std::max(back.error().wait, draw(kAgain, kAgainSpread));
     pollfd cancelled{cancel_.get(), POLLIN, 0};
     if (poll(&cancelled, 1, static_cast<int>(wait / 1ms)) > 0) {
-      result_ = std::unexpected(ResumeError{ResumeError::Kind::kInterrupted, {}, {}});
+      result_ = std::unexpected(ResumeError{.kind = ResumeError::Kind::kInterrupted, .reason = {}});
       break;
     }
   }
@@ -81,8 +82,10 @@ std::expected<Reconnector::Resumed, ResumeError> Reconnector::attempt(Duration t
   auto socket = io::connect_udp(given->udp);
   // The server now expects this secret, even if the local socket cannot be opened.
   resume_state_.secrets.insert(resume_state_.secrets.begin(), given->welcome.resume_secret);
-  if (!socket) return std::unexpected(ResumeError{ResumeError::Kind::kAgain, socket.error(), {}});
-  if (same_host(socket->local, socket_->local))
+  if (!socket) return std::unexpected(ResumeError{.kind = ResumeError::Kind::kAgain, .reason = socket.error()});
+  // The socket in use is connected to the server that gave the seat.
+  const bool same_server = !resume_state_.last || io::to_text(*resume_state_.last) == io::to_text(given->udp);
+  if (same_server && same_host(socket->local, socket_->local))
     if (auto again = io::duplicate(*socket_); again.fd.open()) *socket = std::move(again);
   auto swap = std::make_unique<ConnectionSwap>(std::move(*socket), seat_->prepare(given->link));
   return Resumed{std::move(*given), std::move(swap)};

@@ -26,8 +26,15 @@ constexpr std::size_t kSecretsKept = 2;
 constexpr Duration kBetweenKeyMessages = 1s;
 
 ResumeState resume_state(const JoinedSeat& seat) {
-  return {
-      seat.welcome.session_id, seat.welcome.epoch, {seat.welcome.resume_secret}, seat.setup, seat.server, seat.local};
+  return {.session = seat.welcome.session_id,
+          .epoch = seat.welcome.epoch,
+          .secrets = {seat.welcome.resume_secret},
+          .setup = seat.setup,
+          .server = seat.server,
+          .local = seat.local,
+          .service = seat.service,
+          .members = seat.welcome.members,
+          .last = seat.udp};
 }
 
 }  // namespace
@@ -167,10 +174,16 @@ std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
   o_.runner.connections().offer(std::move(resumed->swap));
   server_.on_connected(io::monotonic_now());
   const rpc::Welcome& welcome = resumed->joined.welcome;
-  o_.line.note(welcome.epoch > resume_state_.epoch ? "the server was restarted and gave the seat back"
-                                                   : "the server gave the seat back");
+  const bool moved = resumed->joined.server != resume_state_.server && resumed->joined.service;
+  o_.line.note(moved
+                   ? "the server at " + io::to_text(resumed->joined.udp) + " has the session now and gave the seat back"
+               : welcome.epoch > resume_state_.epoch ? "the server was restarted and gave the seat back"
+                                                     : "the server gave the seat back");
   resume_state_.epoch = welcome.epoch;
   resume_state_.server = resumed->joined.server;
+  resume_state_.last = resumed->joined.udp;
+  if (resumed->joined.service) resume_state_.service = resumed->joined.service;
+  if (!welcome.members.empty()) resume_state_.members = welcome.members;
   resume_state_.secrets.insert(resume_state_.secrets.begin(), welcome.resume_secret);
   if (resume_state_.secrets.size() > kSecretsKept) resume_state_.secrets.resize(kSecretsKept);
   if (status_poller_) status_poller_->cancel();  // the old server may not answer any more

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 
+#include "client/app/server_addresses.h"
+#include "common/auth/service_pin.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/log.h"
 #include "common/io/signals.h"
 
 namespace tandem::client {
@@ -15,7 +18,8 @@ using rpc::ErrorCode;
 using Kind = auth::ClientError::Kind;
 using std::chrono::milliseconds;
 
-constexpr int kRetryMs = 100;  // pause between attempts, for a server that is about to start
+constexpr int kRetryMs = 100;                        // pause between attempts, for a server that is about to start
+constexpr milliseconds kTryMin{100}, kTryMax{1500};  // for one of several addresses
 
 /// Consoles and link tests have no seat.
 JoinError interrupted(const JoinOptions& options) {
@@ -47,55 +51,127 @@ std::expected<void, JoinError> ServerConnection::select_keys() {
   return {};
 }
 
+std::expected<void, auth::ClientError> ServerConnection::connect_once(const io::SocketAddress& at,
+                                                                      const auth::ClientTls::IdentityCallback& judge,
+                                                                      Duration timeout) {
+  keys_->set_address(io::to_text(at));
+  auto client = auth::ControlClient::connect(
+      at, judge, std::max(milliseconds(1), std::chrono::duration_cast<milliseconds>(timeout)), options_.signals);
+  if (!client) return std::unexpected(std::move(client.error()));
+  client_.emplace(std::move(*client));
+  address_ = at;
+  return {};
+}
+
 std::expected<void, JoinError> ServerConnection::connect() {
   if (auto keys = select_keys(); !keys) return keys;
+  hops_ = 0;
+  const auto addresses = addresses_to_try(options_, keys_->known());
+  const bool several = addresses.size() > 1;
+  const Duration each =
+      several ? std::clamp(options_.timeout / static_cast<int>(addresses.size()), Duration{kTryMin}, Duration{kTryMax})
+              : options_.timeout;
   const Time until = io::monotonic_now() + options_.timeout;
+  std::vector<auth::ClientError> failures(addresses.size());
   while (true) {
-    const auto left = std::max(Duration{milliseconds(1)}, Duration{until - io::monotonic_now()});
-    auto client = auth::ControlClient::connect(
-        options_.server, [this](const auth::KeyFingerprint& fingerprint) { return (*keys_)(fingerprint); },
-        std::chrono::duration_cast<milliseconds>(left), options_.signals);
-    if (client) {
-      client_.emplace(std::move(*client));
-      return {};
+    bool again = false;
+    for (std::size_t i = 0; i < addresses.size(); ++i) {
+      const Duration left = std::min(each, std::max(Duration{kTryMin}, Duration{until - io::monotonic_now()}));
+      auto connected = connect_once(
+          addresses[i], [this](const auth::PresentedKey& server) { return (*keys_)(server); },
+          several ? left : Duration{until - io::monotonic_now()});
+      if (connected) return {};
+      failures[i] = std::move(connected.error());
+      if (failures[i].kind == Kind::kInterrupted) return std::unexpected(interrupted(options_));
+      again = again || may_pass(failures[i]);
     }
-    if (!may_pass(client.error()) || io::monotonic_now() + milliseconds(kRetryMs) >= until)
-      return std::unexpected(to_join_error(client.error()));
+    if (!again || io::monotonic_now() + milliseconds(kRetryMs) >= until) break;
     pollfd signals{options_.signals, POLLIN, 0};
     if (poll(&signals, 1, kRetryMs) > 0) return std::unexpected(interrupted(options_));
   }
+  if (!several) {
+    JoinError one = to_join_error(failures[0], addresses[0]);
+    if (!options_.unresolved.empty()) one.reason += "; " + options_.unresolved;
+    return std::unexpected(std::move(one));
+  }
+  std::string all =
+      format("none of %zu addresses has a server that this client can use (tried for %g s):", addresses.size(),
+             seconds(options_.timeout));
+  for (std::size_t i = 0; i < addresses.size(); ++i)
+    all += "\n  " + io::to_text(addresses[i]) + ": " + complete_commands(failures[i].text, options_);
+  if (!options_.unresolved.empty()) all += "\n  " + options_.unresolved;
+  return join_failure(std::move(all));
 }
 
-std::expected<void, ResumeError> ServerConnection::connect_to(const ResumeState& own) {
+std::expected<void, ResumeError> ServerConnection::connect_to(const ResumeState& own, const io::SocketAddress& at) {
   if (!keys_) {
     if (own.local) {
-      keys_.emplace(io::to_text(options_.server), std::nullopt, auth::runtime_path());
+      keys_.emplace(io::to_text(at), std::nullopt, auth::runtime_path());
     } else if (auto keys = select_keys(); !keys) {
-      return std::unexpected(ResumeError{ResumeError::Kind::kAgain, keys.error().reason, {}});
+      return std::unexpected(ResumeError{.kind = ResumeError::Kind::kAgain, .reason = keys.error().reason});
     }
   }
-  const auto judge = [&](const auth::KeyFingerprint& fingerprint) -> std::expected<const auth::Identity*, std::string> {
-    if (!own.local && fingerprint != own.server)
-      return std::unexpected(io::to_text(options_.server) + " shows another key than the server that gave this seat");
-    auto identity = (*keys_)(fingerprint);
+  const auto judge = [&](const auth::PresentedKey& shown) -> std::expected<const auth::Identity*, std::string> {
+    auto identity = (*keys_)(shown);
+    const bool same = own.local || static_cast<const auth::KeyFingerprint&>(shown) == own.server ||
+                      (own.service && keys_->service() && auth::same_service(*keys_->service(), *own.service));
+    if (!same) return std::unexpected(io::to_text(at) + " shows another key than the server that gave this seat");
     if (identity && own.local && local() == nullptr)
       return std::unexpected(std::string("this server is not the one that gave this seat"));
     return identity;
   };
-  auto client = auth::ControlClient::connect(
-      options_.server, judge, std::chrono::duration_cast<milliseconds>(options_.timeout), options_.signals);
-  if (!client)
-    return std::unexpected(ResumeError{
-        client.error().kind == Kind::kInterrupted ? ResumeError::Kind::kInterrupted : ResumeError::Kind::kAgain,
-        client.error().text,
-        {}});
-  client_.emplace(std::move(*client));
+  if (auto connected = connect_once(at, judge, options_.timeout); !connected)
+    return std::unexpected(ResumeError{.kind = connected.error().kind == Kind::kInterrupted
+                                                   ? ResumeError::Kind::kInterrupted
+                                                   : ResumeError::Kind::kAgain,
+                                       .reason = connected.error().text});
   return {};
+}
+
+std::expected<void, JoinError> ServerConnection::follow(const rpc::Elsewhere& to, std::uint64_t seen) {
+  const std::string from = "the server at " + io::to_text(address_) + " sends this client to " + to.address;
+  if (++hops_ > kHopsMax)
+    return join_failure(from + ", the " + std::to_string(hops_) +
+                        "th server: those of the service disagree about the session; try again in a moment");
+  if (to.revision < std::max(seen, revision_))
+    return join_failure(from +
+                        format(" for revision %llu of the session, and %llu is known: that server had it earlier; "
+                               "try again in a moment",
+                               static_cast<unsigned long long>(to.revision),
+                               static_cast<unsigned long long>(std::max(seen, revision_))));
+  if (!keys_->service())
+    return join_failure(from +
+                        ", but this workstation has no key of its service: enrol it again at one of its servers");
+  const auth::KeyFingerprint key{to.key};
+  if (const auto member = auth::accept_sent_member(to.voucher, *keys_->service(), key, auth::wall_seconds()); !member)
+    return join_failure(from + ": " + member.error());
+  std::vector<io::SocketAddress> addresses;
+  add_addresses(to.address, addresses);
+  if (addresses.empty()) return join_failure(from + ", a name without address; check the DNS server");
+  revision_ = to.revision;
+  const auto judge = [&](const auth::PresentedKey& shown) -> std::expected<const auth::Identity*, std::string> {
+    if (static_cast<const auth::KeyFingerprint&>(shown) != key)
+      return std::unexpected(to.address + " shows another key than the one that its service vouches for");
+    return (*keys_)(shown);
+  };
+  std::string why;
+  for (const io::SocketAddress& at : addresses) {
+    const auto connected = connect_once(at, judge, options_.timeout);
+    if (connected) return {};
+    if (connected.error().kind == Kind::kInterrupted) return std::unexpected(interrupted(options_));
+    why += (why.empty() ? "" : "; ") + connected.error().text;
+  }
+  return join_failure(from + ": " + why);
+}
+
+void ServerConnection::remember(const std::vector<std::string>& members) const {
+  if (const std::string problem = keys_->store_service(members); !problem.empty())
+    io::log(io::Level::kWarn, "the servers of this service cannot be stored for later joins: " + problem);
 }
 
 std::expected<rpc::Body, JoinError> ServerConnection::ask(const rpc::Body& request) {
   auto reply = client_->ask(request, std::chrono::duration_cast<milliseconds>(options_.timeout));
-  if (!reply) return std::unexpected(to_join_error(reply.error()));
+  if (!reply) return std::unexpected(to_join_error(reply.error(), address_));
   return std::move(*reply);
 }
 
@@ -106,9 +182,9 @@ std::string ServerConnection::start_command() const {
              : "tandem-server on that computer first";
 }
 
-JoinError ServerConnection::to_join_error(const auth::ClientError& error) const {
+JoinError ServerConnection::to_join_error(const auth::ClientError& error, const io::SocketAddress& at) const {
   if (error.kind == Kind::kInterrupted) return interrupted(options_);
-  const std::string server = io::to_text(options_.server), timeout = format("%g s", seconds(options_.timeout));
+  const std::string server = io::to_text(at), timeout = format("%g s", seconds(options_.timeout));
   if (error.kind == Kind::kUnreachable)
     return {false, "no server at " + server + ": nothing listens there (tried for " + timeout + "). Start " +
                        start_command() + ", and use the address it prints as `listening on`"};

@@ -24,11 +24,17 @@ class ServerConnection {
   /// @param options  must outlive this object
   explicit ServerConnection(const JoinOptions& options) : options_(options) {}
 
-  /// Selects the keys and connects. Repeats until the timeout while the server is not started yet or too busy.
+  /// Selects the keys and connects to the first of the addresses that answers (client/app/server_addresses.h). Repeats
+  /// until the timeout while no server is started yet, or all are too busy.
   [[nodiscard]] std::expected<void, JoinError> connect();
-  /// Connects once, only to the server that gave the seat `own`: a server with the same key. If that key was ephemeral,
-  /// the server's key must be in this user's runtime directory.
-  [[nodiscard]] std::expected<void, ResumeError> connect_to(const ResumeState& own);
+  /// Connects once, only to the server that gave the seat `own`, which has the same key, or to one of its service. If
+  /// that key was ephemeral, the server's key must be in this user's runtime directory.
+  /// @param at  address to connect to
+  [[nodiscard]] std::expected<void, ResumeError> connect_to(const ResumeState& own, const io::SocketAddress& at);
+  /// Connects to the server to which the connected one sends this client, at most kHopsMax times. The server that is
+  /// left must have vouched for a key of the known service, and the new one must show that key.
+  /// @param seen  largest revision of the session's ownership so far; smaller ones are rejected
+  [[nodiscard]] std::expected<void, JoinError> follow(const rpc::Elsewhere& to, std::uint64_t seen = 0);
 
   // @pre connected
   /// Sends a request and returns the reply, which may be an ErrorReply.
@@ -38,8 +44,13 @@ class ServerConnection {
   [[nodiscard]] std::expected<Reply, JoinError> request(const rpc::Body& body) {
     auto reply = ask(body);
     if (!reply) return std::unexpected(reply.error());
-    if (const auto* rejected = std::get_if<rpc::ErrorReply>(&*reply)) return join_failure(rejection_text(*rejected));
-    if (auto* expected = std::get_if<Reply>(&*reply)) return std::move(*expected);
+    return expect<Reply>(std::move(*reply));
+  }
+  /// Returns a reply of type `Reply`. Error for any other, such as an ErrorReply.
+  template <class Reply>
+  [[nodiscard]] std::expected<Reply, JoinError> expect(rpc::Body reply) const {
+    if (const auto* rejected = std::get_if<rpc::ErrorReply>(&reply)) return join_failure(rejection_text(*rejected));
+    if (auto* expected = std::get_if<Reply>(&reply)) return std::move(*expected);
     return join_failure(kUnexpectedReply);
   }
   [[nodiscard]] auth::ControlClient& client() noexcept { return *client_; }
@@ -49,6 +60,12 @@ class ServerConnection {
   }
 
   [[nodiscard]] const JoinOptions& options() const noexcept { return options_; }
+  /// Address of the connected server.
+  [[nodiscard]] const io::SocketAddress& address() const noexcept { return address_; }
+  /// Service of the connected server; nullopt: it belongs to none that this workstation knows.
+  [[nodiscard]] const std::optional<ServicePin>& service() const noexcept { return keys_->service(); }
+  /// Stores the service of the connected server for later connections; logs a failure.
+  void remember(const std::vector<std::string>& members) const;
   /// Keys of the server from this user's runtime directory; null: the server is known by enrolment.
   [[nodiscard]] const auth::LocalKeys* local() const noexcept { return keys_->local(); }
   /// Key of this workstation that the server knows. @pre connected
@@ -56,14 +73,21 @@ class ServerConnection {
   /// Returns the instruction that starts a server at the address of the options.
   [[nodiscard]] std::string start_command() const;
 
+  static constexpr int kHopsMax = 4;
   static constexpr const char* kUnexpectedReply = "unexpected reply from the server; use the same release on both";
 
  private:
   [[nodiscard]] std::expected<void, JoinError> select_keys();
-  [[nodiscard]] JoinError to_join_error(const auth::ClientError& error) const;
+  [[nodiscard]] std::expected<void, auth::ClientError> connect_once(const io::SocketAddress& at,
+                                                                    const auth::ClientTls::IdentityCallback& judge,
+                                                                    Duration timeout);
+  [[nodiscard]] JoinError to_join_error(const auth::ClientError& error, const io::SocketAddress& at) const;
   [[nodiscard]] std::string rejection_text(const rpc::ErrorReply& reply) const;
 
   const JoinOptions& options_;
+  io::SocketAddress address_ = options_.server;
+  int hops_ = 0;
+  std::uint64_t revision_ = 0;  ///< largest that a server has named
   std::optional<auth::IdentitySelector> keys_;
   std::optional<auth::ControlClient> client_;
 };

@@ -45,7 +45,8 @@ std::optional<rpc::Status> SessionStatusPoller::take() {
 void SessionStatusPoller::work(const rpc::Id& session) {
   while (!over_.load(std::memory_order_relaxed)) {
     auto answer = connection_->ask(rpc::StatusRequest{session}, reply_timeout_);
-    if (!answer) {
+    // A session that moved has a status at its new server only; the reconnect of the seat finds it.
+    if (!answer || std::holds_alternative<rpc::Elsewhere>(*answer)) {
       ended_.store(true, std::memory_order_release);
       return;
     }

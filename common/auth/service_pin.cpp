@@ -150,6 +150,22 @@ std::expected<AcceptedMember, std::string> accept_member(std::span<const std::by
   return AcceptedMember{std::move(*voucher), newest};
 }
 
+std::expected<AcceptedMember, std::string> accept_sent_member(std::span<const std::byte> statement,
+                                                              const ServicePin& pin, const KeyFingerprint& server,
+                                                              std::int64_t now) {
+  if (rpc::decode_member_credential(statement)) return accept_member(statement, pin, server, now);
+  auto voucher = check_voucher(statement, pin, server, now);
+  if (!voucher) return std::unexpected(to_text(voucher.error()));
+  return AcceptedMember{std::move(*voucher), pin};
+}
+
+bool same_service(const ServicePin& a, const ServicePin& b) noexcept {
+  const auto continues = [](const ServicePin& newer, const ServicePin& older) {
+    return newer.key == older.key || (newer.previous_until > 0 && newer.previous == older.key);
+  };
+  return continues(a, b) || continues(b, a);
+}
+
 std::expected<ServicePin, std::string> first_pin(std::span<const std::byte> credential, const KeyFingerprint& server,
                                                  std::int64_t now) {
   const auto shown = rpc::decode_member_credential(credential);

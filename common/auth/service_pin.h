@@ -88,6 +88,13 @@ struct AcceptedMember {
 [[nodiscard]] std::expected<AcceptedMember, std::string> accept_member(std::span<const std::byte> credential,
                                                                        const ServicePin& pin,
                                                                        const KeyFingerprint& server, std::int64_t now);
+/// Judges what one server sends about another: its voucher, or its whole credential.
+[[nodiscard]] std::expected<AcceptedMember, std::string> accept_sent_member(std::span<const std::byte> statement,
+                                                                            const ServicePin& pin,
+                                                                            const KeyFingerprint& server,
+                                                                            std::int64_t now);
+/// Whether two pins are of one service, before and after a change of its key.
+[[nodiscard]] bool same_service(const ServicePin& a, const ServicePin& b) noexcept;
 /// Returns the pin of the service to which a server belongs that the client trusts already by its own key.
 /// @return the reason if the credential does not vouch for that server
 [[nodiscard]] std::expected<ServicePin, std::string> first_pin(std::span<const std::byte> credential,

@@ -55,7 +55,7 @@ PeerKey PeerKey::of(const sockaddr_storage& address) noexcept {
   return key;
 }
 
-std::expected<SocketAddress, std::string> parse_address(std::string_view text, unsigned port_min) {
+std::expected<std::vector<SocketAddress>, std::string> resolve_addresses(std::string_view text, unsigned port_min) {
   const auto wrong = [text](const std::string& why) {
     return std::unexpected("\"" + std::string(text) + "\": " + why);
   };
@@ -82,17 +82,26 @@ std::expected<SocketAddress, std::string> parse_address(std::string_view text, u
   const int failed = getaddrinfo(std::string(host).c_str(), std::to_string(port).c_str(), &hints, &found);
   if (failed != 0) return wrong(std::string("no address for this host: ") + gai_strerror(failed));
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner{found, &freeaddrinfo};
-  const addrinfo* best = found;
-  for (const addrinfo* candidate = found; candidate != nullptr; candidate = candidate->ai_next) {
-    if (candidate->ai_family == AF_INET) {
-      best = candidate;
-      break;
+  std::vector<SocketAddress> addresses;
+  for (const int family : {AF_INET, AF_INET6}) {
+    for (const addrinfo* candidate = found; candidate != nullptr; candidate = candidate->ai_next) {
+      if (candidate->ai_family != family) continue;
+      SocketAddress address;
+      address.size = std::min<socklen_t>(candidate->ai_addrlen, sizeof address.storage);
+      std::memcpy(&address.storage, candidate->ai_addr, address.size);
+      const PeerKey key = PeerKey::of(address.storage);
+      if (std::ranges::none_of(addresses, [&](const SocketAddress& a) { return PeerKey::of(a.storage) == key; }))
+        addresses.push_back(address);
     }
   }
-  SocketAddress address;
-  address.size = std::min<socklen_t>(best->ai_addrlen, sizeof address.storage);
-  std::memcpy(&address.storage, best->ai_addr, address.size);
-  return address;
+  if (addresses.empty()) return wrong("this host has neither an IPv4 nor an IPv6 address");
+  return addresses;
+}
+
+std::expected<SocketAddress, std::string> parse_address(std::string_view text, unsigned port_min) {
+  auto addresses = resolve_addresses(text, port_min);
+  if (!addresses) return std::unexpected(std::move(addresses.error()));
+  return addresses->front();
 }
 
 std::string to_text(const sockaddr_storage& address) {

@@ -7,6 +7,7 @@
 #include <expected>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tandem::io {
 
@@ -29,6 +30,10 @@ struct PeerKey {
   friend bool operator==(const PeerKey&, const PeerKey&) = default;
 };
 
+/// Parses `HOST:PORT`, `[IPV6]:PORT`, `localhost:PORT`. @return all addresses of the name, IPv4 first, each once, or
+/// the error
+[[nodiscard]] std::expected<std::vector<SocketAddress>, std::string> resolve_addresses(std::string_view text,
+                                                                                       unsigned port_min);
 /// Parses `HOST:PORT`, `[IPV6]:PORT`, `localhost:PORT`. Of a name with several addresses it returns the first IPv4 one.
 /// @param port_min  smallest allowed port: 0 where the system may choose a free one
 /// @return the address, or the error

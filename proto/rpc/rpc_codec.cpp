@@ -75,7 +75,7 @@ std::expected<Head, FrameError> peek(std::span<const std::byte> in) noexcept {
   }
   if (!field || (*field & 7U) != kLengthDelimited) return std::unexpected(FrameError::kMalformed);
   const std::uint32_t number = *field >> 3;
-  if (number < static_cast<std::uint32_t>(Kind::kHello) || number > static_cast<std::uint32_t>(Kind::kRecordSession))
+  if (number < static_cast<std::uint32_t>(Kind::kHello) || number > static_cast<std::uint32_t>(Kind::kElsewhere))
     return std::unexpected(FrameError::kMalformed);
   return Head{static_cast<Kind>(number), request};
 }

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "proto/rpc/rpc_bounds.h"
+#include "proto/rpc/rpc_convert_service.h"
 #include "proto/rpc/rpc_convert_sessions.h"
 
 namespace tandem::rpc {
@@ -92,7 +93,7 @@ bool read(const wire_pb::Welcome& in, Welcome& out) {
   out.udp_port = static_cast<std::uint16_t>(in.udp_port());
   good = take(in.resume_secret(), out.resume_secret.bytes) && good;
   out.authority_version = in.authority_version();
-  good = take_name(in.person(), out.person, true) && good;
+  good = take_name(in.person(), out.person, true) && read_members(in.member(), out.members) && good;
   return in.has_limits() && read(in.limits(), out.limits) && good;
 }
 void write(const Welcome& in, wire_pb::Welcome& out) {
@@ -116,6 +117,7 @@ void write(const Welcome& in, wire_pb::Welcome& out) {
   l.set_commands_per_s(in.limits.commands_per_s);
   l.set_commands_burst(in.limits.commands_burst);
   out.set_person(in.person);
+  for (const std::string& member : in.members) out.add_member(member);
 }
 
 bool read(const wire_pb::ErrorReply& in, ErrorReply& out) {
@@ -128,27 +130,20 @@ void write(const ErrorReply& in, wire_pb::ErrorReply& out) {
   out.set_retry_after_s(in.retry_after_s);
 }
 
-bool read(const wire_pb::Enroll& in, Enroll& out) { return take(in.code(), out.code.bytes); }
-void write(const Enroll& in, wire_pb::Enroll& out) { out.set_code(text_of(in.code.bytes)); }
-bool read(const wire_pb::EnrollAck& in, EnrollAck& out) { return take_name(in.workstation(), out.workstation); }
-void write(const EnrollAck& in, wire_pb::EnrollAck& out) { out.set_workstation(in.workstation); }
-
-bool read(const wire_pb::SessionListRequest& in, SessionListRequest& out) {
-  out.after = in.after();
-  return true;
+bool read(const wire_pb::Enroll& in, Enroll& out) {
+  out.service = in.service();
+  return take(in.code(), out.code.bytes);
 }
-void write(const SessionListRequest& in, wire_pb::SessionListRequest& out) { out.set_after(in.after); }
-
-bool read(const wire_pb::SessionList& in, SessionList& out) {
-  if (in.session_size() > static_cast<int>(kListedSessionsMax)) return false;
-  out.more = in.more();
-  out.last = in.last();
-  return std::ranges::all_of(in.session(), [&](const auto& s) { return read_listed(s, out.sessions.emplace_back()); });
+void write(const Enroll& in, wire_pb::Enroll& out) {
+  out.set_code(text_of(in.code.bytes));
+  out.set_service(in.service);
 }
-void write(const SessionList& in, wire_pb::SessionList& out) {
-  out.set_more(in.more);
-  out.set_last(in.last);
-  for (const ListedSession& s : in.sessions) write_listed(s, *out.add_session());
+bool read(const wire_pb::EnrollAck& in, EnrollAck& out) {
+  return take_name(in.workstation(), out.workstation) && read_members(in.member(), out.members);
+}
+void write(const EnrollAck& in, wire_pb::EnrollAck& out) {
+  out.set_workstation(in.workstation);
+  for (const std::string& member : in.members) out.add_member(member);
 }
 
 /// Stops and pauses: a session and a reason.
@@ -372,6 +367,7 @@ constexpr std::array<Conversion, kKinds> kConversions{
     conversion<NotesRequest, &Pb::notes_request, &Pb::mutable_notes_request>(),
     conversion<NoteList, &Pb::note_list, &Pb::mutable_note_list>(),
     conversion<RecordSession, &Pb::record_session, &Pb::mutable_record_session>(),
+    conversion<Elsewhere, &Pb::elsewhere, &Pb::mutable_elsewhere>(),
 };
 
 }  // namespace

@@ -13,7 +13,8 @@ bool read_listed(const pb::rpc::Session& in, ListedSession& out) {
       in.state() > static_cast<std::uint32_t>(SessionPhase::kOverloaded))
     return false;
   out.phase = static_cast<SessionPhase>(in.state());
-  if (!take(in.id(), out.id) || !take_name(in.name(), out.name)) return false;
+  if (!take(in.id(), out.id) || !take_name(in.name(), out.name) || !take_name(in.server(), out.server, true))
+    return false;
   for (const pb::rpc::Seat& seat : in.seat()) {
     ListedSeat& listed = out.seats.emplace_back();
     listed.taken = seat.taken();
@@ -33,6 +34,30 @@ void write_listed(const ListedSession& in, pb::rpc::Session& out) {
     seat.set_taken(listed.taken);
     seat.set_required(listed.required);
   }
+  out.set_server(in.server);
+}
+
+bool read(const pb::rpc::SessionListRequest& in, SessionListRequest& out) {
+  out = {in.after(), in.service()};
+  return true;
+}
+void write(const SessionListRequest& in, pb::rpc::SessionListRequest& out) {
+  out.set_after(in.after);
+  out.set_service(in.service);
+}
+
+bool read(const pb::rpc::SessionList& in, SessionList& out) {
+  if (in.session_size() > static_cast<int>(kListedSessionsMax)) return false;
+  out.more = in.more();
+  out.last = in.last();
+  out.old = in.old();
+  return std::ranges::all_of(in.session(), [&](const auto& s) { return read_listed(s, out.sessions.emplace_back()); });
+}
+void write(const SessionList& in, pb::rpc::SessionList& out) {
+  out.set_more(in.more);
+  out.set_last(in.last);
+  out.set_old(in.old);
+  for (const ListedSession& s : in.sessions) write_listed(s, *out.add_session());
 }
 
 bool read(const pb::rpc::CreateSession& in, CreateSession& out) {

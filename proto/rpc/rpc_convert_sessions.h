@@ -10,6 +10,10 @@ namespace tandem::rpc {
 [[nodiscard]] bool read_listed(const pb::rpc::Session& in, ListedSession& out);
 void write_listed(const ListedSession& in, pb::rpc::Session& out);
 
+[[nodiscard]] bool read(const pb::rpc::SessionListRequest& in, SessionListRequest& out);
+void write(const SessionListRequest& in, pb::rpc::SessionListRequest& out);
+[[nodiscard]] bool read(const pb::rpc::SessionList& in, SessionList& out);
+void write(const SessionList& in, pb::rpc::SessionList& out);
 [[nodiscard]] bool read(const pb::rpc::CreateSession& in, CreateSession& out);
 void write(const CreateSession& in, pb::rpc::CreateSession& out);
 [[nodiscard]] bool read(const pb::rpc::SessionCreated& in, SessionCreated& out);

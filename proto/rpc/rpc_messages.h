@@ -10,7 +10,9 @@
 
 #include "common/base/secret.h"
 #include "proto/rpc/rpc_limits.h"
+#include "proto/rpc/rpc_lists.h"
 #include "proto/rpc/rpc_notes.h"
+#include "proto/rpc/rpc_service.h"
 #include "proto/spec/access_role.h"
 #include "proto/spec/registry_spec.h"
 #include "proto/wire/wire_messages.h"
@@ -48,7 +50,8 @@ using Credential = std::variant<std::monostate, TicketCredential, ResumeCredenti
 using SessionChoice = std::variant<std::monostate, Id, std::string>;
 
 struct Hello {
-  std::vector<std::uint32_t> versions{kProtocolVersion};  ///< 1 ... 8 of them, ascending, 1 ... 65535
+  std::vector<std::uint32_t> versions{kProtocolVersionMin,
+                                      kProtocolVersion};  ///< 1 ... 8 of them, ascending, 1 ... 65535
   SessionChoice session;
   std::string seat;  ///< a name, or empty
   Credential credential;
@@ -81,7 +84,8 @@ struct Welcome {
   Secret<32> resume_secret;
   std::uint32_t authority_version = 0;
   RateLimits limits;
-  std::string person{};  ///< name in the ticket; empty: not named
+  std::string person{};                ///< name in the ticket; empty: not named
+  std::vector<std::string> members{};  ///< addresses of the service's servers, at most kMembersMax; from version 3 on
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
@@ -118,35 +122,13 @@ struct ErrorReply {
 
 struct Enroll {
   Secret<16> code;
+  bool service = false;  ///< the reply may have `members`; only for a server that shows a credential of a service
   friend bool operator==(const Enroll&, const Enroll&) = default;
 };
 struct EnrollAck {
-  std::string workstation;  ///< a name
+  std::string workstation;             ///< a name
+  std::vector<std::string> members{};  ///< addresses of the service's servers, at most kMembersMax
   friend bool operator==(const EnrollAck&, const EnrollAck&) = default;
-};
-
-enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, kEnding, kOverloaded };
-[[nodiscard]] constexpr const char* to_text(SessionPhase phase) noexcept {
-  constexpr const char* kNames[] = {"waiting", "running", "paused", "stopped", "ending", "overloaded"};
-  return phase <= SessionPhase::kOverloaded ? kNames[static_cast<std::size_t>(phase)] : "?";
-}
-using ListedSeat = OpenSeat;
-struct ListedSession {
-  Id id{};
-  std::string name;
-  SessionPhase phase = SessionPhase::kWaiting;
-  std::vector<ListedSeat> seats;  ///< at most kListedSeatsMax
-  friend bool operator==(const ListedSession&, const ListedSession&) = default;
-};
-struct SessionListRequest {
-  std::uint32_t after = 0;  ///< `last` of the page before; 0: the first page
-  friend bool operator==(const SessionListRequest&, const SessionListRequest&) = default;
-};
-struct SessionList {
-  std::vector<ListedSession> sessions;  ///< at most kListedSessionsMax, in the order in which they were opened
-  bool more = false;                    ///< another page follows
-  std::uint32_t last = 0;               ///< for the request of the next page; 0 without one
-  friend bool operator==(const SessionList&, const SessionList&) = default;
 };
 
 struct StopSession {
@@ -349,7 +331,7 @@ struct RecordSession {
 using Body = std::variant<Hello, Welcome, ErrorReply, Enroll, EnrollAck, SessionListRequest, SessionList, StopSession,
                           ResumeSession, PauseSession, SetAuthority, AuthorityReply, Drain, Ping, Pong, Ok,
                           RemoveParticipant, StatusRequest, Status, CreateSession, SessionCreated, EndSession, Note,
-                          SceneListRequest, SceneList, NotesRequest, NoteList, RecordSession>;
+                          SceneListRequest, SceneList, NotesRequest, NoteList, RecordSession, Elsewhere>;
 
 /// Kind of the message in a frame. It is readable before the payload, so that roles are checked first. The number is
 /// the field's number in ControlFrame.
@@ -381,10 +363,11 @@ enum class Kind : std::uint8_t {
   kSceneList,
   kNotesRequest,
   kNoteList,
-  kRecordSession
+  kRecordSession,
+  kElsewhere
 };
 inline constexpr std::size_t kKinds = std::variant_size_v<Body>;
-static_assert(static_cast<std::size_t>(Kind::kRecordSession) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
+static_assert(static_cast<std::size_t>(Kind::kElsewhere) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
 
 struct Frame {
   std::uint32_t request = 0;

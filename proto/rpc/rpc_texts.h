@@ -22,6 +22,13 @@ inline bool is_name(std::string_view text) noexcept {
   });
 }
 
+/// Whether text may be HOST:PORT: at most kAddressMax printable characters without space and quote. Only a client that
+/// connects resolves it.
+inline bool is_address(std::string_view text) noexcept {
+  return text.size() >= 3 && text.size() <= kAddressMax && text.find(':') != std::string_view::npos &&
+         std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~' && c != '"' && c != '\\'; });
+}
+
 /// Whether text is UTF-8 [RFC 3629] without control characters, so that it cannot control a terminal; at most
 /// `most` bytes.
 inline bool is_text(std::string_view text, std::size_t most = kTextMax) noexcept {

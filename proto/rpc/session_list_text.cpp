@@ -30,11 +30,13 @@ std::string session_list_text(const rpc::SessionList& list, const std::vector<st
     text += format("%s: %s, %zu of %zu seats free", s.name.c_str(), rpc::to_text(s.phase), s.seats.size() - taken,
                    s.seats.size());
     text += i < codes.size() ? (codes[i].empty() ? ", tickets only" : ", code " + codes[i]) : "";
-    text += ", id " + hex(s.id) + "\n";
+    text += ", id " + hex(s.id) + (s.server.empty() ? "" : ", server " + s.server) + "\n";
     for (const rpc::ListedSeat& seat : s.seats)
       text += format("  %-16s %-10s %s%s\n", seat.name.c_str(), role_of(seat).c_str(), seat.taken ? "taken" : "free",
                      seat.required ? "" : ", optional");
   }
+  if (list.old)
+    text += "sessions of other servers may have changed: the server does not reach the service's directory\n";
   if (list.more) text += "and more, which do not fit into one answer\n";
   return text;
 }
@@ -47,6 +49,7 @@ std::string session_list_json(const rpc::SessionList& list, const std::vector<st
     const std::size_t taken = taken_of(s);
     text += (i == 0 ? "\n  {" : ",\n  {") + std::string("\"id\": \"") + hex(s.id) + "\", \"name\": \"" + s.name +
             "\", \"phase\": \"" + rpc::to_text(s.phase) + "\"";
+    if (!s.server.empty()) text += ", \"server\": \"" + s.server + "\"";
     if (i < codes.size()) text += ", \"code\": " + (codes[i].empty() ? "null" : "\"" + codes[i] + "\"");
     text += format(", \"seats_free\": %zu, \"seats_taken\": %zu, \"seats\": [", s.seats.size() - taken, taken);
     for (std::size_t k = 0; k < s.seats.size(); ++k) {
@@ -57,7 +60,7 @@ std::string session_list_json(const rpc::SessionList& list, const std::vector<st
     }
     text += "]}";
   }
-  return text + "], \"more\": " + (list.more ? "true" : "false") + "}\n";
+  return text + "], \"more\": " + (list.more ? "true" : "false") + (list.old ? ", \"old\": true" : "") + "}\n";
 }
 
 }  // namespace tandem

@@ -12,8 +12,8 @@ namespace tandem {
 /// @param codes  codes of the sessions in the same order, in display form; empty: unknown to the caller
 [[nodiscard]] std::string session_list_text(const rpc::SessionList& list, const std::vector<std::string>& codes = {});
 
-/// `{"sessions": [{"id", "name", "phase", "code"?, "seats_free", "seats_taken", "seats": [{"name", "role", "taken",
-/// "required"}]}], "more": false}`
+/// `{"sessions": [{"id", "name", "phase", "server"?, "code"?, "seats_free", "seats_taken", "seats": [{"name", "role",
+/// "taken", "required"}]}], "more": false, "old"?: true}`
 [[nodiscard]] std::string session_list_json(const rpc::SessionList& list, const std::vector<std::string>& codes = {});
 
 }  // namespace tandem

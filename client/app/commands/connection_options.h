@@ -4,7 +4,7 @@
 
 #include "client/app/commands/ticket_option.h"
 #include "client/app/join_client.h"
-#include "common/io/socket_address.h"
+#include "client/app/server_addresses.h"
 #include "common/io/usage_errors.h"
 
 /// Options shared by the commands that connect to a server. The help lists options in the order in which they are
@@ -17,8 +17,11 @@ struct ConnectionArguments {
   std::string server, session, state, timeout = "5";
 };
 
-inline void add_server_option(const io::Command& command, ConnectionArguments& arguments,
-                              const char* help = "required: the address that tandem-server prints as `listening on`") {
+inline void add_server_option(
+    const io::Command& command, ConnectionArguments& arguments,
+    const char* help =
+        "required: the address that tandem-server prints as `listening on`; several servers of a "
+        "service: separated by commas") {
   command.add_option("--server", arguments.server, help).value_name("HOST:PORT").required();
 }
 
@@ -46,9 +49,9 @@ inline void add_timeout_option(const io::Command& command, std::string& timeout,
 
 /// Returns the given server, session and state directory. Adds an error if the server is no address.
 [[nodiscard]] inline JoinOptions connection_of(const ConnectionArguments& arguments, io::UsageErrors& errors) {
-  const auto server = io::parse_address(arguments.server, 1);
-  if (!server) errors.add("--server", server.error());
-  return {.server = server.value_or(io::SocketAddress{}), .session = arguments.session, .state = arguments.state};
+  JoinOptions options{.session = arguments.session, .state = arguments.state};
+  errors.add("--server", set_server_addresses(arguments.server, options));
+  return options;
 }
 
 }  // namespace tandem::client

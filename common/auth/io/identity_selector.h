@@ -23,6 +23,12 @@ class IdentitySelector {
       : address_(std::move(address)), own_(std::move(own)), runtime_(std::move(runtime)) {}
 
   [[nodiscard]] std::expected<const Identity*, std::string> operator()(const PresentedKey& server);
+  /// Sets the address of the next server, for errors.
+  void set_address(std::string address) { address_ = std::move(address); }
+  /// Returns the servers at which this workstation is enrolled; none if the list cannot be read.
+  [[nodiscard]] std::vector<ServerRow> known() const {
+    return own_ ? own_->servers().value_or(std::vector<ServerRow>{}) : std::vector<ServerRow>{};
+  }
   /// Returns the key that was selected. @pre the selector was called and returned an identity
   [[nodiscard]] const KeyFingerprint& selected() const noexcept { return selected_; }
   /// Returns the published keys if they were selected, so that the client signs its own tickets; else null.

@@ -127,7 +127,7 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
   if (auto* hello = std::get_if<rpc::Hello>(&frame->body)) return on_hello(std::move(*hello));
   if (const auto* ping = std::get_if<rpc::Ping>(&frame->body)) return answer(rpc::Pong{ping->nonce});
   if (const auto* page = std::get_if<rpc::SessionListRequest>(&frame->body)) {
-    rpc::SessionList list = services_.join_handler.list(page->after);
+    rpc::SessionList list = services_.join_handler.list(*page);
     accepted();
     return answer(std::move(list));
   }
@@ -163,7 +163,8 @@ void ControlConnection::on_enrol(const rpc::Enroll& enrol) {
   if (row) {
     services_.events.record(ControlEvent::kEnrolled, address_, row->name, pin_.hex());
     accepted();
-    return answer(rpc::EnrollAck{row->name});
+    return answer(
+        rpc::EnrollAck{row->name, enrol.service ? services_.join_handler.members() : std::vector<std::string>{}});
   }
   if (!row.error().fault) {
     services_.events.record(ControlEvent::kTrouble, address_, "", row.error().text);
@@ -178,10 +179,15 @@ void ControlConnection::on_enrol(const rpc::Enroll& enrol) {
 }
 
 void ControlConnection::on_hello(rpc::Hello hello) {
-  if (std::ranges::find(hello.versions, rpc::kProtocolVersion) == hello.versions.end())
+  std::uint32_t version = 0;  // the newest in common
+  for (const std::uint32_t offered : hello.versions)
+    if (offered >= rpc::kProtocolVersionMin && offered <= rpc::kProtocolVersion) version = offered;
+  if (version == 0)
     return refuse(ErrorCode::kVersion,
-                  "this server supports version " + std::to_string(rpc::kProtocolVersion) +
-                      " of the protocol, this client supports none of it; install the same release on both",
+                  "this server supports versions " + std::to_string(rpc::kProtocolVersionMin) + " to " +
+                      std::to_string(rpc::kProtocolVersion) + " of the protocol, this client none of them (" +
+                      std::to_string(hello.versions.front()) + " to " + std::to_string(hello.versions.back()) +
+                      "); install the same release on both",
                   true);
   // Only codes can be guessed, so a block of the source or the key applies to them only. A resume secret is checked
   // against the key only: if it names its session by the code, it costs the key's own attempts.
@@ -198,7 +204,7 @@ void ControlConnection::on_hello(rpc::Hello hello) {
     record(ControlEvent::kRefused, full);
     return refuse(ErrorCode::kFull, full, true, 5);
   }
-  const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *workstation_, address_});
+  const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *workstation_, address_, version});
   if (!pending_) set_deadline(services_.limits.frame_deadline);
   // The reply may come from another thread, or after this connection has ended.
   services_.join_handler.admit(*request, [weak = weak_from_this(), request, &context = services_.context,
@@ -217,7 +223,13 @@ void ControlConnection::on_join_reply(const std::shared_ptr<JoinRequest>& reques
     record(ControlEvent::kRefused, refused->text);
     return answer(std::move(*refused), true);
   }
+  if (auto* elsewhere = std::get_if<rpc::Elsewhere>(&admission)) {
+    record(ControlEvent::kElsewhere, elsewhere->session + " at " + elsewhere->address);
+    return answer(std::move(*elsewhere), true);
+  }
   rpc::Welcome& welcome = std::get<rpc::Welcome>(admission);
+  welcome.version = request->version;
+  if (request->version >= rpc::kVersionOfServices) welcome.members = services_.join_handler.members();
   const auto secrets =
       stream_->export_secrets({welcome.session_id, welcome.epoch, welcome.server_cid, welcome.role, welcome.seat});
   if (!secrets) {

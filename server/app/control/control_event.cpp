@@ -33,6 +33,7 @@ ControlEventTexts texts_of(ControlEvent event) noexcept {
       {"evicted", "was closed for another connection"},
       {"idle", "was silent for too long"},
       {"too_many", "had too many connections"},
+      {"elsewhere", "was sent to another server of the service"},
   }};
   const auto i = static_cast<std::size_t>(event);
   return i < kTexts.size() ? kTexts[i] : ControlEventTexts{};

@@ -28,11 +28,12 @@ enum class ControlEvent : std::uint8_t {
   kCommandTooFast,
   kTrouble,
   kForbidden,
-  kEvicted,  ///< closed before it proved an enrolled key, to admit another connection
-  kIdle,     ///< closed because it had not joined and was idle for too long
-  kTooMany,  ///< closed because it had not joined, and its key, its source or the server had too many
+  kEvicted,    ///< closed before it proved an enrolled key, to admit another connection
+  kIdle,       ///< closed because it had not joined and was idle for too long
+  kTooMany,    ///< closed because it had not joined, and its key, its source or the server had too many
+  kElsewhere,  ///< was sent to the server of the service that has its session
 };
-inline constexpr std::size_t kControlEvents = 19;
+inline constexpr std::size_t kControlEvents = 20;
 /// Name of the event, for logs and metrics.
 [[nodiscard]] std::string_view to_text(ControlEvent event) noexcept;
 /// Clause for messages; its subject is the peer.

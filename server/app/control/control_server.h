@@ -64,6 +64,14 @@ class ControlServer {
   /// Its `post` is for any thread.
   [[nodiscard]] AuditWriter& audit() noexcept { return audit_; }
 
+  /// Sets where the sessions of this server's service are. Call it before `start`.
+  /// @param locator  must outlive this object
+  void set_locator(SessionLocator& locator) {
+    joins_.set_locator(&locator, trust_.membership() == nullptr ? std::string{} : trust_.membership()->name);
+  }
+  /// Membership in a service; null: the server belongs to none.
+  [[nodiscard]] const auth::ServiceMembership* membership() const noexcept { return trust_.membership(); }
+
   /// Begins to reply. @return the error; empty if there is none
   [[nodiscard]] std::string start();
   /// Calls `change` on the control thread and waits until it has called `done`. From another thread, after `start`.

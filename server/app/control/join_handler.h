@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/auth/exporter_context.h"
 #include "common/auth/io/server_keystore.h"
@@ -15,10 +16,12 @@ namespace tandem::server {
 struct JoinRequest {
   rpc::Hello hello;
   WorkstationRow workstation;
-  std::string address;  ///< of the peer, for logs
+  std::string address;                            ///< of the peer, for logs
+  std::uint32_t version = rpc::kProtocolVersion;  ///< of the protocol: the newest that both ends support
 };
 
-using JoinReply = std::variant<rpc::Welcome, rpc::ErrorReply>;
+/// Elsewhere only for clients of version 3.
+using JoinReply = std::variant<rpc::Welcome, rpc::ErrorReply, rpc::Elsewhere>;
 
 /// Decides about sessions and seats. All calls come from the control plane's thread; none may block. A reply may come
 /// at once or later, from any thread, exactly once, and only while the control plane's io_context exists. Tickets are
@@ -37,8 +40,10 @@ class JoinHandler {
   /// A Welcome could not be sent: the seat is free again.
   virtual void on_join_failed(const rpc::Welcome& welcome) = 0;
 
-  /// One page of the list of sessions. @param after  of the SessionListRequest
-  [[nodiscard]] virtual rpc::SessionList list(std::uint32_t after) = 0;
+  /// One page of the list of sessions.
+  [[nodiscard]] virtual rpc::SessionList list(const rpc::SessionListRequest& request) = 0;
+  /// Addresses of the servers of the service, at most rpc::kMembersMax; empty: this server belongs to none.
+  [[nodiscard]] virtual std::vector<std::string> members() const { return {}; }
 
   /// Executes a command of a joined connection: stop, pause, resume, authority, remove, status, drain. Replies with
   /// Ok, Status, AuthorityReply or ErrorReply.

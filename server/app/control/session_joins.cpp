@@ -8,9 +8,8 @@
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/log.h"
-#include "proto/text/scene_bytes.h"
-#include "proto/text/seat_setup.h"
 #include "server/app/control/audit_writer.h"
+#include "server/app/control/setup_bytes.h"
 #include "server/app/control/slot_join.h"
 #include "server/policy/roles.h"
 #include "server/session/connection_id.h"
@@ -58,22 +57,10 @@ rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessR
           .person = std::move(person)};
 }
 
-std::vector<std::byte> encoded(const SeatSetup& setup) {
-  std::array<char, wire::kSetupMax> text;
-  const auto bytes = std::as_bytes(std::span{text}.first(encode_seat_setup(setup, text)));
-  return {bytes.begin(), bytes.end()};
-}
-
 /// Key to which the resume secrets of this workstation are bound. Ephemeral keys are shared by all clients and change
 /// with each start.
 SeatReservation::Hash resume_binding(const auth::ServerKeystore& trust, const WorkstationRow& workstation) {
   return trust.on_disk() ? workstation.spki : SeatReservation::Hash{};
-}
-
-std::vector<std::byte> encoded(const SceneSpec& scene) {
-  std::array<char, wire::kSetupMax> text;
-  const auto bytes = std::as_bytes(std::span{text}.first(encode_scene(scene, text)));
-  return {bytes.begin(), bytes.end()};
 }
 
 ErrorReply seat_taken(const std::string& seat) {
@@ -91,6 +78,8 @@ SessionJoins::SessionJoins(SessionRegistry& registry, SessionCommands& commands,
     : registry_(registry), commands_(commands), trust_(trust), limits_(limits), on_message_(std::move(on_message)) {}
 
 void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinReply)> answer) {
+  if (auto away = redirect_.find(request.hello.session, request.version >= rpc::kVersionOfServices))
+    return std::visit([&](auto& reply) { answer(std::move(reply)); }, *away);
   // A console operates sessions, so it may join while the server drains.
   const bool console = request.hello.seat.empty() && !request.hello.link_test;
   if (registry_.drain().active() && !console)
@@ -364,6 +353,9 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
 
 void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                            std::function<void(rpc::Body)> answer) {
+  if (std::as_const(registry_).find(joined.session_id) == nullptr)
+    if (auto away = redirect_.find(joined.session_id, joined.version >= rpc::kVersionOfServices))
+      return std::visit([&](auto& reply) { answer(std::move(reply)); }, *away);
   commands_.execute(joined, workstation, std::move(command), std::move(answer));
 }
 

@@ -7,6 +7,7 @@
 
 #include "server/app/control/join_handler.h"
 #include "server/app/control/session_commands.h"
+#include "server/app/control/session_redirect.h"
 #include "server/app/control/session_registry.h"
 #include "server/policy/admission_control.h"
 
@@ -22,11 +23,16 @@ class SessionJoins final : public JoinHandler {
   SessionJoins(SessionRegistry& registry, SessionCommands& commands, auth::ServerKeystore& trust,
                const LoadLimits& limits = {}, std::function<void(const std::string&)> on_message = {});
 
+  /// As `SessionRedirect::set_locator`.
+  void set_locator(SessionLocator* locator, std::string name) { redirect_.set_locator(locator, std::move(name)); }
   void admit(const JoinRequest& request, std::function<void(JoinReply)> answer) override;
   void on_joined(const JoinRequest& request, const rpc::Welcome& welcome,
                  const Secret<auth::kExportSize>& secrets) override;
   void on_join_failed(const rpc::Welcome& welcome) override;
-  [[nodiscard]] rpc::SessionList list(std::uint32_t after) override { return registry_.list(after); }
+  [[nodiscard]] rpc::SessionList list(const rpc::SessionListRequest& request) override {
+    return redirect_.list(request);
+  }
+  [[nodiscard]] std::vector<std::string> members() const override { return redirect_.members(); }
   void command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                std::function<void(rpc::Body)> answer) override;
   [[nodiscard]] bool is_current(const rpc::Welcome& joined) const override;
@@ -58,6 +64,7 @@ class SessionJoins final : public JoinHandler {
 
   SessionRegistry& registry_;
   SessionCommands& commands_;
+  SessionRedirect redirect_{registry_};
   auth::ServerKeystore& trust_;
   LoadLimits limits_;
   std::function<void(const std::string&)> on_message_;

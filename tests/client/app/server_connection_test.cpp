@@ -61,7 +61,7 @@ TEST_F(ServerConnectionTest, TriesOnceToReturnToTheServerOfASeat) {
   const Time begin = io::monotonic_now();
   ResumeState own;
   own.local = true;
-  const auto connected = server.connect_to(own);
+  const auto connected = server.connect_to(own, options.server);
   ASSERT_FALSE(connected);
   EXPECT_EQ(connected.error().kind, ResumeError::Kind::kAgain);
   EXPECT_LT(io::monotonic_now() - begin, 2s);

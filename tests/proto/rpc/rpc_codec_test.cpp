@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "common/base/hex.h"
 #include "tests/common/base/counts.h"
 #include "tests/proto/rpc/rpc_samples.h"
 
@@ -118,7 +119,7 @@ TEST(RpcCodec, AcceptsOnlyOneEncodingPerMessage) {
   EXPECT_EQ(decode(long_varint).error(), FrameError::kMalformed) << "a number in a second form";
   EXPECT_EQ(decode(bytes({0x08, 1})).error(), FrameError::kMalformed) << "no message";
   EXPECT_EQ(decode(bytes({0x08, 1, 0x10, 7})).error(), FrameError::kMalformed);
-  EXPECT_EQ(decode(bytes({0x08, 1, 0xfa, 1, 0})).error(), FrameError::kMalformed) << "field 31 does not exist";
+  EXPECT_EQ(decode(bytes({0x08, 1, 0x82, 2, 0})).error(), FrameError::kMalformed) << "field 32 does not exist";
   EXPECT_EQ(decode(bytes({0x08, 1, 0x1b, 0x1c})).error(), FrameError::kMalformed) << "groups";
 }
 
@@ -196,6 +197,46 @@ TEST(RpcCodec, RejectsOutOfRangeFieldsInBothDirections) {
   EXPECT_TRUE(
       status([](Status& m) { m.seats.assign(kListedSeatsMax + 1, {"s", AccessRole::kTrainee, false, false, false}); }));
   EXPECT_TRUE(status([](Status& m) { m.seats = {{"s", static_cast<AccessRole>(kAccessRoles), false, false, false}}; }));
+}
+
+TEST(RpcCodec, RejectsOutOfRangeFieldsOfAService) {
+  const auto refuses = [](const Body& body) {
+    const auto out = encode({1, body});
+    return !out && out.error() == FrameError::kOutOfRange;
+  };
+  const auto elsewhere = [&](auto change) {
+    Elsewhere m{.address = "lab-b:7000", .voucher = Bytes(1), .session = "lesson"};
+    change(m);
+    return refuses(m);
+  };
+  EXPECT_FALSE(elsewhere([](Elsewhere&) {}));
+  EXPECT_FALSE(elsewhere([](Elsewhere& m) { m.address = "[::1]:1"; }));
+  EXPECT_FALSE(elsewhere([](Elsewhere& m) { m.voucher.resize(kVoucherMax); }));
+  EXPECT_TRUE(elsewhere([](Elsewhere& m) { m.voucher.resize(kVoucherMax + 1); }));
+  EXPECT_TRUE(elsewhere([](Elsewhere& m) { m.voucher.clear(); }));
+  EXPECT_TRUE(elsewhere([](Elsewhere& m) { m.session = ""; }));
+  for (const std::string& bad : {std::string(), std::string("lab-b"), std::string("a b:1"), std::string("a\"b:1"),
+                                 std::string("a\x1b:1"), std::string(kAddressMax, 'a') + ":1"}) {
+    EXPECT_TRUE(elsewhere([&](Elsewhere& m) { m.address = bad; })) << bad;
+    EXPECT_TRUE(refuses(EnrollAck{"touch-01", {bad}})) << bad;
+  }
+  EXPECT_FALSE(refuses(EnrollAck{"touch-01", std::vector<std::string>(kMembersMax, "lab-a:1")}));
+  EXPECT_TRUE(refuses(EnrollAck{"touch-01", std::vector<std::string>(kMembersMax + 1, "lab-a:1")}));
+  SessionList list{{{{}, "lesson", SessionPhase::kRunning, {}, "desk-a"}}, false, 0, true};
+  EXPECT_FALSE(refuses(list));
+  list.sessions[0].server = "desk a";
+  EXPECT_TRUE(refuses(list));
+}
+
+/// A client of version 2 rejects every frame with a field that it does not know, so nothing of a service may appear
+/// in frames for it.
+TEST(RpcCodec, EncodesFramesWithoutServiceAsVersion2) {
+  const auto hex = [](const Body& body) { return to_hex(encode({1, body})->bytes().subspan(kLengthSize)); };
+  EXPECT_EQ(hex(Enroll{}), "0801100132120a10" + std::string(32, '0'));
+  EXPECT_EQ(hex(EnrollAck{"a"}), "080110013a030a0161");
+  EXPECT_EQ(hex(SessionListRequest{5}), "0801100142020805");
+  EXPECT_EQ(hex(SessionList{{{{}, "a", SessionPhase::kRunning, {}}}, true, 3}),
+            "080110014a1d0a170a10" + std::string(32, '0') + "120161180110011803");
 }
 
 TEST(RpcCodec, RejectsTextThatIsNoUtf8OrControlsATerminal) {

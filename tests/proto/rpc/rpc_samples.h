@@ -90,6 +90,13 @@ inline Hello hello(RandomStream& r) {
   return m;
 }
 
+inline std::string address(RandomStream& r) { return name(r) + ":" + std::to_string(1 + r.below(65535)); }
+inline std::vector<std::string> members(RandomStream& r) {
+  std::vector<std::string> out(r.below(kMembersMax + 1));
+  for (std::string& m : out) m = address(r);
+  return out;
+}
+
 inline Welcome welcome(RandomStream& r) {
   Welcome m;
   m.version = 1 + static_cast<std::uint32_t>(r.below(65535));
@@ -107,6 +114,7 @@ inline Welcome welcome(RandomStream& r) {
   m.authority_version = static_cast<std::uint32_t>(r.bits());
   m.limits.datagrams_per_s = 1 + static_cast<std::uint32_t>(r.below(1000000));
   if (r.below(2) == 0) m.person = name(r);
+  m.members = members(r);
   return m;
 }
 
@@ -114,11 +122,13 @@ inline SessionList session_list(RandomStream& r) {
   SessionList m;
   m.more = r.below(2) == 0;
   m.last = static_cast<std::uint32_t>(r.bits());
+  m.old = r.below(2) == 0;
   for (std::uint64_t i = r.below(kListedSessionsMax + 1); i > 0; --i) {
     ListedSession& s = m.sessions.emplace_back();
     fill(r, s.id);
     s.name = name(r);
     s.phase = static_cast<SessionPhase>(r.below(6));
+    if (r.below(2) == 0) s.server = name(r);
     for (std::uint64_t k = r.below(kListedSeatsMax + 1); k > 0; --k)
       s.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0});
   }
@@ -225,12 +235,13 @@ inline Frame frame(RandomStream& r, Kind kind) {
       break;
     case Kind::kEnroll:
       fill(r, f.body.emplace<Enroll>().code.bytes);
+      std::get<Enroll>(f.body).service = r.below(2) == 0;
       break;
     case Kind::kEnrollAck:
-      f.body = EnrollAck{name(r)};
+      f.body = EnrollAck{name(r), members(r)};
       break;
     case Kind::kSessionListRequest:
-      f.body = SessionListRequest{static_cast<std::uint32_t>(r.bits())};
+      f.body = SessionListRequest{static_cast<std::uint32_t>(r.bits()), r.below(2) == 0};
       break;
     case Kind::kSessionList:
       f.body = session_list(r);
@@ -328,6 +339,17 @@ inline Frame frame(RandomStream& r, Kind kind) {
     case Kind::kNoteList:
       f.body = note_list(r);
       break;
+    case Kind::kElsewhere: {
+      auto& m = f.body.emplace<Elsewhere>();
+      m.address = address(r);
+      fill(r, m.key);
+      m.voucher.resize(1 + r.below(kVoucherMax));
+      fill(r, m.voucher);
+      m.session = name(r);
+      if (r.below(2) == 0) fill(r, m.id.emplace());
+      m.revision = r.bits();
+      break;
+    }
     case Kind::kRecordSession: {
       auto& m = f.body.emplace<RecordSession>();
       fill(r, m.session_id);

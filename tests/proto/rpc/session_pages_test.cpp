@@ -69,6 +69,21 @@ TEST(SessionPages, EndAfterABoundedNumberOfRequestsToAServerThatAlwaysAnnouncesM
   EXPECT_EQ(requests, kSessionPagesMax);
 }
 
+TEST(SessionPages, OfAServiceHoldMoreAndTellOfOneOldPage) {
+  std::size_t requests = 0;
+  const auto all = all_sessions(
+      [&](const SessionListRequest& page) -> std::optional<SessionList> {
+        EXPECT_TRUE(page.service);
+        ++requests;
+        return SessionList{{}, requests < 12, 7, requests == 3};
+      },
+      true);
+  ASSERT_TRUE(all);
+  EXPECT_FALSE(all->more);
+  EXPECT_TRUE(all->old);
+  EXPECT_EQ(requests, 12U);
+}
+
 TEST(SessionPages, FailIfOnePageFails) {
   std::size_t requests = 0;
   const auto all = all_sessions([&](const SessionListRequest&) -> std::optional<SessionList> {

@@ -58,7 +58,7 @@ class OneSession : public JoinHandler {
     ++abandoned_count;
     changed.notify_all();
   }
-  rpc::SessionList list(std::uint32_t) override {
+  rpc::SessionList list(const rpc::SessionListRequest&) override {
     return {{{session_id, "contact", rpc::SessionPhase::kWaiting, {{"trainee"}}}}, false};
   }
   void command(const rpc::Welcome&, const WorkstationRow&, rpc::Body, std::function<void(rpc::Body)> answer) override {

@@ -113,7 +113,7 @@ TEST(ControlPlane, RejectsUnsupportedVersions) {
   auto client = door.connect(me);
   ASSERT_TRUE(client);
   rpc::Hello hello = hello_with(door.ticket(me));
-  hello.versions = {1, 3};
+  hello.versions = {1, 4};
   EXPECT_EQ(reason_of(client->ask(hello, kTimeout)), ErrorCode::kVersion);
   auto again = door.connect(me);
   hello.versions = {1, 2};
