@@ -36,6 +36,7 @@ ServiceMember::ServiceMember(ServiceMemberOptions options, directory::Directory&
       keys_(options_.prefix),
       ownership_(options_.server, "", options_.times, names_),
       catalogue_(keys_),
+      tickets_(ownership_, names_),
       writer_(names_, kWritePause),
       registry_(options_.prefix, options_.agreed, options_.registry_mark),
       placement_(options_.key),
@@ -67,7 +68,8 @@ void ServiceMember::step(Time now) {
     } else if (reply->operation == revoking_) {
       left_ = reply->outcome == Outcome::kDone || reply->outcome == Outcome::kNoLease;
       revoking_ = 0;
-    } else if (!catalogue_.on_reply(*reply) && !writer_.on_reply(*reply) && !registry_.on_reply(*reply)) {
+    } else if (!catalogue_.on_reply(*reply) && !tickets_.on_reply(*reply) && !writer_.on_reply(*reply) &&
+               !registry_.on_reply(*reply)) {
       on_session_reply(now, *reply);
     }
   }
@@ -81,6 +83,7 @@ void ServiceMember::step(Time now) {
   advance_sessions(now);
   const Duration retry = 2 * options_.times.answer_limit;
   if (const auto request = catalogue_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
+  if (const auto request = tickets_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = writer_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = registry_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   while (const auto operation = ownership_.poll_operation(now)) begin(operation->id, operation->request);
@@ -114,8 +117,10 @@ void ServiceMember::take_notices(Time now) {
         break;
       case Notice::Kind::kLeaseLost:  // a kLost of each session follows
       case Notice::Kind::kStandbySet:
+        break;
       case Notice::Kind::kTicketAccepted:
       case Notice::Kind::kTicketRefused:
+        tickets_.on_notice(*notice);
         break;
     }
   }

@@ -13,6 +13,7 @@
 #include "server/service/fenced_writer.h"
 #include "server/service/service_catalogue.h"
 #include "server/service/service_session.h"
+#include "server/service/service_tickets.h"
 #include "server/service/shared_registry.h"
 
 namespace tandem::server {
@@ -68,7 +69,8 @@ struct ServiceStatus {
   bool answers = false;     ///< the store has answered within twice the limit of an answer
   bool holding = true;      ///< no hand may be engaged
   std::string trouble;      ///< the store's newest error since its last answer
-  Time hold_at{};           ///< from when no hand may be engaged, unless a renewal succeeds
+  /// Time since the sending of the newest renewal that counts [s]; nullopt: no lease.
+  std::optional<double> lease_age_s{};
   std::size_t owned = 0, members = 0, sessions = 0;
   std::uint64_t unanswered = 0;  ///< requests without an answer
   FencedWriter::Counters writes{};
@@ -118,6 +120,9 @@ class ServiceMember {
   void leave();
   /// The store has answered to `leave`.
   [[nodiscard]] bool left() const noexcept { return left_; }
+
+  /// Uses of tickets for sessions of this server.
+  [[nodiscard]] ServiceTickets& tickets() noexcept { return tickets_; }
 
   /// Finds a session by id, code or name; without any, the only one. Asks for it if no server owns it.
   [[nodiscard]] SessionPlace locate(const rpc::SessionChoice& choice);
@@ -179,6 +184,7 @@ class ServiceMember {
   ServiceKeys keys_;
   directory::Ownership ownership_;
   ServiceCatalogue catalogue_;
+  ServiceTickets tickets_;
   FencedWriter writer_;
   SharedRegistry registry_;
   directory::Placement placement_;

@@ -106,7 +106,7 @@ ServiceStatus ServiceMember::status(Time now) const {
   status.answers = answered_ && now - *answered_ < 2 * options_.times.answer_limit;
   status.holding = now >= keeper.hold_at();
   status.trouble = trouble_;
-  status.hold_at = keeper.hold_at();
+  if (keeper.lease() != 0) status.lease_age_s = seconds(now - keeper.hold_at() + options_.times.hold_after);
   status.owned = static_cast<std::size_t>(
       std::ranges::count_if(entries_, [](const auto& entry) { return entry.second.phase == Phase::kOpen; }));
   status.members = ownership_.view().servers().size();

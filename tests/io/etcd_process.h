@@ -39,36 +39,46 @@ inline directory::Reply wait_for_reply(directory::Directory& in, directory::Oper
   return {};
 }
 
+/// A port that is free at this moment; etcd takes no port 0.
+inline int free_port() {
+  const auto listener = io::listen_tcp(io::parse_address("127.0.0.1:0", 0).value());
+  return listener ? listener->local.port() : 0;
+}
+
 /// A member of etcd on loopback, with its own ports and data folder, ended at the end of the test.
 class Etcd {
  public:
   /// @param tls  further arguments; not empty: clients use TLS
-  explicit Etcd(Words tls = {}) {
-    const std::string scheme = tls.empty() ? "http" : "https";
-    client_ = free_port(), peer_ = free_port();
-    const std::string peers = format("http://127.0.0.1:%d", peer_), clients = scheme + "://" + endpoint();
-    Words command{etcd_program("etcd"),
-                  "--name",
-                  "test",
-                  "--data-dir",
-                  folder_.file("data"),
-                  "--listen-client-urls",
-                  clients,
-                  "--advertise-client-urls",
-                  clients,
-                  "--listen-peer-urls",
-                  peers,
-                  "--initial-advertise-peer-urls",
-                  peers,
-                  "--initial-cluster",
-                  "test=" + peers,
-                  "--logger",
-                  "zap",
-                  "--log-level",
-                  "error"};
-    command.insert(command.end(), tls.begin(), tls.end());
-    process_.emplace(std::move(command));
+  explicit Etcd(Words tls = {}) : Etcd("test", free_port(), {}, std::move(tls)) {}
+  /// A member of a cluster. @param cluster  NAME=URL of all members with commas; empty: it is alone
+  Etcd(const std::string& name, int peer, std::string cluster, Words more = {}) : client_(free_port()) {
+    const std::string scheme = more.empty() ? "http" : "https";
+    const std::string peers = format("http://127.0.0.1:%d", peer), clients = scheme + "://" + endpoint();
+    if (cluster.empty()) cluster = name + "=" + peers;
+    command_ = {etcd_program("etcd"),
+                "--name",
+                name,
+                "--data-dir",
+                folder_.file("data"),
+                "--listen-client-urls",
+                clients,
+                "--advertise-client-urls",
+                clients,
+                "--listen-peer-urls",
+                peers,
+                "--initial-advertise-peer-urls",
+                peers,
+                "--initial-cluster",
+                cluster,
+                "--logger",
+                "zap",
+                "--log-level",
+                "error"};
+    command_.insert(command_.end(), more.begin(), more.end());
+    start();
   }
+  /// Starts the member with its old data, after it was ended.
+  void start() { process_.emplace(command_); }
   [[nodiscard]] std::string endpoint() const { return format("127.0.0.1:%d", client_); }
   [[nodiscard]] Process& process() { return *process_; }
   [[nodiscard]] const Folder& folder() const { return folder_; }
@@ -93,14 +103,9 @@ class Etcd {
   }
 
  private:
-  /// A port that is free at this moment; etcd takes no port 0.
-  static int free_port() {
-    const auto listener = io::listen_tcp(io::parse_address("127.0.0.1:0", 0).value());
-    return listener ? listener->local.port() : 0;
-  }
-
   Folder folder_;
-  int client_ = 0, peer_ = 0;
+  int client_ = 0;
+  Words command_;
   std::optional<Process> process_;
 };
 

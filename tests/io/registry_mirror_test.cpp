@@ -54,7 +54,7 @@ struct Member {
                                                 const std::lock_guard lock(mutex);
                                                 troubles.push_back(what);
                                               });
-    service->start();
+    service->start({});
     mirror->start();
   }
   /// Waits until `name` is enrolled under a key, or not at all; false after 30 s.

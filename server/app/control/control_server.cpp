@@ -93,7 +93,8 @@ std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(c
     server->metrics_.emplace(
         server->thread_.context(),
         [s = server.get()](std::string_view path) {
-          return monitoring_page(path, s->registry_, s->plane_, s->audit_.state());
+          const auto service = s->service_status_ ? std::optional(s->service_status_()) : std::nullopt;
+          return monitoring_page(path, s->registry_, s->plane_, s->audit_.state(), service ? &*service : nullptr);
         },
         options.metrics_hosts);
     if (std::string trouble = server->metrics_->listen(*options.metrics); !trouble.empty())
@@ -119,6 +120,8 @@ void ControlServer::change(const std::function<void(SessionRegistry&, std::funct
   asio::post(thread_.context(), [&] { change(registry_, [&] { done.set_value(); }); });
   done.get_future().wait();
 }
+
+void ControlServer::post(std::function<void()> what) { asio::post(thread_.context(), std::move(what)); }
 
 std::string ControlServer::write_serving_file() {
   ServingSpec now = registry_.serving();

@@ -15,6 +15,7 @@
 #include "server/app/control/control_thread.h"
 #include "server/app/control/session_joins.h"
 #include "server/app/monitor/metrics_server.h"
+#include "server/service/service_member.h"
 
 namespace tandem::server {
 
@@ -57,6 +58,9 @@ class ControlServer {
   [[nodiscard]] SessionOrders& orders() noexcept { return orders_; }
   /// Keys of this server.
   [[nodiscard]] const auth::ServerKeystore& trust() const noexcept { return trust_; }
+  /// Sets the source of the metrics about a service. Call it before `start`. @param status  called on the control
+  /// thread
+  void set_service_status(std::function<ServiceStatus()> status) { service_status_ = std::move(status); }
   /// Its `post` is for any thread.
   [[nodiscard]] AuditWriter& audit() noexcept { return audit_; }
 
@@ -72,6 +76,8 @@ class ControlServer {
   [[nodiscard]] std::string start();
   /// Calls `change` on the control thread and waits until it has called `done`. From another thread, after `start`.
   void change(const std::function<void(SessionRegistry&, std::function<void()> done)>& change);
+  /// Calls `what` later on the control thread. From any thread, while this object exists.
+  void post(std::function<void()> what);
   /// Stops accepting and closes all control connections. Call it before the shards and sessions are destroyed.
   void stop();
 
@@ -100,7 +106,8 @@ class ControlServer {
   io::SocketAddress address_;
   std::optional<auth::RuntimeDirectory> local_;
   ServingSpec serving_;
-  bool serving_fails_ = false;  ///< a failure was reported
+  std::function<ServiceStatus()> service_status_;  ///< empty: the server belongs to no service
+  bool serving_fails_ = false;                     ///< a failure was reported
   bool started_ = false;
   bool stopping_ = false;  ///< of the control thread
 };

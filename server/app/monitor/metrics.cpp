@@ -82,8 +82,35 @@ void describe_seat(Families& page, const Labels& who, const SeatStatus& seat) {
   page.count("tandem_client_tick_late_total", "Late servo ticks of the client's machine", who, seat.late_ticks);
 }
 
-std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, const AuditState& audit) {
+void describe_service(Families& page, const ServiceStatus& service) {
+  page.gauge("tandem_service_registered", "1: the server is registered in its service", {}, service.registered ? 1 : 0);
+  page.gauge("tandem_service_directory_answers", "1: the directory of the service has answered in the last 2 s", {},
+             service.answers ? 1 : 0);
+  page.gauge("tandem_service_follows", "1: the server's copy of the directory is up to date", {},
+             service.follows ? 1 : 0);
+  if (service.lease_age_s)
+    page.gauge("tandem_service_lease_age_seconds", "Time since the newest renewal of the lease was sent", {},
+               *service.lease_age_s);
+  page.gauge("tandem_service_held", "1: the sessions are HELD, because the lease was not renewed in time", {},
+             service.holding && service.owned > 0 ? 1 : 0);
+  page.gauge("tandem_service_owned_sessions", "Sessions of the service that this server serves", {},
+             static_cast<double>(service.owned));
+  page.gauge("tandem_service_sessions", "Sessions of the service, as far as this server knows", {},
+             static_cast<double>(service.sessions));
+  page.gauge("tandem_service_members", "Servers of the service, as far as this server knows", {},
+             static_cast<double>(service.members));
+  page.count("tandem_service_unanswered_total", "Requests to the directory without an answer", {},
+             static_cast<double>(service.unanswered));
+  page.count("tandem_service_written_total", "Snapshots and lists that were written to the directory", {},
+             static_cast<double>(service.writes.written));
+  page.count("tandem_service_refused_total", "Snapshots and lists that came after the end of an ownership", {},
+             static_cast<double>(service.writes.refused));
+}
+
+std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, const AuditState& audit,
+                    const ServiceStatus* service) {
   Families page;
+  if (service != nullptr) describe_service(page, *service);
   std::array<std::uint64_t, static_cast<std::size_t>(transport::DropReason::kCount)> refused{};
   std::array<std::size_t, static_cast<std::size_t>(rpc::SessionPhase::kOverloaded) + 1> sessions{};
   std::uint64_t stray = 0;
@@ -176,8 +203,9 @@ std::string stalled_text(const SessionRegistry& registry) {
 }  // namespace
 
 HttpResponse monitoring_page(std::string_view path, const SessionRegistry& registry, const ControlPlane& plane,
-                             const AuditState& audit) {
-  if (path == "/metrics") return {200, "text/plain; version=0.0.4; charset=utf-8", metrics(registry, plane, audit)};
+                             const AuditState& audit, const ServiceStatus* service) {
+  if (path == "/metrics")
+    return {200, "text/plain; version=0.0.4; charset=utf-8", metrics(registry, plane, audit, service)};
   if (path != "/healthz" && path != "/readyz") return {404, "text/plain", "/metrics, /healthz or /readyz\n"};
   const std::string why = stalled_text(registry);
   if (!why.empty()) return {503, "text/plain", why};

@@ -33,18 +33,25 @@ std::uint64_t drawn_seed() {
 
 std::expected<std::unique_ptr<ServiceHost>, std::string> ServiceHost::open(const Parts& parts) {
   const ServiceOptions& in = *parts.options.directory;
-  std::string server = in.server;
-  if (server.empty())
-    return std::unexpected(
-        "this server has no name in its service: write directory { server: \"NAME\" } in the configuration");
   if (parts.control.ephemeral_keys())
     return std::unexpected(
         "a member of a service needs a state folder with keys that last: make one with `tandem-server init`, and name "
         "it "
         "with `state` in the configuration");
+  const auth::ServiceMembership* const membership = parts.control.trust().membership();
+  if (membership == nullptr)
+    return std::unexpected(
+        "this server belongs to no service, so no client would follow it: put its member file into the state folder "
+        "with "
+        "`tandem-server service join FILE`, or remove directory { } from the configuration");
+  if (!in.server.empty() && in.server != membership->name)
+    return std::unexpected("directory { server: \"" + in.server + "\" }: the member file of this server has the name " +
+                           membership->name + "; use that name, or ask for a member file with the other one");
+  std::string server = membership->name;
   auto keys = auth::ServerKeystore::open(parts.control.folder());
   if (!keys) return std::unexpected(keys.error());
   directory::ServerRecord record;
+  record.voucher = to_hex(membership->voucher);
   record.address = in.address.empty() ? io::to_text(parts.control.address()) : in.address;
   record.key = to_hex(parts.control.trust().identity().fingerprint().sha256);
   record.version = parts.options.version;
@@ -71,7 +78,14 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
     parts_.output.post_message("workstations of the service: " + what);
   });
   locator_ = std::make_unique<ServiceLocator>(server_, *thread_);
+  ticket_uses_ = std::make_unique<ServiceTicketUses>(*thread_, parts_.control);
   publish_load();
+  parts_.control.set_service_status([this] { return status(); });
+}
+
+void ServiceHost::start() {
+  thread_->start([this](const ServiceTickets::Result& result) { ticket_uses_->on_result(result); });
+  registry_->start();
 }
 
 void ServiceHost::step(Time now) {

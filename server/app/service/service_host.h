@@ -12,6 +12,7 @@
 #include "server/app/service/registry_mirror.h"
 #include "server/app/service/service_locator.h"
 #include "server/app/service/service_thread.h"
+#include "server/app/service/service_ticket_uses.h"
 #include "server/service/service_news.h"
 
 namespace tandem::server {
@@ -35,10 +36,7 @@ class ServiceHost {
   [[nodiscard]] static std::expected<std::unique_ptr<ServiceHost>, std::string> open(const Parts& parts);
 
   /// Begins to register the server, after the control server was started.
-  void start() {
-    thread_->start();
-    registry_->start();
-  }
+  void start();
   /// Descriptor that is readable when `step` has to be called.
   [[nodiscard]] int fd() const noexcept { return thread_->fd(); }
   /// Executes the orders of the member, and publishes load and lists. @param now  of the monotonic clock
@@ -49,6 +47,7 @@ class ServiceHost {
   void leave();
   /// For the control plane's thread.
   [[nodiscard]] SessionLocator& locator() noexcept { return *locator_; }
+  [[nodiscard]] TicketUses& ticket_uses() noexcept { return *ticket_uses_; }
   [[nodiscard]] ServiceStatus status() {
     return thread_->with([](const ServiceMember& member, Time now) { return member.status(now); });
   }
@@ -81,6 +80,7 @@ class ServiceHost {
   std::unique_ptr<ServiceThread> thread_;
   std::unique_ptr<RegistryMirror> registry_;
   std::unique_ptr<ServiceLocator> locator_;
+  std::unique_ptr<ServiceTicketUses> ticket_uses_;
   ServiceNews news_;
   std::vector<Waiting> waiting_;
   std::map<std::uint64_t, SessionOrder> orders_;  ///< creations without a reply, by number

@@ -19,7 +19,8 @@ ServiceThread::ServiceThread(ServiceMemberOptions options, std::unique_ptr<direc
 
 Time ServiceThread::now() noexcept { return Time{io::read_clock(CLOCK_BOOTTIME)}; }
 
-void ServiceThread::start() {
+void ServiceThread::start(std::function<void(const ServiceTickets::Result&)> on_ticket) {
+  on_ticket_ = std::move(on_ticket);
   thread_ = io::thread_without_signals([this] { run(); });
 }
 
@@ -44,13 +45,16 @@ void ServiceThread::wake() {
 void ServiceThread::run() {
   while (true) {
     auto newest = snapshots_.take();
+    std::vector<ServiceTickets::Result> results;
     {
       const std::lock_guard lock(mutex_);
       for (auto& [session, bytes] : newest) member_.set_snapshot(session, std::move(bytes));
       member_.step(now());
+      while (const auto result = member_.tickets().poll_result()) results.push_back(*result);
       if (member_.has_event() || std::exchange(acted_until_, member_.act_until()) != member_.act_until())
         changed_.signal();
     }
+    for (const ServiceTickets::Result& result : results) on_ticket_(result);
     std::unique_lock lock(wake_mutex_);
     wake_.wait_for(lock, kPause, [this] { return woken_ || stopping_; });
     woken_ = false;

@@ -23,7 +23,8 @@ class ServiceThread {
                 DirectorySnapshots& snapshots);
   ~ServiceThread() { stop(); }
 
-  void start();
+  /// @param on_ticket  receives results of tickets on this thread
+  void start(std::function<void(const ServiceTickets::Result&)> on_ticket);
   void stop();
 
   /// Calls `act` with the member and the time, from any thread but that of a tick, and has its operations begin.
@@ -59,6 +60,7 @@ class ServiceThread {
   bool wait_for(Duration limit, const std::function<bool(const ServiceMember&)>& done);
 
   std::unique_ptr<directory::Directory> store_;
+  std::function<void(const ServiceTickets::Result&)> on_ticket_;
   DirectorySnapshots& snapshots_;
   std::mutex mutex_;  ///< guards `member_` and `acted_until_`
   ServiceMember member_;

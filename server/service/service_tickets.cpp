@@ -1,0 +1,110 @@
+#include "server/service/service_tickets.h"
+
+#include <algorithm>
+
+namespace tandem::server {
+
+using directory::Condition;
+using directory::Notice;
+
+void ServiceTickets::use(Time now, const std::string& session, const std::string& ticket, Duration life,
+                         std::uint64_t order) {
+  const bool fits = uses_.size() < kWaitingMax && !uses_.contains(ticket);
+  if (!fits || ownership_.revision(session) == 0) {
+    results_.push_back({order, fits ? Outcome::kUsed : Outcome::kNoAnswer});
+    return;
+  }
+  const Time end = now + std::clamp(life, Duration::zero(), kLifeMax);
+  uses_[ticket] = {session, order, end.time_since_epoch() / kPeriod + 1, false, now + kAnswerLimit};
+}
+
+void ServiceTickets::restore(const std::string& session, const std::string& ticket) {
+  if (accepted_.erase(ticket) == 0) return;
+  const directory::Revision revision = ownership_.revision(session);
+  if (revision == 0 || restores_.size() >= kWaitingMax) return;  // it stays used
+  restores_.push_back({session, ticket, revision});
+}
+
+void ServiceTickets::on_notice(const Notice& notice) {
+  const bool accepted = notice.kind == Notice::Kind::kTicketAccepted;
+  if (!accepted && notice.kind != Notice::Kind::kTicketRefused) return;
+  const auto found = uses_.find(notice.other);
+  if (found == uses_.end()) return;
+  const Use use = std::move(found->second);
+  uses_.erase(found);
+  if (accepted && accepted_.size() < kAcceptedMax) accepted_[notice.other] = use.period;
+  // The lease of a refused ticket may be gone, with a directory that was restored from an older copy.
+  if (!accepted) leases_.erase(use.period);
+  if (use.order != 0)
+    results_.push_back({use.order, accepted ? Outcome::kAccepted : Outcome::kUsed});
+  else if (accepted)
+    restore(use.session, notice.other);  // its client was refused meanwhile
+}
+
+void ServiceTickets::pass_on(Time now) {
+  for (auto use = uses_.begin(); use != uses_.end();) {
+    auto& [ticket, it] = *use;
+    if (it.order != 0 && now >= it.ends) {
+      results_.push_back({std::exchange(it.order, 0), Outcome::kNoAnswer});
+      if (!it.asked) {
+        use = uses_.erase(use);
+        continue;
+      }
+    }
+    if (const auto lease = leases_.find(it.period); !it.asked && lease != leases_.end()) {
+      it.asked = ownership_.use_ticket(it.session, ticket, lease->second);
+      if (!it.asked) {
+        results_.push_back({it.order, Outcome::kUsed});
+        use = uses_.erase(use);
+        continue;
+      }
+    }
+    ++use;
+  }
+}
+
+std::optional<directory::Request> ServiceTickets::poll_request(Time now, directory::OperationId operation,
+                                                               Duration retry_after) {
+  pass_on(now);
+  if (operation_ != 0 && now - sent_ < retry_after) return std::nullopt;
+  operation_ = 0;
+  const auto past = [&](std::int64_t period) { return Time{period * kPeriod} < now; };
+  if (std::erase_if(leases_, [&](const auto& lease) { return past(lease.first); }) > 0)
+    std::erase_if(accepted_, [&](const auto& ticket) { return past(ticket.second); });
+  const auto waits = [&](const auto& use) { return !use.second.asked && !leases_.contains(use.second.period); };
+  if (const auto use = std::ranges::find_if(uses_, waits); use != uses_.end()) {
+    operation_ = operation;
+    granting_ = use->second.period;
+    sent_ = now;
+    const Duration left = Time{(use->second.period + 1) * kPeriod} - now;
+    return directory::Grant{std::chrono::ceil<std::chrono::seconds>(left)};
+  }
+  if (restores_.empty()) return std::nullopt;
+  operation_ = operation;
+  granting_.reset();
+  sent_ = now;
+  const Restore& next = restores_.front();
+  return directory::Transaction{{{keys_.owner(next.session), Condition::Of::kCreated, next.revision}},
+                                {directory::Erase{keys_.ticket(next.ticket)}},
+                                {}};
+}
+
+bool ServiceTickets::on_reply(const directory::Reply& reply) {
+  if (operation_ == 0 || reply.operation != operation_) return false;
+  operation_ = 0;
+  if (reply.outcome != directory::Outcome::kDone) return true;  // begins again
+  if (granting_)
+    leases_[*granting_] = reply.lease;
+  else
+    restores_.pop_front();
+  return true;
+}
+
+std::optional<ServiceTickets::Result> ServiceTickets::poll_result() {
+  if (results_.empty()) return std::nullopt;
+  const Result result = results_.front();
+  results_.pop_front();
+  return result;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/io/etcd_process.h"
+#include "tests/io/multi_client_fixture.h"
+
+namespace tandem::test {
+
+/// Servers of one service over etcd, all on loopback: `a`, `b` and so on. Each has its own keys and a voucher.
+class LiveService {
+ public:
+  /// @param sessions  of the configuration of all servers  @param etcds  1 or 3
+  explicit LiveService(std::string sessions, std::size_t etcds = 1, int ttl_s = 3)
+      : sessions_(std::move(sessions)), ttl_s_(ttl_s) {
+    std::vector<int> peers;
+    std::string cluster;
+    for (std::size_t n = 0; n < etcds; ++n) {
+      peers.push_back(free_port());
+      cluster += (n == 0 ? "" : ",") + format("m%zu=http://127.0.0.1:%d", n, peers.back());
+    }
+    for (std::size_t n = 0; n < etcds; ++n)
+      etcd_.push_back(std::make_unique<Etcd>(format("m%zu", n), peers[n], etcds == 1 ? "" : cluster));
+    run({"service", "init", folder_.file("service")});
+  }
+
+  /// Makes keys and member file of a server, and starts it.
+  Process& start(const std::string& name) {
+    if (!std::filesystem::exists(folder_.file(name))) {
+      const std::string init = run({"init", "--state", folder_.file(name)});
+      const std::string member = folder_.file(name + ".member");
+      run({"service", "vouch", folder_.file("service"), "--name", name, "--key", key_in(init), "--out", member});
+      run({"service", "join", member, "--state", folder_.file(name)});
+    }
+    std::string endpoints;
+    for (const auto& etcd : etcd_) endpoints += "endpoint: \"" + etcd->endpoint() + "\" ";
+    const std::string config = folder_.write(
+        name + ".textproto", "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" state: \"" + name + "\" " +
+                                 sessions_ + " directory { " + endpoints + format("ttl_s: %d }", ttl_s_));
+    servers_[name] = std::make_unique<Process>(server({"serve", config}));
+    EXPECT_TRUE(servers_[name]->wait_for("Ctrl-C ends")) << servers_[name]->err();
+    return *servers_[name];
+  }
+  [[nodiscard]] Process& of(const std::string& name) { return *servers_.at(name); }
+  [[nodiscard]] Etcd& etcd(std::size_t n = 0) { return *etcd_.at(n); }
+  [[nodiscard]] const Folder& folder() const { return folder_; }
+
+  /// Sessions that a server serves, as JSON.
+  [[nodiscard]] Json sessions(const std::string& name) const {
+    Process asked = server({"sessions", "--json", "--state", folder_.file(name)});
+    EXPECT_EQ(asked.wait(), 0) << asked.err();
+    const Json list = Json::parse(asked.out(), nullptr, false);
+    return list.is_discarded() ? Json() : list["sessions"];
+  }
+  /// Waits until a server serves this number of sessions. @return time that it took; the test fails after 30 s
+  double wait_for_sessions(const std::string& name, std::size_t count) const {
+    const auto began = std::chrono::steady_clock::now();
+    const auto taken = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
+    while (sessions(name).size() != count) {
+      if (taken() > 30) {
+        ADD_FAILURE() << name << " does not serve " << count << " sessions";
+        break;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return taken();
+  }
+  /// Enrols a workstation at all servers. @return the folder of its keys
+  [[nodiscard]] std::string enrolled(const std::string& workstation) const {
+    const std::string own = folder_.file("own-" + workstation);
+    for (const auto& [name, process] : servers_) {
+      Process given = server({"enroll", workstation, "--state", folder_.file(name)});
+      EXPECT_EQ(given.wait(), 0) << given.err();
+      Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", own});
+      EXPECT_EQ(taken.wait(), 0) << taken.err();
+    }
+    return own;
+  }
+  /// Runs a command of tandem-server to its end. @return standard output
+  static std::string run(Words words) {
+    Process process = server(std::move(words));
+    EXPECT_EQ(process.wait(), 0) << process.err();
+    return process.out();
+  }
+
+ private:
+  /// The server's key in the output of `init`: the longest word.
+  static std::string key_in(const std::string& text) {
+    std::istringstream words(text);
+    std::string longest;
+    for (std::string word; words >> word;)
+      if (word.size() > longest.size() && word.find('/') == std::string::npos) longest = word;
+    return longest;
+  }
+
+  std::string sessions_;
+  int ttl_s_;
+  Folder folder_;
+  std::vector<std::unique_ptr<Etcd>> etcd_;
+  std::map<std::string, std::unique_ptr<Process>> servers_;
+};
+
+}  // namespace tandem::test

@@ -1,0 +1,139 @@
+// Servers of one service over etcd, as real programs on loopback: sessions survive the loss of their server, and no
+// hand is engaged without the directory. Durations are printed; only the limits of the service are asserted.
+#include "tests/io/service_fixture.h"
+
+namespace tandem::test {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr const char* kTwoSessions =
+    "session { name: \"lab\" scene: \"free_motion\" } session { name: \"two\" scene: \"contact\" }";
+
+class Service : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (etcd_program("etcd").empty() || etcd_program("etcdctl").empty()) GTEST_SKIP() << kNoEtcd;
+  }
+};
+
+TEST_F(Service, StandbyTakesOverTheSessionsOfAKilledServer) {
+  LiveService service(kTwoSessions);
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 2);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const Json before = service.sessions("a");
+  EXPECT_TRUE(service.sessions("b").empty());
+  std::this_thread::sleep_for(milliseconds(2500));  // until the standby is named
+  a.signal(SIGKILL);
+  ASSERT_EQ(a.wait(), -SIGKILL);
+  const double taken = service.wait_for_sessions("b", 2);
+  std::printf("[  figures ] sessions of a killed server served again after %.2f s, asked <= 7\n", taken);
+  EXPECT_LE(taken, 7);
+  const Json after = service.sessions("b");
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_EQ(after[n]["id"], before[n]["id"]);
+    EXPECT_EQ(after[n]["code"], before[n]["code"]);
+  }
+  EXPECT_TRUE(b.wait_for("session lab RESTORED from its checkpoint")) << b.err();
+}
+
+TEST_F(Service, ServerThatIsToldToEndHandsItsSessionsOverAtOnce) {
+  LiveService service(kTwoSessions);
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 2);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  std::this_thread::sleep_for(milliseconds(2500));  // until the standby is named
+  a.signal(SIGTERM);
+  EXPECT_EQ(a.wait(), 0) << a.err();
+  const double taken = service.wait_for_sessions("b", 2);
+  std::printf("[  figures ] sessions of an ended server served again after %.2f s\n", taken);
+  EXPECT_EQ(service.etcd().etcdctl({"get", "/tandem/v1/live/servers/a"}), "");
+  b.signal(SIGTERM);
+  EXPECT_EQ(b.wait(), 0) << b.err();
+  // The service has its sessions when all its servers start again.
+  Process& again = service.start("a");
+  service.wait_for_sessions("a", 2);
+  EXPECT_TRUE(again.wait_for("session two RESTORED from its checkpoint")) << again.err();
+}
+
+TEST_F(Service, SessionsAreHeldWithoutTheDirectoryAndGoOnWhenItIsBack) {
+  LiveService service(kTwoSessions);
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 2);
+  service.etcd().process().signal(SIGTERM);
+  ASSERT_TRUE(service.etcd().process().wait());
+  ASSERT_TRUE(a.wait_for("does not answer")) << a.err();
+  ASSERT_TRUE(a.wait_for("2 sessions HELD")) << a.err();
+  EXPECT_EQ(service.sessions("a").size(), 2U) << "the seats stay";
+  std::this_thread::sleep_for(milliseconds(3000));  // longer than the lease
+  service.etcd().start();
+  ASSERT_TRUE(a.wait_for("not HELD by the directory any more")) << a.err();
+  ASSERT_TRUE(a.wait_for("answers again")) << a.err();
+  EXPECT_EQ(a.err().find("GIVEN UP"), std::string::npos) << a.err();
+  EXPECT_EQ(service.sessions("a").size(), 2U);
+}
+
+TEST_F(Service, FrozenServerGivesItsSessionsUpWhenItWakes) {
+  LiveService service(kTwoSessions);
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 2);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  std::this_thread::sleep_for(milliseconds(2500));  // until the standby is named
+  a.signal(SIGSTOP);
+  service.wait_for_sessions("b", 2);
+  a.signal(SIGCONT);
+  ASSERT_TRUE(a.wait_for("lab: GIVEN UP")) << a.err();
+  ASSERT_TRUE(a.wait_for("two: GIVEN UP")) << a.err();
+  service.wait_for_sessions("a", 0);
+  EXPECT_EQ(service.sessions("b").size(), 2U);
+  ASSERT_TRUE(a.wait_for("is a member of the service")) << a.err();
+}
+
+TEST_F(Service, ServerWithoutTheDirectorySaysSoAndWaitsForIt) {
+  LiveService service(kTwoSessions);
+  service.etcd().process().signal(SIGKILL);
+  ASSERT_TRUE(service.etcd().process().wait());
+  Process& a = service.start("a");
+  ASSERT_TRUE(a.wait_for("cannot be reached")) << a.err();
+  EXPECT_NE(a.err().find(service.etcd().endpoint()), std::string::npos) << a.err();
+  EXPECT_TRUE(service.sessions("a").empty());
+  service.etcd().start();
+  service.wait_for_sessions("a", 2);
+}
+
+TEST_F(Service, OneOfThreeMembersOfEtcdMayFail) {
+  LiveService service(kTwoSessions, 3);
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 2);
+  for (std::size_t n = 0; n < 3; ++n) {
+    service.etcd(n).process().signal(SIGKILL);  // one of them leads
+    ASSERT_TRUE(service.etcd(n).process().wait());
+    std::this_thread::sleep_for(milliseconds(4000));  // longer than an election
+    service.etcd(n).start();
+    std::this_thread::sleep_for(milliseconds(3000));
+  }
+  EXPECT_EQ(service.sessions("a").size(), 2U);
+  EXPECT_EQ(a.err().find("GIVEN UP"), std::string::npos) << a.err();
+  std::printf("[  figures ] HELD during three losses of a member of etcd: %s\n",
+              a.err().find("HELD") == std::string::npos ? "never" : "yes, shorter than the lease");
+}
+
+TEST_F(Service, WrongNamesAndMissingMembershipAreReported) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" } ");
+  LiveService::run({"init", "--state", service.folder().file("lone")});
+  const std::string config = service.folder().write(
+      "lone.textproto",
+      "version: 1 listen: \"127.0.0.1:0\" state: \"lone\" session { name: \"lab\" scene: \"free_motion\" }\n"
+      "directory { endpoint: \"" +
+          service.etcd().endpoint() + "\" }");
+  Process lone = server({"serve", config});
+  EXPECT_EQ(lone.wait(), 1);
+  EXPECT_NE(lone.err().find("tandem-server service join"), std::string::npos) << lone.err();
+}
+
+}  // namespace
+}  // namespace tandem::test

@@ -1,0 +1,124 @@
+#include "server/service/service_tickets.h"
+
+#include "tests/server/service/service_fixture.h"
+
+namespace tandem::server::test {
+namespace {
+
+using Outcome = ServiceTickets::Outcome;
+
+class ServiceTicketsTest : public ServiceTest {
+ protected:
+  void use(Server& server, const std::string& session, const std::string& ticket, std::uint64_t order) {
+    server.member.tickets().use(now_, session, ticket, 2h, order);
+  }
+  std::map<std::uint64_t, Outcome> results(Server& server) {
+    std::map<std::uint64_t, Outcome> all;
+    while (const auto result = server.member.tickets().poll_result())
+      EXPECT_TRUE(all.emplace(result->order, result->outcome).second);
+    return all;
+  }
+  /// Two servers, each with a session.
+  void start_two() {
+    a = &start("a", {{"lab", session_spec(1)}});
+    b = &start("b", {{"two", session_spec(2)}});
+    ASSERT_TRUE(a->open.contains("lab") && b->open.contains("two"));
+  }
+  Server *a = nullptr, *b = nullptr;
+};
+
+TEST_F(ServiceTicketsTest, EachTicketIsAcceptedOnceInTheWholeService) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  use(*b, "two", "t1", 2);
+  pass(500ms);
+  const auto one = results(*a), two = results(*b);
+  ASSERT_EQ(one.size() + two.size(), 2u);
+  EXPECT_NE(one.at(1) == Outcome::kAccepted, two.at(2) == Outcome::kAccepted);
+  use(*a, "lab", "t1", 3);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(3), Outcome::kUsed);
+}
+
+TEST_F(ServiceTicketsTest, StaysUsedAfterATakeover) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(3s);
+  EXPECT_EQ(results(*a).at(1), Outcome::kAccepted);
+  a->runs = false;
+  a->open.clear();
+  pass(5s);
+  ASSERT_TRUE(b->open.contains("lab"));
+  use(*b, "lab", "t1", 2);
+  pass(500ms);
+  EXPECT_EQ(results(*b).at(2), Outcome::kUsed);
+}
+
+TEST_F(ServiceTicketsTest, RestoredTicketIsValidAgainEverywhere) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(1), Outcome::kAccepted);
+  a->member.tickets().restore("lab", "t1");
+  pass(500ms);
+  use(*b, "two", "t1", 2);
+  pass(500ms);
+  EXPECT_EQ(results(*b).at(2), Outcome::kAccepted);
+}
+
+TEST_F(ServiceTicketsTest, RestoreLeavesTheUseOfAnotherServer) {
+  start_two();
+  use(*b, "two", "t1", 1);
+  pass(500ms);
+  use(*a, "lab", "t1", 2);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(2), Outcome::kUsed);
+  a->member.tickets().restore("lab", "t1");
+  pass(500ms);
+  EXPECT_TRUE(has("tickets/t1"));
+}
+
+TEST_F(ServiceTicketsTest, TicketWithoutAnAnswerIsReportedAndStaysValid) {
+  start_two();
+  a->directory.answers_lost = true;
+  use(*a, "lab", "t1", 1);
+  pass(3100ms);
+  EXPECT_EQ(results(*a).at(1), Outcome::kNoAnswer);
+  a->directory.answers_lost = false;
+  pass(8s);  // sessions may have moved meanwhile
+  Server& owner = a->open.contains("two") ? *a : *b;
+  use(owner, "two", "t1", 2);
+  pass(1s);
+  EXPECT_EQ(results(owner).at(2), Outcome::kAccepted);
+}
+
+TEST_F(ServiceTicketsTest, DirectoryForgetsTheUseAfterTheTicketEndedAndNotBefore) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(1), Outcome::kAccepted);
+  EXPECT_TRUE(has("tickets/t1"));
+  // Both servers end; the store alone counts.
+  a->runs = b->runs = false;
+  now_ += 2h;
+  store_.advance(now_);
+  EXPECT_TRUE(has("tickets/t1"));
+  now_ += 2h;
+  store_.advance(now_);
+  EXPECT_FALSE(has("tickets/t1"));
+}
+
+TEST_F(ServiceTicketsTest, RefusesTicketsForSessionsOfOtherServersAndBeyondItsQueue) {
+  start_two();
+  use(*a, "two", "t1", 1);
+  for (std::uint64_t n = 0; n <= ServiceTickets::kWaitingMax; ++n) use(*a, "lab", "x" + std::to_string(n), 100 + n);
+  pass(2s);
+  const auto all = results(*a);
+  EXPECT_EQ(all.at(1), Outcome::kUsed);
+  EXPECT_EQ(all.at(100), Outcome::kAccepted);
+  EXPECT_EQ(all.at(100 + ServiceTickets::kWaitingMax), Outcome::kNoAnswer);
+  EXPECT_EQ(all.size(), ServiceTickets::kWaitingMax + 2);
+}
+
+}  // namespace
+}  // namespace tandem::server::test
