@@ -6,13 +6,6 @@
 
 namespace tandem::server {
 
-std::string ServiceNews::hold_reason(const ServiceStatus& status) {
-  if (!status.holding || status.owned == 0) return {};
-  return "HELD: the directory of the service does not answer, and another server might take the session over; hands "
-         "are "
-         "engaged again when it answers";
-}
-
 std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus& status) {
   std::vector<Line> lines;
   if (!began_) began_ = now;

@@ -23,8 +23,6 @@ class ServiceNews {
 
   /// @param now  of the clock of the member
   [[nodiscard]] std::vector<Line> update(Time now, const ServiceStatus& status);
-  /// Reason of held sessions, for participants; empty: the sessions are not held.
-  [[nodiscard]] static std::string hold_reason(const ServiceStatus& status);
 
  private:
   enum class State : std::uint8_t { kStarting, kUnreachable, kNameTaken, kMember, kNoAnswer };

@@ -1,5 +1,7 @@
 // Servers of one service over etcd, as real programs on loopback: sessions survive the loss of their server, and no
 // hand is engaged without the directory. Durations are printed; only the limits of the service are asserted.
+#include "tests/common/base/counts.h"
+#include "tests/io/pressing_hands.h"
 #include "tests/io/service_fixture.h"
 
 namespace tandem::test {
@@ -39,7 +41,7 @@ TEST_F(Service, StandbyTakesOverTheSessionsOfAKilledServer) {
   EXPECT_TRUE(b.wait_for("session lab RESTORED from its checkpoint")) << b.err();
 }
 
-TEST_F(Service, ServerThatIsToldToEndHandsItsSessionsOverAtOnce) {
+TEST_F(Service, EndedServerHandsItsSessionsOverAtOnce) {
   LiveService service(kTwoSessions);
   Process& a = service.start("a");
   service.wait_for_sessions("a", 2);
@@ -120,6 +122,79 @@ TEST_F(Service, OneOfThreeMembersOfEtcdMayFail) {
   EXPECT_EQ(a.err().find("GIVEN UP"), std::string::npos) << a.err();
   std::printf("[  figures ] HELD during three losses of a member of etcd: %s\n",
               a.err().find("HELD") == std::string::npos ? "never" : "yes, shorter than the lease");
+}
+
+TEST_F(Service, HandsInContactComeBackFromZeroForceAtTheStandbyOfAKilledServer) {
+  const std::size_t kills = draws(1, 20, 50);
+  LiveService service("session { name: \"lab\" scene: \"press.textproto\" }");
+  service.folder().write("press.textproto", pressing());
+  const std::vector<std::string> names{"a", "b"};
+  service.start("a");
+  service.wait_for_sessions("a", 1);
+  service.start("b");
+  const std::string own = service.enrolled("desk");
+  const auto seat = [&](const std::string& name) {
+    const std::string ticket = service.folder().write(
+        name + ".ticket", first_line(LiveService::run({"ticket", "--session", "lab", "--seat", name, "--workstation",
+                                                       "desk", "--state", service.folder().file("a")})));
+    return client(address_of(service.of("b")), name,  // which sends them to the owner
+                  {"--session", "lab", "--ticket-file", ticket, "--state", own, "--trace",
+                   service.folder().file(name + ".csv"), "--json", service.folder().file(name + ".json")});
+  };
+  Process trainer = seat("trainer"), trainee = seat("trainee");
+  ASSERT_TRUE(service.of("a").wait_for("the session runs")) << service.of("a").err() << trainer.err() << trainee.err();
+  std::this_thread::sleep_for(milliseconds(5000));  // until they press, and the standby is named
+  for (std::size_t n = 0; n < kills; ++n) {
+    Process &owner = service.of(names[n % 2]), &standby = service.of(names[(n + 1) % 2]);
+    owner.signal(SIGKILL);
+    ASSERT_EQ(owner.wait(), -SIGKILL);
+    ASSERT_TRUE(standby.wait_for("the session runs")) << standby.err() << trainer.err() << trainee.err();
+    if (n + 1 < kills) service.start(names[n % 2]);
+    std::this_thread::sleep_for(milliseconds(5000));
+  }
+  for (Process* hand : {&trainer, &trainee}) {
+    hand->signal(SIGINT);
+    EXPECT_EQ(hand->wait(), 0) << hand->err();
+  }
+  std::vector<double> back, first;
+  for (const char* name : {"trainer", "trainee"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(service.folder().json(std::string(name) + ".json")["rejoins"], kills);
+    const auto all = absences(Trace(service.folder().read(std::string(name) + ".csv")));
+    EXPECT_EQ(all.size(), kills) << "all seats are back ACTIVE";
+    for (const Absence& absence : all) {
+      EXPECT_LE(absence.first_n, 0.05);
+      EXPECT_LE(absence.back_s, 7);
+      back.push_back(absence.back_s), first.push_back(absence.first_n);
+    }
+  }
+  ASSERT_FALSE(back.empty());
+  print("release to wholly active [s], asked <= 7", back);
+  print("force in the first tick [N], asked <= 0.05", first);
+}
+
+TEST_F(Service, TicketAdmitsOnceInTheWholeService) {
+  LiveService service(kTwoSessions);
+  service.start("a");
+  service.wait_for_sessions("a", 2);
+  service.start("b");
+  const std::string own = service.enrolled("desk");
+  const std::string ticket = service.folder().write(
+      "once.ticket", first_line(LiveService::run({"ticket", "--session", "lab", "--seat", "trainer", "--workstation",
+                                                  "desk", "--state", service.folder().file("a")})));
+  const auto join = [&](const std::string& server) {
+    return client(address_of(service.of(server)), "trainer",
+                  {"--session", "lab", "--ticket-file", ticket, "--state", own, "--duration", "2"});
+  };
+  Process joined = join("a");
+  EXPECT_TRUE(joined.wait_for("left the seat")) << joined.err();
+  std::this_thread::sleep_for(milliseconds(2500));  // until the standby is named
+  service.of("a").signal(SIGKILL);
+  ASSERT_TRUE(service.of("a").wait());
+  service.wait_for_sessions("b", 2);
+  Process again = join("b");  // a server that has never seen the ticket
+  EXPECT_EQ(again.wait(), 1);
+  EXPECT_NE(again.err().find("used before"), std::string::npos) << again.err();
 }
 
 TEST_F(Service, WrongNamesAndMissingMembershipAreReported) {

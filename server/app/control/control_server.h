@@ -69,6 +69,9 @@ class ControlServer {
   void set_locator(SessionLocator& locator) {
     joins_.set_locator(&locator, trust_.membership() == nullptr ? std::string{} : trust_.membership()->name);
   }
+  /// Sets where tickets are used once in the whole service. Call it before `start`. @param uses  must outlive this
+  /// object
+  void set_ticket_uses(TicketUses& uses) { joins_.set_ticket_uses(&uses); }
   /// Membership in a service; null: the server belongs to none.
   [[nodiscard]] const auth::ServiceMembership* membership() const noexcept { return trust_.membership(); }
 

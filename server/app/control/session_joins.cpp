@@ -89,6 +89,8 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
   const auto found = registry_.choose(request.hello.session);
   if (const auto* refused = std::get_if<ErrorReply>(&found)) return answer(*refused);
   SessionEntry& entry = *std::get<SessionEntry*>(found);
+  if (!request.hello.link_test)
+    answer = used_once(ticket_uses_, request, std::move(answer), [this](const rpc::Welcome& w) { on_join_failed(w); });
   if (console) return join_console(entry, request, answer);
   if (const auto busy = overload_reply(entry);
       busy && !std::holds_alternative<rpc::ResumeCredential>(request.hello.credential))
@@ -208,6 +210,7 @@ void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const
                                   const std::string& person) {
   if (!ticket) return;
   const std::string problem = trust_.tickets().restore(*ticket);
+  if (ticket_uses_ != nullptr) ticket_uses_->restore(entry.registration.name, *ticket);
   trust_.audit(auth::wall_seconds(), "ticket_unused", entry.registration.name,
                auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem) + by_person(person));
 }

@@ -9,6 +9,7 @@
 #include "server/app/control/session_commands.h"
 #include "server/app/control/session_redirect.h"
 #include "server/app/control/session_registry.h"
+#include "server/app/control/ticket_uses.h"
 #include "server/policy/admission_control.h"
 
 namespace tandem::server {
@@ -25,6 +26,8 @@ class SessionJoins final : public JoinHandler {
 
   /// As `SessionRedirect::set_locator`.
   void set_locator(SessionLocator* locator, std::string name) { redirect_.set_locator(locator, std::move(name)); }
+  /// @param uses  of tickets in the service; must outlive this object; null: tickets are used at this server alone
+  void set_ticket_uses(TicketUses* uses) { ticket_uses_ = uses; }
   void admit(const JoinRequest& request, std::function<void(JoinReply)> answer) override;
   void on_joined(const JoinRequest& request, const rpc::Welcome& welcome,
                  const Secret<auth::kExportSize>& secrets) override;
@@ -66,6 +69,7 @@ class SessionJoins final : public JoinHandler {
   SessionCommands& commands_;
   SessionRedirect redirect_{registry_};
   auth::ServerKeystore& trust_;
+  TicketUses* ticket_uses_ = nullptr;
   LoadLimits limits_;
   std::function<void(const std::string&)> on_message_;
 };

@@ -13,7 +13,8 @@ namespace tandem::server {
 
 /// Response to `/metrics` (Prometheus text), `/healthz` and `/readyz`. `/healthz` is 200 while every shard ticked less
 /// than a second ago. `/readyz` also requires that joins are accepted and the audit log can be written. Counters are
-/// copied at each request. @param service  of a member of a service; null: the server is alone Call it on the control plane's thread.
+/// copied at each request. Call it on the control plane's thread.
+/// @param service  of a member of a service; null: the server is alone
 [[nodiscard]] HttpResponse monitoring_page(std::string_view path, const SessionRegistry& registry,
                                            const ControlPlane& plane, const AuditState& audit = {},
                                            const ServiceStatus* service = nullptr);

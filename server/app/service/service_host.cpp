@@ -81,6 +81,8 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
   ticket_uses_ = std::make_unique<ServiceTicketUses>(*thread_, parts_.control);
   publish_load();
   parts_.control.set_service_status([this] { return status(); });
+  parts_.control.set_locator(*locator_);
+  parts_.control.set_ticket_uses(*ticket_uses_);
 }
 
 void ServiceHost::start() {

@@ -13,9 +13,9 @@ namespace {
 
 class ScriptedUses final : public TicketUses {
  public:
-  void use(const std::string& session, const auth::Id16& ticket, std::int64_t life_s,
+  void use(const std::string& of, const auth::Id16& id, std::int64_t life_s,
            std::function<void(Outcome)> done) override {
-    this->session = session, this->ticket = ticket, life = life_s, answer = std::move(done);
+    session = of, ticket = id, life = life_s, answer = std::move(done);
   }
   void restore(const std::string&, const auth::Id16&) override {}
   std::string session;

@@ -1,0 +1,99 @@
+#include "server/service/service_news.h"
+
+#include "common/base/hex.h"
+#include "proto/rpc/service_codec.h"
+#include "server/service/servers_table.h"
+#include "tests/server/service/service_fixture.h"
+
+namespace tandem::server::test {
+namespace {
+
+class ServiceNewsTest : public ServiceTest {
+ protected:
+  /// Lets time pass, and returns the events of the server's lines.
+  std::vector<std::string> events(Server& server, Duration time) {
+    std::vector<std::string> all;
+    for (const Time end = now_ + time; now_ < end;) {
+      pass(100ms);
+      for (const auto& line : news_.update(now_, server.member.status(now_))) {
+        all.push_back(line.event);
+        told_ += line.text + "\n";
+      }
+    }
+    return all;
+  }
+  using Events = std::vector<std::string>;
+  ServiceNews news_{"a", "10.0.0.1:2379", directory::LeaseTimes{}};
+  std::string told_;
+};
+
+TEST_F(ServiceNewsTest, ReportsEachChangeOnce) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  EXPECT_EQ(events(a, 5s), Events{"service_joined"});
+  a.directory.cut = true;
+  EXPECT_EQ(events(a, 6s), (Events{"service_no_answer", "service_held"}));
+  EXPECT_NE(told_.find("10.0.0.1:2379 does not answer: cut off"), std::string::npos) << told_;
+  a.directory.cut = false;
+  events(a, 5s);
+  EXPECT_EQ(events(a, 5s), Events{});
+}
+
+TEST_F(ServiceNewsTest, ReportsADirectoryThatCannotBeReachedAtTheStart) {
+  servers_.push_back(std::make_unique<Server>(store_, ServiceMemberOptions{.server = "a"}));
+  Server& a = *servers_.back();
+  a.directory.cut = true;
+  EXPECT_EQ(events(a, 10s), Events{"service_unreachable"});
+  EXPECT_NE(told_.find("etcdctl"), std::string::npos) << told_;
+  a.directory.cut = false;
+  EXPECT_EQ(events(a, 3s), Events{"service_joined"});
+}
+
+TEST_F(ServiceNewsTest, ReportsANameThatAnotherServerHas) {
+  start("a");
+  Server& second = start("a");
+  EXPECT_EQ(events(second, 10s), Events{"service_name_taken"});
+  EXPECT_NE(told_.find("directory { server }"), std::string::npos) << told_;
+}
+
+TEST_F(ServiceNewsTest, TableHasEveryServerAndSessionsWithoutOne) {
+  rpc::ServiceStatement statement;
+  statement.content =
+      rpc::encode(rpc::VoucherContent{.name = "a", .server = {}, .not_before = 0, .not_after = 1'800'000'000});
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  a.member.describe({.address = "10.0.0.7:7000",
+                     .key = "k",
+                     .version = "1.2",
+                     .zone = "north",
+                     .capacity = 4,
+                     .used = 1.25,
+                     .voucher = to_hex(rpc::encode(statement))});
+  Server& b = start("b");
+  pass(1s);
+  const auto table = [&] {
+    directory::DirectoryView view{directory::DirectoryKeys{}};
+    ServiceCatalogue catalogue{ServiceKeys("/tandem/v1/")};
+    directory::ModelDirectory through(store_);
+    through.begin(1, *view.poll_request(now_, 1, 1s));
+    through.begin(2, *catalogue.poll_request(now_, 2, 1s));
+    while (const auto reply = through.poll())
+      if (!view.on_reply(*reply)) catalogue.on_reply(*reply);
+    return servers_table(view, catalogue);
+  };
+  const std::string text = table();
+  EXPECT_NE(text.find("a       10.0.0.7:7000  1.2      north  1.25 of 4.0 cores  1         2027-01-15\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\nb "), std::string::npos) << text;
+  EXPECT_EQ(text.find("has no server"), std::string::npos) << text;
+  a.runs = b.runs = false;
+  a.open.clear();
+  now_ += 10s;
+  store_.advance(now_);
+  EXPECT_EQ(
+      table(),
+      "no server is registered in this service\nsession lab has no server; one takes it over when a client asks for "
+      "it\n");
+}
+
+}  // namespace
+}  // namespace tandem::server::test
