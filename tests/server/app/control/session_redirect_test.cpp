@@ -162,6 +162,9 @@ TEST(SessionRedirect, AnswersJoinsBeforeTheDrainAndCommandsOfASessionThatMovedAw
     return reply.value();
   };
   EXPECT_TRUE(std::holds_alternative<rpc::Elsewhere>(command()));
+  std::optional<rpc::Body> ended;
+  joins.command(joined, {}, rpc::EndSession{id_of(3), ""}, [&](rpc::Body body) { ended = std::move(body); });
+  EXPECT_EQ(std::get<rpc::Elsewhere>(ended.value()).id, id_of(3));
   joined.version = 2;
   EXPECT_EQ(std::get<rpc::ErrorReply>(command()).code, ErrorCode::kNoSession);
   r.locator.found = SessionLocator::None{};
