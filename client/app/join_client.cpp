@@ -36,6 +36,7 @@ bool wait_for_owner(const JoinOptions& options) {
 std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
   const Time until = io::monotonic_now() + server.options().timeout;
   if (auto connected = server.connect(); !connected) return std::unexpected(connected.error());
+  server.remember({});
   auto hello = make_hello(server);
   if (!hello) return std::unexpected(hello.error());
   while (true) {
@@ -159,7 +160,8 @@ std::expected<Console, JoinError> join_console(const JoinOptions& options) {
   ServerConnection server{options};
   auto accepted = request_join(server);
   if (!accepted) return std::unexpected(accepted.error());
-  return Console{accepted->welcome, server.release(), server.workstation()};
+  const bool service = server.service().has_value();
+  return Console{accepted->welcome, server.release(), server.workstation(), service};
 }
 
 std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options) {
@@ -259,6 +261,11 @@ std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, c
     if (failed.answered && !all->answered) all->answered = failed.answered;
   }
   return std::unexpected(std::move(*all));
+}
+
+std::string moved_text(const rpc::Elsewhere& to) {
+  return "session " + to.session + " is at the server " + to.address + " of this service; join it there (--session " +
+         to.session + "), with a new ticket if this connection had one";
 }
 
 std::expected<rpc::SessionList, JoinError> list_sessions(const JoinOptions& options) {

@@ -61,6 +61,7 @@ struct Console {
   rpc::Welcome welcome;
   std::shared_ptr<auth::ControlClient> connection;
   auth::KeyFingerprint workstation{};  ///< key of this workstation
+  bool service = false;                ///< the server belongs to a service: it lists the sessions of all its servers
 };
 
 /// A console that watches the session.
@@ -128,7 +129,10 @@ struct ResumeError {
 [[nodiscard]] std::string complete_commands(std::string text, const JoinOptions& options,
                                             const std::string& session = {}, bool by_ticket = false);
 
-/// Returns the open sessions of the server.
+/// Returns what a participant reads when the session of a connection has moved to another server of the service.
+[[nodiscard]] std::string moved_text(const rpc::Elsewhere& to);
+
+/// Returns the open sessions of the server, or of its whole service.
 [[nodiscard]] std::expected<rpc::SessionList, JoinError> list_sessions(const JoinOptions& options);
 
 /// Sends CLOSE for a seat that was just joined and will not be used, so that other clients can join it at once.

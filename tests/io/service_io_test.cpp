@@ -148,7 +148,11 @@ TEST_F(Service, HandsInContactComeBackFromZeroForceAtTheStandbyOfAKilledServer) 
     Process &owner = service.of(names[n % 2]), &standby = service.of(names[(n + 1) % 2]);
     owner.signal(SIGKILL);
     ASSERT_EQ(owner.wait(), -SIGKILL);
-    ASSERT_TRUE(standby.wait_for("the session runs")) << standby.err() << trainer.err() << trainee.err();
+    if (!standby.wait_for("the session runs")) {
+      trainer.signal(SIGINT);
+      trainer.wait();
+      FAIL() << n << "\n" << standby.err() << trainer.err();
+    }
     if (n + 1 < kills) service.start(names[n % 2]);
     std::this_thread::sleep_for(milliseconds(5000));
   }

@@ -51,7 +51,8 @@ class ConsoleClient {
   enum class PollResult { kNothing, kChanged, kGone };
   PollResult poll_status() {
     const auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, timeout_);
-    if (!answer) return PollResult::kGone;
+    if (const auto* moved = answer ? std::get_if<rpc::Elsewhere>(&*answer) : nullptr) complain(moved_text(*moved));
+    if (!answer || std::holds_alternative<rpc::Elsewhere>(*answer)) return PollResult::kGone;
     const auto* said = std::get_if<rpc::Status>(&*answer);
     if (said == nullptr) return PollResult::kNothing;  // rate limit or end of the session; the next command reports it
     looked_ = true;
@@ -122,6 +123,9 @@ class ConsoleClient {
     } else if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) {
       refused_ = true;
       complain("refused: " + refused->text + refusal_hint(question, console_.welcome.role));
+    } else if (const auto* moved = std::get_if<rpc::Elsewhere>(&*answer)) {
+      refused_ = true;
+      complain(moved_text(*moved));
     } else {
       complain("unexpected reply from the server; use the same release on both");
     }
@@ -129,7 +133,7 @@ class ConsoleClient {
   }
   bool order(const rpc::Body& command) { return ask<rpc::Ok>(command).has_value(); }
   std::optional<rpc::SessionList> sessions() {
-    return rpc::all_sessions([this](const rpc::Body& page) { return ask<rpc::SessionList>(page); });
+    return rpc::all_sessions([this](const rpc::Body& page) { return ask<rpc::SessionList>(page); }, console_.service);
   }
   std::optional<rpc::Status> status() {
     auto now = ask<rpc::Status>(rpc::StatusRequest{console_.welcome.session_id});

@@ -77,19 +77,24 @@ std::string ClientKeystore::store_server(const ServerRow& server) const {
 
 std::string ClientKeystore::store_service(const std::optional<ServicePin>& before, const KeyFingerprint& server,
                                           const ServicePin& pin, const std::vector<std::string>& members) const {
+  const auto changed = [&](std::vector<ServerRow> rows) {
+    for (ServerRow& row : rows) {
+      const bool own = row.spki == server.sha256 && !row.service;
+      const bool same = row.service && (row.service->key == pin.key || (before && row.service->key == before->key));
+      if (!own && !same) continue;
+      row.service = pin;
+      if (!members.empty()) row.members = members;
+      if (row.members.size() > ServerRow::kMembersMax) row.members.resize(ServerRow::kMembersMax);
+    }
+    return rows;
+  };
+  // Most connections change nothing: they take no lock and write no file.
+  if (const auto rows = servers(); rows && changed(*rows) == *rows) return {};
   const auto lock = DirectoryLock::wait(folder_, kLock);
   if (!lock) return lock.error();
-  auto rows = servers();
+  const auto rows = servers();
   if (!rows) return rows.error();
-  const auto old = *rows;
-  for (ServerRow& row : *rows) {
-    const bool own = row.spki == server.sha256 && !row.service;
-    if (!own && !(before && row.service && row.service->key == before->key)) continue;
-    row.service = pin;
-    if (!members.empty()) row.members = members;
-    if (row.members.size() > ServerRow::kMembersMax) row.members.resize(ServerRow::kMembersMax);
-  }
-  return *rows == old ? std::string{} : folder_.replace(kServersFile, std::string_view(print_servers(*rows)));
+  return folder_.replace(kServersFile, std::string_view(print_servers(changed(*rows))));
 }
 
 std::expected<RuntimeDirectory, std::string> RuntimeDirectory::publish(const std::string& path,

@@ -356,8 +356,10 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
 
 void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                            std::function<void(rpc::Body)> answer) {
-  if (std::as_const(registry_).find(joined.session_id) == nullptr)
-    if (auto away = redirect_.find(joined.session_id, joined.version >= rpc::kVersionOfServices))
+  const auto* const end = std::get_if<rpc::EndSession>(&command);  // the only one for other sessions
+  const rpc::Id& named = end == nullptr ? joined.session_id : end->session_id;
+  if (std::as_const(registry_).find(named) == nullptr)
+    if (auto away = redirect_.find(named, joined.version >= rpc::kVersionOfServices))
       return std::visit([&](auto& reply) { answer(std::move(reply)); }, *away);
   commands_.execute(joined, workstation, std::move(command), std::move(answer));
 }

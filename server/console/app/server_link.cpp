@@ -197,6 +197,10 @@ bool ServerLink::ask_status() {
     if (notes != notes_known_) ask_notes(notes);
     return console_.connection != nullptr;
   }
+  if (const auto* moved = std::get_if<rpc::Elsewhere>(&*answer)) {  // a link that joins again follows
+    lose(client::moved_text(*moved));
+    return false;
+  }
   if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer); refused != nullptr && is_final(refused->code)) {
     lose(refused->text);
     return false;
@@ -269,6 +273,11 @@ void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
   }
   if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer))
     return reply(false, refused->text + client::refusal_hint(body, console_.welcome.role), "");
+  if (const auto* moved = std::get_if<rpc::Elsewhere>(&*answer)) {
+    const std::string why = client::moved_text(*moved);
+    if (!std::holds_alternative<rpc::EndSession>(body)) lose(why);
+    return reply(false, why, "");
+  }
   if (const auto* authority = std::get_if<rpc::AuthorityReply>(&*answer); authority != nullptr && !authority->applied)
     return reply(false, "another change of authority came first; check it, then repeat the order", "");
   const auto* const created = std::get_if<rpc::SessionCreated>(&*answer);

@@ -12,7 +12,7 @@ namespace {
 using namespace test;
 using rpc::ErrorCode;
 
-/// What the directory would say.
+/// A directory with the answers that a test sets.
 struct SetLocator final : SessionLocator {
   Found locate(const rpc::SessionChoice& choice) override {
     asked.push_back(choice);
@@ -162,6 +162,9 @@ TEST(SessionRedirect, AnswersJoinsBeforeTheDrainAndCommandsOfASessionThatMovedAw
     return reply.value();
   };
   EXPECT_TRUE(std::holds_alternative<rpc::Elsewhere>(command()));
+  std::optional<rpc::Body> ended;
+  joins.command(joined, {}, rpc::EndSession{id_of(3), ""}, [&](rpc::Body body) { ended = std::move(body); });
+  EXPECT_EQ(std::get<rpc::Elsewhere>(ended.value()).id, id_of(3));
   joined.version = 2;
   EXPECT_EQ(std::get<rpc::ErrorReply>(command()).code, ErrorCode::kNoSession);
   r.locator.found = SessionLocator::None{};
