@@ -173,8 +173,9 @@ std::vector<std::byte> credential_in(const x509_st* certificate) {
   const int at = id.object == nullptr ? -1 : X509_get_ext_by_OBJ(certificate, id.object, -1);
   const ASN1_OCTET_STRING* const content = at < 0 ? nullptr : X509_EXTENSION_get_data(X509_get_ext(certificate, at));
   if (content == nullptr) return {};
-  const auto* const first = reinterpret_cast<const std::byte*>(ASN1_STRING_get0_data(content));
-  return {first, first + ASN1_STRING_length(content)};
+  const std::size_t size = static_cast<std::size_t>(ASN1_STRING_length(content));
+  const auto bytes = bytes_of({as_text(ASN1_STRING_get0_data(content)), size});
+  return {bytes.begin(), bytes.end()};
 }
 
 Identity Identity::make(std::string_view common_name, std::span<const std::byte, 16> serial, std::int64_t now) {

@@ -41,7 +41,7 @@ struct ServiceStatement {
   friend bool operator==(const ServiceStatement&, const ServiceStatement&) = default;
 };
 
-/// What a server shows in its certificate. The statements are encoded, and not checked.
+/// Part of a server's certificate that its clients check. The statements are encoded, and not checked.
 struct MemberCredential {
   PublicKey service_key{};
   std::vector<std::byte> voucher;

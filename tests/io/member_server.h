@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/auth/io/service_keystore.h"
+#include "common/io/event_fd.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
 #include "server/app/control/control_plane.h"
@@ -89,6 +90,7 @@ class MemberServer {
   /// Serves the session from now on. @param resume  hash of the secret with which the seat trainee may be resumed
   void serve(std::uint64_t epoch, const std::optional<SeatReservation::Hash>& resume = {}) {
     hosted_ = std::make_unique<LiveSession>(scene_, *make_local_slaves(scene_, Time{}), 0, queue_);
+    hosted_->persist_to(checkpoints_, epoch);
     SessionSnapshot kept;
     kept.checkpoint.seats_n = static_cast<std::uint8_t>(scene_.seats.size());
     for (std::size_t i = 0; resume && i < kept.checkpoint.seats_n; ++i)
@@ -111,6 +113,24 @@ class MemberServer {
           "");
     });
   }
+  /// Hash of the secret with which the seat trainee may be resumed, once a checkpoint has it.
+  [[nodiscard]] SeatReservation::Hash resume_hash_of_trainee() {
+    while (true) {
+      while (checkpoints_->take(newest_)) {
+      }
+      for (std::size_t i = 0; i < newest_.seats_n; ++i)
+        if (scene_.seats[i].name == "trainee" && newest_.seats[i].resume != SeatReservation::Hash{})
+          return newest_.seats[i].resume;
+      std::this_thread::sleep_for(20ms);
+    }
+  }
+  /// Whether the seat's datagrams arrive.
+  [[nodiscard]] bool hears_trainee() const {
+    const SessionStatus status = hosted_->status();
+    for (std::size_t i = 0; i < scene_.seats.size(); ++i)
+      if (scene_.seats[i].name == "trainee") return status.seats[i].taken && status.seats[i].alive;
+    return false;
+  }
   [[nodiscard]] std::vector<std::byte> voucher() const { return trust_->membership()->voucher; }
   [[nodiscard]] std::string at() const { return io::to_text(address); }
   /// Where this server is, as its directory says it.
@@ -131,6 +151,9 @@ class MemberServer {
   std::string name_;
   SceneSpec scene_;
   TickQueue queue_{1024};
+  io::EventFd checkpointed_;
+  std::shared_ptr<CheckpointMailbox> checkpoints_ = std::make_shared<CheckpointMailbox>(checkpointed_);
+  Checkpoint newest_;
   std::optional<auth::ServerKeystore> trust_;
   std::unique_ptr<LiveSession> hosted_;
   std::unique_ptr<Shard> shard_;

@@ -1,20 +1,16 @@
 // The server is killed and started again, with real programs on loopback: no hand is kicked, and all clients come
 // back. Durations are printed, not asserted.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <stdexcept>
 #include <thread>
 
 #include "common/base/rng.h"
 #include "tests/common/base/counts.h"
+#include "tests/io/free_address.h"
 #include "tests/io/pressing_hands.h"
 #include "tests/io/programs.h"
 #include "tests/io/traces.h"
@@ -24,29 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
-
-/// Whether a socket of this kind can be bound to this port of loopback.
-bool is_free(int kind, std::uint16_t port) {
-  const int socket = ::socket(AF_INET, kind | SOCK_CLOEXEC, 0);
-  sockaddr_in at{};
-  at.sin_family = AF_INET;
-  at.sin_port = htons(port);
-  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const bool bound = socket >= 0 && ::bind(socket, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0;
-  if (socket >= 0) ::close(socket);
-  return bound;
-}
-
-/// A free loopback address, because a restarted server must have the same one. It is below the kernel's range of
-/// ephemeral ports: otherwise another test could get it while no server runs.
-std::string free_address() {
-  constexpr int kFirst = 20000, kPorts = 12000;
-  for (int i = 0; i < kPorts; ++i) {
-    const auto port = static_cast<std::uint16_t>(kFirst + (7 * ::getpid() + i) % kPorts);
-    if (is_free(SOCK_DGRAM, port) && is_free(SOCK_STREAM, port)) return "127.0.0.1:" + std::to_string(port);
-  }
-  throw std::runtime_error("no free port");
-}
 
 /// Servers and clients of a test share a directory.
 class Restart : public ::testing::Test {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/io/etcd_process.h"
+#include "tests/io/free_address.h"
 #include "tests/io/multi_client_fixture.h"
 
 namespace tandem::test {
@@ -38,11 +39,13 @@ class LiveService {
       run({"service", "vouch", folder_.file("service"), "--name", name, "--key", key_in(init), "--out", member});
       run({"service", "join", member, "--state", folder_.file(name)});
     }
+    if (addresses_[name].empty()) addresses_[name] = free_address();  // clients know it, so a restart has the same
     std::string endpoints;
     for (const auto& etcd : etcd_) endpoints += "endpoint: \"" + etcd->endpoint() + "\" ";
-    const std::string config = folder_.write(
-        name + ".textproto", "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" state: \"" + name + "\" " +
-                                 sessions_ + " directory { " + endpoints + format("ttl_s: %d }", ttl_s_));
+    const std::string config =
+        folder_.write(name + ".textproto", "version: 1 listen: \"" + addresses_[name] +
+                                               "\" metrics: \"127.0.0.1:0\" state: \"" + name + "\" " + sessions_ +
+                                               " directory { " + endpoints + format("ttl_s: %d }", ttl_s_));
     servers_[name] = std::make_unique<Process>(server({"serve", config}));
     EXPECT_TRUE(servers_[name]->wait_for("Ctrl-C ends")) << servers_[name]->err();
     return *servers_[name];
@@ -103,6 +106,7 @@ class LiveService {
   int ttl_s_;
   Folder folder_;
   std::vector<std::unique_ptr<Etcd>> etcd_;
+  std::map<std::string, std::string> addresses_;
   std::map<std::string, std::unique_ptr<Process>> servers_;
 };
 

@@ -148,7 +148,11 @@ TEST_F(Service, HandsInContactComeBackFromZeroForceAtTheStandbyOfAKilledServer) 
     Process &owner = service.of(names[n % 2]), &standby = service.of(names[(n + 1) % 2]);
     owner.signal(SIGKILL);
     ASSERT_EQ(owner.wait(), -SIGKILL);
-    ASSERT_TRUE(standby.wait_for("the session runs")) << standby.err() << trainer.err() << trainee.err();
+    if (!standby.wait_for("the session runs")) {
+      trainer.signal(SIGINT);
+      trainer.wait();
+      FAIL() << n << "\n" << standby.err() << trainer.err();
+    }
     if (n + 1 < kills) service.start(names[n % 2]);
     std::this_thread::sleep_for(milliseconds(5000));
   }
@@ -195,6 +199,64 @@ TEST_F(Service, TicketAdmitsOnceInTheWholeService) {
   Process again = join("b");  // a server that has never seen the ticket
   EXPECT_EQ(again.wait(), 1);
   EXPECT_NE(again.err().find("used before"), std::string::npos) << again.err();
+}
+
+TEST_F(Service, CreatedSessionIsUniqueInTheServiceAndLeavesNothingWhenItEnds) {
+  LiveService service("session { name: \"lab\" scene: \"lesson\" }");
+  service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const std::string own = service.enrolled("desk");
+  const auto operate = [&](const Words& command) {
+    const std::string ticket = service.folder().write(
+        "operator.ticket",
+        first_line(LiveService::run({"ticket", "--session", "lab", "--role", "operator", "--workstation", "desk",
+                                     "--state", service.folder().file("a")})));
+    Words words{TANDEM_CLIENT, "control", "--server", address_of(service.of("a")), "--session", "lab", "--ticket-file",
+                ticket,        "--state", own};
+    words.insert(words.end(), command.begin(), command.end());
+    return Process(std::move(words));
+  };
+  Process create = operate({"create", "exam", "lesson"});
+  EXPECT_EQ(create.wait(), 0) << create.err();
+  service.wait_for_sessions("a", 2);  // its file is at most a second old
+  Process twice = operate({"create", "exam", "lesson"});
+  EXPECT_EQ(twice.wait(), 1) << twice.err();
+  EXPECT_NE(twice.err().find("exists already"), std::string::npos) << twice.err();
+  EXPECT_NE(service.etcd().etcdctl({"get", "/tandem/v1/catalogue/exam/spec"}), "");
+  Process end = operate({"end", "exam"});
+  EXPECT_EQ(end.wait(), 0) << end.err();
+  service.wait_for_sessions("a", 1);
+  for (int i = 0; i < 500 && !service.etcd().etcdctl({"get", "/tandem/v1/live/sessions/exam/owner"}).empty(); ++i)
+    std::this_thread::sleep_for(milliseconds(20));
+  for (const char* key : {"catalogue/exam/", "snapshots/exam", "live/sessions/exam/"})
+    EXPECT_EQ(service.etcd().etcdctl({"get", "--prefix", std::string("/tandem/v1/") + key}), "") << key;
+  // A configured session that ends begins again, under the same ownership, with another id.
+  const Json before = service.sessions("a");
+  Process again = operate({"end", "lab"});
+  EXPECT_EQ(again.wait(), 0) << again.err();
+  Json after = service.sessions("a");
+  for (int i = 0; i < 500 && (after.size() != 1 || after[0]["id"] == before[0]["id"]); ++i) {
+    std::this_thread::sleep_for(milliseconds(20));
+    after = service.sessions("a");
+  }
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_NE(after[0]["id"], before[0]["id"]);
+  EXPECT_NE(after[0]["code"], before[0]["code"]);
+}
+
+TEST_F(Service, ServersAreListedFromTheDirectory) {
+  LiveService service(kTwoSessions);
+  service.start("a");
+  service.wait_for_sessions("a", 2);
+  const std::string config = service.folder().file("a.textproto");
+  EXPECT_NE(LiveService::run({"servers", "--config", config}).find(address_of(service.of("a"))), std::string::npos);
+  service.etcd().process().signal(SIGKILL);
+  ASSERT_TRUE(service.etcd().process().wait());
+  Process asked = server({"servers", "--config", config});
+  EXPECT_EQ(asked.wait(), 1);
+  EXPECT_NE(asked.err().find("does not answer"), std::string::npos) << asked.err();
 }
 
 TEST_F(Service, WrongNamesAndMissingMembershipAreReported) {

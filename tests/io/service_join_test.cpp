@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "client/app/join_client.h"
+#include "client/app/run_seat.h"
 #include "client/app/server_addresses.h"
 #include "common/auth/io/client_keystore.h"
 #include "common/auth/io/control_client.h"
+#include "common/io/clock.h"
 #include "proto/text/service_text.h"
 #include "tests/io/member_server.h"
 
@@ -223,6 +225,37 @@ TEST_F(ServiceJoin, ResumesAtTheNewOwnerInOneAttemptOnceItServes) {
   ASSERT_TRUE(back) << back.error().reason;
   EXPECT_EQ(io::to_text(back->udp), c->at());
   EXPECT_EQ(back->welcome.epoch, 9U);
+}
+
+/// A whole client keeps its seat when its server dies, and another one serves the session 3.3 s later, as with a lease
+/// of 3 s. Its datagrams go to the new server.
+TEST_F(ServiceJoin, BringsTheSeatOfARunningClientToTheNewOwner) {
+  auto a = member("desk-a");
+  const auto b = member("desk-b"), c = member("desk-c");
+  know(*a);
+  a->serve(5);
+  a->on_thread([&] { a->directory.addresses = {a->at(), b->at(), c->at()}; });
+  for (MemberServer* other : {b.get(), c.get()}) point(*other, SessionLocator::Coming{});
+  SeatOptions plan;
+  plan.join = options({a.get()}, 5s);
+  plan.device = "sim";
+  plan.duration_s = 20;
+  plan.quiet = true;
+  std::thread person([&] { static_cast<void>(run_seat(plan)); });
+  const server::SeatReservation::Hash secret = a->resume_hash_of_trainee();
+  while (!a->hears_trainee()) std::this_thread::sleep_for(20ms);
+  a.reset();
+  const Time died = io::monotonic_now();
+  std::this_thread::sleep_for(3300ms);
+  c->serve(9, secret);
+  point(*b, c->location(9));
+  const Time served = io::monotonic_now();
+  while (!c->hears_trainee() && io::monotonic_now() - served < 12s) std::this_thread::sleep_for(10ms);
+  EXPECT_TRUE(c->hears_trainee());
+  EXPECT_EQ(c->count(ControlEvent::kWelcomed), 1U);
+  std::printf("[ measured ] seat back %.2f s after its server died, %.2f s after another one serves the session\n",
+              seconds(io::monotonic_now() - died), seconds(io::monotonic_now() - served));
+  person.join();
 }
 
 TEST_F(ServiceJoin, ResumesNowhereElseWithoutService) {

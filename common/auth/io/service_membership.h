@@ -12,7 +12,7 @@
 
 namespace tandem::auth {
 
-/// Membership of a server in a service: what its member file holds, without the secret.
+/// Membership of a server in a service: contents of its member file, without the secret.
 struct ServiceMembership {
   rpc::PublicKey service_key{};
   std::vector<std::byte> voucher;                   ///< of this server, an encoded statement

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/rng.h"
+#include "proto/text/service_text.h"
 
 namespace tandem {
 namespace {
@@ -22,6 +23,14 @@ TEST(RegistryText, RoundTripsEveryRegistry) {
   EXPECT_EQ(parse_codes(print_codes(codes), "f"), codes);
   const std::vector<ServerRow> servers{{"lab:7000", hash(4), "touch-07"}, {"[::1]:7000", hash(5), "x"}};
   EXPECT_EQ(parse_servers(print_servers(servers), "f"), servers);
+  const std::vector<ServerRow> members{
+      {"lab:7000", hash(4), "touch-07", ServicePin{hash(9), hash(10), 1'800'000'000}, {"lab:7000", "[::1]:7001"}},
+      {"b:1", hash(5), "x", ServicePin{hash(9), {}, 0}}};
+  EXPECT_EQ(parse_servers(print_servers(members), "f"), members);
+  const MemberRow member{
+      "desk-a", hash(1), "tandem-ticket-key-v1 00", {std::byte{1}}, {{std::byte{2}}, {std::byte{3}}}};
+  EXPECT_EQ(parse_member(print_member(member), "f"), member);
+  EXPECT_EQ(parse_service(print_service(member.key_changes), "f"), member.key_changes);
   ServingSpec serving{
       "127.0.0.1:7000",
       {{{}, "ABCDE12345", "contact", 3, {{"trainer", AccessRole::kInstructor}, {"trainee", AccessRole::kTrainee}}}}};
@@ -51,6 +60,13 @@ TEST(RegistryText, ReportsEveryMistakeWithItsPlace) {
   EXPECT_NE(messages("workstaton { }").find("workstation"), std::string::npos) << "the nearest key is named";
   EXPECT_NE(messages(row.substr(0, row.size() / 2)), "");
   EXPECT_FALSE(parse_servers("server { address: \"nowhere\" spki_sha256: \"" + kHex64 + "\" name: \"a\" }", "f"));
+  const std::string known = "server { address: \"a:1\" spki_sha256: \"" + kHex64 + "\" name: \"a\" ";
+  EXPECT_FALSE(parse_servers(known + "service_key: \"00\" }", "f"));
+  EXPECT_FALSE(parse_servers(known + "service_key: \"" + kHex64 + "\" service_key_before: \"" + kHex64 + "\" }", "f"));
+  EXPECT_FALSE(parse_servers(known + "member: \"nowhere\" }", "f"));
+  EXPECT_FALSE(parse_member("name: \"a\" service_key: \"" + kHex64 + "\" ticket_key: \"x\" voucher: \"0\"", "f"));
+  EXPECT_FALSE(parse_member("name: \"a\" service_key: \"" + kHex64 + "\" ticket_key: \"x\"", "f"));
+  EXPECT_FALSE(parse_service("key_change: \"" + std::string(514, 'a') + "\"", "f"));
   EXPECT_FALSE(parse_serving(
       "address: \"a:1\" session { id: \"00\" code: \"short\" name: \"x\" seat { name: \"a\" role: \"king\" } }", "f"));
 }

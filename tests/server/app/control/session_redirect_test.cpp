@@ -12,7 +12,7 @@ namespace {
 using namespace test;
 using rpc::ErrorCode;
 
-/// What the directory would say.
+/// A directory with the answers that a test sets.
 struct SetLocator final : SessionLocator {
   Found locate(const rpc::SessionChoice& choice) override {
     asked.push_back(choice);
