@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -114,6 +115,9 @@ class Directory {
   virtual void begin(OperationId operation, const Request& request) = 0;
   /// Returns the next reply, if there is one.
   [[nodiscard]] virtual std::optional<Reply> poll() = 0;
+  /// Sets what is called when a reply was added, from any thread; it must not call this object. Without effect if
+  /// replies are added by calls of this object only.
+  virtual void notify_by([[maybe_unused]] std::function<void()> told) {}
 };
 
 }  // namespace tandem::directory

@@ -58,6 +58,12 @@ std::string ServerRegistry::modify(Change change) {
   return problem;
 }
 
+bool ServerRegistry::changed() {
+  if (!folder_) return true;
+  const std::pair now{folder_->stamp(kWorkstationsFile), folder_->stamp(kCodesFile)};
+  return now != std::exchange(compared_, now);
+}
+
 std::string ServerRegistry::problem() const {
   const auto lists = read();
   return lists ? std::string{} : lists.error();

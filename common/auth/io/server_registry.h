@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/auth/io/audit_log.h"
@@ -52,6 +53,8 @@ class ServerRegistry {
 
   /// Returns both present lists.
   [[nodiscard]] std::expected<RegistryLists, std::string> lists() const { return read(); }
+  /// Whether a file of the lists has changed since the last call, or may have.
+  [[nodiscard]] bool changed();
   /// Replaces both lists, if they are still `expected`, and writes who was enrolled or revoked at another server of the
   /// service to the audit log. @return whether they were; or the error
   [[nodiscard]] std::expected<bool, std::string> replace(const RegistryLists& expected, RegistryLists wanted,
@@ -72,6 +75,7 @@ class ServerRegistry {
   std::shared_ptr<AuditLog> audit_;
   Lists lists_;                 ///< without a directory: the lists; with one: the workstations as last read
   StateDirectory::Stamp seen_;  ///< of the workstations' file as last read
+  std::pair<StateDirectory::Stamp, StateDirectory::Stamp> compared_;  ///< as of the last call of `changed`
 };
 
 }  // namespace tandem::auth

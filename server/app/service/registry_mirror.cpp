@@ -46,17 +46,24 @@ void RegistryMirror::run() {
 }
 
 std::string RegistryMirror::compare() {
-  const auto lists = keys_.registry().lists();
-  if (!lists) return lists.error();
+  const bool fresh = keys_.registry().changed() || !lists_;
+  if (fresh) {
+    auto lists = keys_.registry().lists();
+    if (!lists) {
+      lists_.reset();
+      return lists.error();
+    }
+    lists_ = std::move(*lists);
+  }
   std::optional<RegistryEntries> wanted;
   RegistryAgreement agreed;
   service_.with([&](ServiceMember& member, Time) {
-    member.registry().set_local(entries_of(*lists));
+    if (fresh) member.registry().set_local(entries_of(*lists_));
     wanted = member.registry().wanted();
     agreed = member.registry().agreed();
   });
   if (wanted) {
-    const auto replaced = keys_.registry().replace(*lists, lists_of(*wanted), auth::wall_seconds());
+    const auto replaced = keys_.registry().replace(*lists_, lists_of(*wanted), auth::wall_seconds());
     if (!replaced) return replaced.error();
     // At once, so that a change of the files from now on counts as a change of what both sides had.
     if (*replaced)

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -41,6 +42,7 @@ class RegistryMirror {
   auth::ServerKeystore keys_;
   ServiceThread& service_;
   std::function<void(const std::string&)> on_trouble_;
+  std::optional<auth::RegistryLists> lists_;  ///< as last read; nullopt: not yet, or they could not be
   RegistryAgreement stored_;
   std::string trouble_;
   std::mutex mutex_;

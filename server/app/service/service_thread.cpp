@@ -8,8 +8,9 @@
 namespace tandem::server {
 namespace {
 
-/// Longest time between two looks at the answers of the directory.
-constexpr auto kPause = std::chrono::milliseconds(5);
+/// Longest time between two rounds; an answer of the directory begins one at once.
+constexpr auto kPause = std::chrono::milliseconds(20);
+constexpr auto kLook = std::chrono::milliseconds(5);  // between two looks, at the end of the server
 
 }  // namespace
 
@@ -21,11 +22,13 @@ Time ServiceThread::now() noexcept { return Time{io::read_clock(CLOCK_BOOTTIME)}
 
 void ServiceThread::start(std::function<void(const ServiceTickets::Result&)> on_ticket) {
   on_ticket_ = std::move(on_ticket);
+  store_->notify_by([this] { wake(); });
   thread_ = io::thread_without_signals([this] { run(); });
 }
 
 void ServiceThread::stop() {
   if (!thread_.joinable()) return;
+  store_->notify_by({});
   {
     const std::lock_guard lock(wake_mutex_);
     stopping_ = true;
@@ -68,7 +71,7 @@ std::optional<ServiceEvent> ServiceThread::take_event() {
 }
 
 bool ServiceThread::wait_for(Duration limit, const std::function<bool(const ServiceMember&)>& done) {
-  for (const Time end = now() + limit; now() < end; std::this_thread::sleep_for(kPause)) {
+  for (const Time end = now() + limit; now() < end; std::this_thread::sleep_for(kLook)) {
     const std::lock_guard lock(mutex_);
     if (done(member_)) return true;
   }

@@ -107,6 +107,10 @@ class EtcdDirectory::Core {
     replies_.pop_front();
     return reply;
   }
+  void notify_by(std::function<void()> told) {
+    const std::lock_guard lock(mutex_);
+    told_ = std::move(told);
+  }
   Counters counters() const {
     const std::lock_guard lock(mutex_);
     return counters_;
@@ -162,6 +166,7 @@ class EtcdDirectory::Core {
     if (reply.outcome == Outcome::kUnknown) ++counters_.unknown;
     if (reply.outcome == Outcome::kRefused) ++counters_.refused;
     replies_.push_back(std::move(reply));
+    if (told_) told_();
   }
   void run();
   void begin_call(OperationId operation, const Request& request, std::size_t member);
@@ -174,6 +179,7 @@ class EtcdDirectory::Core {
   std::condition_variable wake_;
   std::deque<std::pair<OperationId, Request>> requests_;
   std::deque<Reply> replies_;
+  std::function<void()> told_;
   std::set<Context> contexts_;  ///< of the open calls
   std::size_t member_ = 0;
   bool stopped_ = false;
@@ -386,6 +392,7 @@ EtcdDirectory::EtcdDirectory(EtcdOptions options) : core_(std::make_unique<Core>
 EtcdDirectory::~EtcdDirectory() { core_->stop(); }
 void EtcdDirectory::begin(OperationId operation, const Request& request) { core_->begin(operation, request); }
 std::optional<Reply> EtcdDirectory::poll() { return core_->poll(); }
+void EtcdDirectory::notify_by(std::function<void()> told) { core_->notify_by(std::move(told)); }
 EtcdDirectory::Counters EtcdDirectory::counters() const { return core_->counters(); }
 
 }  // namespace tandem::directory
