@@ -101,6 +101,7 @@ void ServiceHost::step(Time now) {
   published_ = now;
   publish_load();
   publish_lists();
+  locator_->remember_members();
 }
 
 void ServiceHost::execute(ServiceEvent event, Time now) {
