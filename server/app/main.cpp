@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   tandem::server::add_revoke_command(root);
   tandem::server::add_service_command(root);
   tandem::server::add_servers_command(root);
+  tandem::server::add_move_command(root);
   tandem::io::log_to_stderr("tandem-server");
   return program.run({argv + 1, argv + argc});
 }

@@ -18,12 +18,15 @@ void ServiceCatalogue::apply(const directory::Change& change) {
   std::string_view name = change.entry.key;
   if (!name.starts_with(folder)) return;
   name.remove_prefix(folder.size());
-  const bool spec = name.ends_with(ServiceKeys::kSpec);
-  if (!spec && !name.ends_with(ServiceKeys::kListed)) {
+  const char* const kind = name.ends_with(ServiceKeys::kSpec)     ? ServiceKeys::kSpec
+                           : name.ends_with(ServiceKeys::kListed) ? ServiceKeys::kListed
+                           : name.ends_with(ServiceKeys::kMove)   ? ServiceKeys::kMove
+                                                                  : nullptr;
+  if (kind == nullptr) {
     ++rejected_;
     return;
   }
-  name.remove_suffix(std::string_view(spec ? ServiceKeys::kSpec : ServiceKeys::kListed).size());
+  name.remove_suffix(std::string_view(kind).size());
   if (!directory::DirectoryKeys::valid_name(name)) {
     ++rejected_;
     return;
@@ -39,12 +42,14 @@ void ServiceCatalogue::apply(const directory::Change& change) {
   }
   Entry& entry = found->second;
   const std::string text = change.erased ? std::string{} : change.entry.value;
-  (spec ? entry.spec_text : entry.listed_text) = text;
-  if (spec) {
+  (kind == ServiceKeys::kSpec     ? entry.spec_text
+   : kind == ServiceKeys::kListed ? entry.listed_text
+                                  : entry.move_to) = text;
+  if (kind == ServiceKeys::kSpec) {
     entry.spec = parse_service_session(text);
     if (!entry.spec && !text.empty()) ++rejected_;
   }
-  if (entry.spec_text.empty() && entry.listed_text.empty()) entries_.erase(found);
+  if (entry.spec_text.empty() && entry.listed_text.empty() && entry.move_to.empty()) entries_.erase(found);
 }
 
 const ServiceSession* ServiceCatalogue::find(std::string_view name) const {

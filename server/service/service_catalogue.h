@@ -21,6 +21,7 @@ class ServiceCatalogue {
   struct Entry {
     std::optional<ServiceSession> spec;
     std::string spec_text, listed_text;
+    std::string move_to;  ///< name of a server; empty: no move is wanted
   };
   using Entries = std::map<std::string, Entry, std::less<>>;
 

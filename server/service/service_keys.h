@@ -9,6 +9,7 @@ namespace tandem::server {
 ///
 ///     catalogue/SESSION/spec     text of the session (ServiceSession)
 ///     catalogue/SESSION/listed   its phase and seats
+///     catalogue/SESSION/move     server to which an operator moves the session; empty: none
 ///     snapshots/SESSION          newest snapshot; apart from the catalogue, which all servers follow
 class ServiceKeys {
  public:
@@ -20,12 +21,14 @@ class ServiceKeys {
   [[nodiscard]] std::string listed(std::string_view session) const {
     return catalogue() + std::string(session) + kListed;
   }
+  [[nodiscard]] std::string move(std::string_view session) const { return catalogue() + std::string(session) + kMove; }
   [[nodiscard]] std::string snapshot(std::string_view session) const {
     return prefix_ + "snapshots/" + std::string(session);
   }
 
   static constexpr const char* kSpec = "/spec";
   static constexpr const char* kListed = "/listed";
+  static constexpr const char* kMove = "/move";
 
  private:
   std::string prefix_;

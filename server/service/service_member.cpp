@@ -80,6 +80,7 @@ void ServiceMember::step(Time now) {
   }
   take_notices(now);
   if (!configured_claimed_) claim_configured();
+  begin_moves();
   advance_sessions(now);
   const Duration retry = 2 * options_.times.answer_limit;
   if (const auto request = catalogue_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
@@ -112,8 +113,10 @@ void ServiceMember::take_notices(Time now) {
         name_taken_ = true;
         break;
       case Notice::Kind::kStandbyRefused:
-        if (const auto found = entries_.find(notice->session); found != entries_.end())
+        if (const auto found = entries_.find(notice->session); found != entries_.end()) {
           found->second.next_standby = now + kStandbyPause;
+          if (found->second.phase == Phase::kMoving) found->second.phase = Phase::kLoading;  // opened here again
+        }
         break;
       case Notice::Kind::kLeaseLost:  // a kLost of each session follows
       case Notice::Kind::kStandbySet:
@@ -215,7 +218,10 @@ std::optional<Request> ServiceMember::request_of(const std::string& session, con
       return write;
     }
     case Phase::kEnding:
-      return Transaction{{owned}, {Erase{spec}, Erase{keys_.listed(session)}, Erase{keys_.snapshot(session)}}, {}};
+      return Transaction{
+          {owned},
+          {Erase{spec}, Erase{keys_.listed(session)}, Erase{keys_.move(session)}, Erase{keys_.snapshot(session)}},
+          {}};
     default:
       return std::nullopt;
   }
@@ -230,6 +236,7 @@ void ServiceMember::advance_sessions(Time now) {
       continue;
     }
     if (entry.phase == Phase::kOpen) choose_standby(now, session, entry);
+    if (entry.phase == Phase::kMoving) advance_move(session, entry);
     if (entry.operation != 0 && now - entry.sent >= 2 * options_.times.answer_limit) entry.operation = 0;
     if (entry.operation != 0 || now < entry.next_attempt) continue;
     if (const auto request = request_of(session, entry)) {

@@ -33,9 +33,10 @@ struct ServiceMemberOptions {
 /// An order of the member to its server; orders are carried out in sequence.
 struct ServiceEvent {
   enum class Kind : std::uint8_t {
-    kOpen,     ///< serve the session; answer with `on_opened` or `on_open_failed`
-    kGiveUp,   ///< end it here, its state stays; answer with `on_given_up`
-    kRefused,  ///< a creation is refused: `text` says why
+    kOpen,      ///< serve the session; answer with `on_opened` or `on_open_failed`
+    kGiveUp,    ///< end it here, its state stays; answer with `on_given_up`
+    kHandOver,  ///< the same, because it moves; answer with `on_handed_over` when it is over
+    kRefused,   ///< a creation is refused: `text` says why
   };
   Kind kind{};
   std::string session;
@@ -107,6 +108,8 @@ class ServiceMember {
   void on_opened(const std::string& session);
   void on_open_failed(Time now, const std::string& session);
   void on_given_up(const std::string& session);
+  /// A session that moves is over here, and its last snapshot is published.
+  void on_handed_over(const std::string& session);
   /// The session is over: erases its keys, then its ownership.
   void end(const std::string& session);
   /// Another run replaces the session under the same ownership. kOpen follows.
@@ -144,6 +147,7 @@ class ServiceMember {
     kWriting,  ///< the spec is being written
     kOpening,  ///< kOpen was reported
     kOpen,
+    kMoving,     ///< kHandOver was reported
     kLosing,     ///< kGiveUp was reported
     kEnding,     ///< the keys are being erased
     kReleasing,  ///< the owner key is being erased
@@ -155,6 +159,8 @@ class ServiceMember {
     bool fresh = false;                    ///< the spec may not exist before
     bool abandoned = false;                ///< its creation was refused while the spec was being written
     bool first = false;                    ///< claimed at start: a changed configuration replaces the spec
+    std::string target{};                  ///< kMoving
+    int steps_until_move = -1;             ///< kMoving: after the hand-over; -1: not handed over, or moving
     std::uint64_t order = 0;
     Time order_ends{}, next_attempt{}, next_standby{};
     directory::OperationId operation = 0;  ///< under way; 0: none
@@ -174,6 +180,8 @@ class ServiceMember {
   [[nodiscard]] std::optional<directory::Request> request_of(const std::string& session, const Entry& entry) const;
   void claim_configured();
   void advance_sessions(Time now);
+  void begin_moves();
+  void advance_move(const std::string& session, Entry& entry);
   void choose_standby(Time now, const std::string& session, Entry& entry);
   void begin(directory::OperationId operation, const directory::Request& request);
   void note(const directory::Reply& reply, Time now);
@@ -198,7 +206,7 @@ class ServiceMember {
   Time now_{};  ///< of the newest step
   std::optional<Time> answered_;
   std::string trouble_;
-  std::uint64_t unanswered_ = 0;
+  std::uint64_t unanswered_ = 0, moves_seen_ = 0;
 };
 
 }  // namespace tandem::server

@@ -82,8 +82,9 @@ void ServiceMember::choose_standby(Time now, const std::string& session, Entry& 
 
 void ServiceMember::set_snapshot(const std::string& session, std::string bytes) {
   const auto found = entries_.find(session);
-  if (found == entries_.end() || (found->second.phase != Phase::kOpen && found->second.phase != Phase::kOpening))
-    return;
+  if (found == entries_.end()) return;
+  const Phase phase = found->second.phase;
+  if (phase != Phase::kOpen && phase != Phase::kOpening && phase != Phase::kMoving) return;
   writer_.set(session, keys_.snapshot(session), std::move(bytes), found->second.revision);
 }
 

@@ -50,7 +50,7 @@ class LiveService {
     EXPECT_TRUE(servers_[name]->wait_for("Ctrl-C ends")) << servers_[name]->err();
     return *servers_[name];
   }
-  [[nodiscard]] Process& of(const std::string& name) { return *servers_.at(name); }
+  [[nodiscard]] Process& of(const std::string& name) const { return *servers_.at(name); }
   [[nodiscard]] Etcd& etcd(std::size_t n = 0) { return *etcd_.at(n); }
   [[nodiscard]] const Folder& folder() const { return folder_; }
 

@@ -22,6 +22,7 @@ void add_enroll_command(const io::Command& root);   ///< issues the one-time str
 void add_ticket_command(const io::Command& root);   ///< writes a ticket
 void add_revoke_command(const io::Command& root);   ///< revokes a workstation
 void add_service_command(const io::Command& root);  ///< makes several servers one service
+void add_move_command(const io::Command& root);     ///< moves a session of a service
 void add_servers_command(const io::Command& root);  ///< lists the servers of a service
 
 }  // namespace tandem::server

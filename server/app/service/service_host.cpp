@@ -110,6 +110,7 @@ void ServiceHost::step(Time now) {
   published_ = now;
   publish_load();
   publish_lists();
+  locator_->remember_members();
 }
 
 void ServiceHost::execute(ServiceEvent event, Time now) {
@@ -123,6 +124,10 @@ void ServiceHost::execute(ServiceEvent event, Time now) {
       snapshots_.remove(event.session);
       parts_.sessions.give_up(event.session);
       thread_->with([&](ServiceMember& member, Time) { member.on_given_up(event.session); });
+      return;
+    case ServiceEvent::Kind::kHandOver:
+      handing_over_.insert(event.session);
+      parts_.sessions.give_up(event.session);
       return;
     case ServiceEvent::Kind::kRefused:
       reply(event.order, rpc::ErrorReply{rpc::ErrorCode::kNotAllowed, event.text, 0});
@@ -187,6 +192,8 @@ void ServiceHost::open_failed(const ServiceEvent& event, const std::string& why)
 
 void ServiceHost::on_over(const std::string& session, const ServiceSession& spec, bool given_up) {
   listed_.erase(session);
+  if (handing_over_.erase(session) > 0)
+    return thread_->with([&](ServiceMember& member, Time) { member.on_handed_over(session); });
   if (leaving_ || given_up) return;
   thread_->with([&](ServiceMember& member, Time) {
     if (!spec.restart) return member.end(session);
@@ -214,8 +221,7 @@ std::optional<rpc::ErrorReply> ServiceHost::creation_problem(const rpc::CreateSe
     return rpc::ErrorReply{
         rpc::ErrorCode::kNotAllowed,
         "a session " + wanted.name + " exists already; choose another name, or end that session first", 0};
-  if (const auto problem = parts_.sessions.creation_problem()) return *problem;
-  return std::nullopt;
+  return parts_.sessions.creation_problem();
 }
 
 bool ServiceHost::take(SessionOrder& order) {

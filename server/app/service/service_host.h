@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,7 @@ class ServiceHost {
   std::vector<Waiting> waiting_;
   std::map<std::uint64_t, SessionOrder> orders_;  ///< creations without a reply, by number
   std::uint64_t newest_order_ = 0;
+  std::set<std::string> handing_over_;         ///< sessions that move to another server
   std::map<std::string, std::string> listed_;  ///< as last published
   std::optional<Time> published_;
   bool leaving_ = false;

@@ -63,15 +63,25 @@ std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
   });
 }
 
+void ServiceLocator::remember_members() {
+  const auto records = thread_.with([](const ServiceMember& member, Time) { return member.members(); });
+  const std::lock_guard lock(lock_);
+  for (const auto& [name, record] : records)
+    if (addresses_.size() < kMembersMax || addresses_.contains(name)) addresses_[name] = record.address;
+}
+
 std::vector<std::string> ServiceLocator::members() const {
-  return thread_.with([&](ServiceMember& member, Time) {
-    const auto records = member.members();
-    std::vector<std::string> addresses;
-    if (const auto own = records.find(server_); own != records.end()) addresses.push_back(own->second.address);
-    for (const auto& [name, record] : records)
-      if (name != server_ && addresses.size() < kMembersMax) addresses.push_back(record.address);
-    return addresses;
-  });
+  const auto records = thread_.with([](const ServiceMember& member, Time) { return member.members(); });
+  std::vector<std::string> addresses;
+  const auto add = [&](const std::string& address) {
+    if (addresses.size() < kMembersMax && std::ranges::find(addresses, address) == addresses.end())
+      addresses.push_back(address);
+  };
+  if (const auto own = records.find(server_); own != records.end()) add(own->second.address);
+  for (const auto& [name, record] : records) add(record.address);
+  const std::lock_guard lock(lock_);
+  for (const auto& [name, address] : addresses_) add(address);
+  return addresses;
 }
 
 bool ServiceLocator::fresh() const noexcept {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -20,10 +22,15 @@ class ServiceLocator final : public SessionLocator {
   [[nodiscard]] std::vector<Elsewhere> elsewhere() const override;
   [[nodiscard]] std::vector<std::string> members() const override;
   [[nodiscard]] bool fresh() const noexcept override;
+  /// Remembers the addresses of the present members, from any thread. A client that joins while a server is down must
+  /// know where it will be again.
+  void remember_members();
 
  private:
   std::string server_;
   ServiceThread& thread_;
+  mutable std::mutex lock_;
+  std::map<std::string, std::string> addresses_;  ///< of all members that were seen, at most kMembersMax, by name
 };
 
 /// Turns the record of a server into the location of a session. Returns nothing if key or voucher is no hexadecimal

@@ -92,6 +92,10 @@ class ServiceTest : public testing::Test {
       if (event->kind == ServiceEvent::Kind::kGiveUp) {
         server.open.erase(event->session);
         server.member.on_given_up(event->session);
+      } else if (event->kind == ServiceEvent::Kind::kHandOver) {
+        server.open.erase(event->session);
+        server.member.set_snapshot(event->session, "state at the hand-over");
+        server.member.on_handed_over(event->session);
       } else if (event->kind == ServiceEvent::Kind::kOpen && !server.opens) {
         server.member.on_open_failed(now_, event->session);
       } else if (event->kind == ServiceEvent::Kind::kOpen) {
@@ -129,6 +133,10 @@ class ServiceTest : public testing::Test {
   std::string value(const std::string& key) const {
     const auto found = store_.entries().find("/tandem/v1/" + key);
     return found == store_.entries().end() ? "" : found->second.value;
+  }
+  void order_move(const std::string& session, const std::string& server) {
+    static_cast<void>(store_.execute(
+        1, directory::Transaction{{}, {directory::Put{"/tandem/v1/catalogue/" + session + "/move", server}}, {}}));
   }
   static rpc::SessionChoice named(const std::string& name) { return {name}; }
 

@@ -209,6 +209,43 @@ TEST_F(ServiceTest, LeavesAtOnceSoThatTheStandbyTakesOverWithoutWaitingForTheLea
   EXPECT_FALSE(has("live/servers/a"));
 }
 
+TEST_F(ServiceTest, MovesASessionWithItsLastSnapshotWithoutWaitingForALease) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  start("c");
+  pass(3s);
+  const auto first = a.open["lab"].revision;
+  order_move("lab", "b");
+  const Time ordered = now_;
+  while (!b.open.contains("lab") && now_ < ordered + 5s) pass(20ms);
+  ASSERT_TRUE(b.open.contains("lab"));
+  EXPECT_LE(now_ - ordered, 1s);
+  EXPECT_EQ(b.open["lab"].snapshot, "state at the hand-over");
+  EXPECT_GT(b.open["lab"].revision, first);
+  EXPECT_FALSE(a.open.contains("lab"));
+  pass(3s);
+  EXPECT_EQ(value("catalogue/lab/move"), "") << "it moves once";
+  EXPECT_TRUE(b.open.contains("lab"));
+  EXPECT_TRUE(has("live/sessions/lab/standby"));
+}
+
+TEST_F(ServiceTest, StaysWhereItIsIfTheTargetIsUnknownOrGone) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(1s);
+  order_move("lab", "nowhere");
+  pass(2s);
+  EXPECT_TRUE(a.open.contains("lab"));
+  EXPECT_EQ(a.events.size(), 1u);
+  b.runs = false;  // it is registered until its lease ends
+  order_move("lab", "b");
+  pass(6s);
+  static_cast<void>(a.member.locate(named("lab")));
+  pass(1s);
+  EXPECT_TRUE(a.open.contains("lab")) << "a client that asks brings it back";
+  EXPECT_EQ(a.open["lab"].snapshot, "state at the hand-over");
+}
+
 TEST_F(ServiceTest, SessionThatCannotBeOpenedHereIsLeftToOthers) {
   Server& a = start("a", {{"lab", session_spec(1)}});
   a.runs = false;

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <expected>
+#include <memory>
+#include <string>
+
+#include "server/app/service/service_options.h"
+#include "server/directory/directory_view.h"
+#include "server/directory/io/etcd_directory.h"
+#include "server/service/service_catalogue.h"
+
+namespace tandem::server {
+
+/// The directory of a service as a command sees it: servers, owners and sessions.
+class ServiceQuery {
+ public:
+  struct Failure {
+    int code = 1;  ///< exit code
+    std::string text;
+  };
+  /// Reads a configuration with a block `directory`, then the whole directory, for at most 5 s.
+  [[nodiscard]] static std::expected<std::unique_ptr<ServiceQuery>, Failure> open(const std::string& config);
+
+  [[nodiscard]] const directory::DirectoryView& view() const noexcept { return view_; }
+  [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }
+  [[nodiscard]] const ServiceKeys& keys() const noexcept { return keys_; }
+  /// Begins a transaction.
+  void begin(directory::Transaction transaction) { directory_.begin(++operation_, transaction); }
+  /// Follows the directory until `done` returns true. @return false: the time is over
+  template <class Done>
+  bool wait(Duration limit, Done&& done) {
+    for (const Time end = now() + limit; now() < end; pause()) {
+      step();
+      if (done()) return true;
+    }
+    return false;
+  }
+
+ private:
+  explicit ServiceQuery(const ServiceOptions& options)
+      : directory_(options.etcd),
+        keys_(options.prefix),
+        view_(directory::DirectoryKeys(options.prefix)),
+        catalogue_(keys_) {}
+  static Time now() noexcept;
+  static void pause();
+  void step();
+
+  directory::EtcdDirectory directory_;
+  ServiceKeys keys_;
+  directory::DirectoryView view_;
+  ServiceCatalogue catalogue_;
+  directory::OperationId operation_ = 0;
+  std::string trouble_ = "no answer in time";
+};
+
+}  // namespace tandem::server
