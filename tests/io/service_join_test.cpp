@@ -239,11 +239,12 @@ TEST_F(ServiceJoin, BringsTheSeatOfARunningClientToTheNewOwner) {
   SeatOptions plan;
   plan.join = options({a.get()}, 5s);
   plan.device = "sim";
-  plan.duration_s = 20;
+  plan.duration_s = 10;
   plan.quiet = true;
   std::thread person([&] { static_cast<void>(run_seat(plan)); });
   const server::SeatReservation::Hash secret = a->resume_hash_of_trainee();
   while (!a->hears_trainee()) std::this_thread::sleep_for(20ms);
+  a->silence();
   a.reset();
   const Time died = io::monotonic_now();
   std::this_thread::sleep_for(3300ms);
