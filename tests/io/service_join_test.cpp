@@ -263,6 +263,7 @@ TEST_F(ServiceJoin, ResumesNowhereElseWithoutService) {
   auto a = member("desk-a");
   const auto foreign = member("desk-x", "other");
   know(*a);
+  know(*foreign);  // an enrolment there is no right to a seat of this service
   a->serve(5);
   const JoinOptions asking = options({a.get(), foreign.get()}, 3s);
   const auto joined = join_seat(asking);
