@@ -206,12 +206,13 @@ TEST_F(ServiceJoin, ResumesAtTheNewOwnerInOneAttemptOnceItServes) {
                         .last = joined->udp};
   a.reset();
   const auto resume = [&] { return resume_seat(asking, own_state, [] { return true; }); };
-  point(*b, SessionLocator::Coming{});
-  point(*c, SessionLocator::Unknown{"the directory does not answer"});
+  point(*b, SessionLocator::Unknown{"the directory does not answer"});
+  point(*c, SessionLocator::Coming{});
   const auto early = resume();
   ASSERT_FALSE(early);
   EXPECT_EQ(early.error().kind, ResumeError::Kind::kAgain);
-  EXPECT_EQ(io::to_text(early.error().answered.value()), b->at());
+  EXPECT_TRUE(early.error().coming);
+  EXPECT_EQ(io::to_text(early.error().answered.value()), c->at());
   EXPECT_NE(early.error().reason.find("the directory does not answer"), std::string::npos);
   // An old copy of the directory: it names a revision below the one that the seat had.
   c->serve(9, server::resume_hash(joined->welcome.resume_secret.bytes, own().identity().fingerprint().sha256));
