@@ -12,7 +12,7 @@
 
 #include "common/io/fd.h"
 #include "proto/recording/lesson_reader.h"
-#include "server/archive/app/recording_file.h"
+#include "server/archive/io/recording_file.h"
 #include "server/archive/summary_reader.h"
 
 namespace tandem::server {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/archive/app/recording_file.h"
+#include "server/archive/io/recording_file.h"
 #include "server/console/recording_outline.h"
 #include "server/console/session_picture.h"
 

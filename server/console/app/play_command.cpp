@@ -8,7 +8,7 @@
 #include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
-#include "server/archive/app/recording_file.h"
+#include "server/archive/io/recording_file.h"
 #include "server/console/app/page_address.h"
 #include "server/console/app/web_server.h"
 

@@ -1,5 +1,5 @@
 // Recordings of several files replay as one: in order, whole, foreign, damaged.
-#include "netsim/replay/recorded_part.h"
+#include "server/archive/recorded_part.h"
 
 #include <gtest/gtest.h>
 

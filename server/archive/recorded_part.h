@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tandem::netsim {
+namespace tandem::server {
 
 /// Place of a file in a recording of several files, as its metadata state it (server/recording/io/recording_files.h).
 struct RecordedPart {
@@ -35,4 +35,4 @@ struct RecordedPart {
 /// missing; empty: they are. A file without an end may be the last one.
 [[nodiscard]] std::string order_parts(std::vector<RecordedPart>& parts);
 
-}  // namespace tandem::netsim
+}  // namespace tandem::server

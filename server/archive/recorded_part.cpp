@@ -1,4 +1,4 @@
-#include "netsim/replay/recorded_part.h"
+#include "server/archive/recorded_part.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,7 @@
 #include "common/mcap/mcap_reader.h"
 #include "proto/recording/recording_format.h"
 
-namespace tandem::netsim {
+namespace tandem::server {
 namespace {
 
 constexpr const char* kRepairText = "a file NAME.mcap.part is closed by `tandem-server repair`";
@@ -81,4 +81,4 @@ std::string order_parts(std::vector<RecordedPart>& parts) {
   return {};
 }
 
-}  // namespace tandem::netsim
+}  // namespace tandem::server
