@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "proto/spec/lesson.h"
+#include "proto/recording/lesson_source.h"
 
 /// Recordings of a school as its index knows them.
 namespace tandem::server {
@@ -46,6 +46,10 @@ struct RecordingRow {
   }
   friend bool operator==(const RecordingRow&, const RecordingRow&) = default;
 };
+
+/// Returns the ticks of a lesson without a row: those between its rows, and ticks after the last row, as on a full disk,
+/// which only the account has.
+[[nodiscard]] std::uint64_t missing_ticks_of(const Lesson& head, const LessonExtent& extent);
 
 /// Returns what the index keeps of a lesson. Persons appear once per part, in the order seats, marks, sheets.
 [[nodiscard]] RecordingSummary summary_of(const Lesson& lesson);

@@ -101,12 +101,12 @@ std::expected<std::vector<RecordedPart>, std::string> find_parts(const std::vect
   return parts;
 }
 
-std::expected<std::vector<std::vector<RecordedPart>>, std::string> find_recordings(
+std::expected<std::vector<std::vector<RecordedPart>>, PartsProblem> find_recordings(
     const std::vector<std::string>& named) {
   std::vector<std::vector<RecordedPart>> recordings;
   for (const std::string& path : named) {
     auto part = part_of(path);
-    if (!part) return std::unexpected(path + ": " + part.error());
+    if (!part) return std::unexpected(PartsProblem{path + ": " + part.error(), false});
     const auto known = std::ranges::find_if(recordings, [&](const auto& parts) { return same_recording(parts[0], *part); });
     if (known == recordings.end()) {
       recordings.push_back({std::move(*part)});
@@ -121,7 +121,8 @@ std::expected<std::vector<std::vector<RecordedPart>>, std::string> find_recordin
       continue;
     }
     parts.resize(1);  // its folder has the rest
-    if (std::string problem = complete_parts(parts); !problem.empty()) return std::unexpected(std::move(problem));
+    if (std::string problem = complete_parts(parts); !problem.empty()) 
+      return std::unexpected(PartsProblem{std::move(problem), true});
   }
   return recordings;
 }

@@ -17,7 +17,7 @@ namespace tandem::server {
 /// of a few chunks, of the notes, and 16 bytes per chunk of a file. The files are read twice: first for the head.
 class RecordingStream final : public LessonSource {
  public:
-  static constexpr std::size_t kGroupChunks = 8;          ///< read together: 2 s at 250 ms
+  static constexpr std::size_t kGroupChunks = 8;          ///< read together: 4 s at 500 ms
   static constexpr std::uint64_t kGroupBytes = 8u << 20;  ///< at most, unless a chunk is larger
 
   /// Receives the share of the files that was read [0, 1]. Returns false to end it.
