@@ -45,6 +45,7 @@ RecordingSummary summary_of(const Lesson& lesson) {
     add_person(out.persons, lesson.seats[i].person, lesson.scene.seats[i].name);
   for (const LessonMark& mark : lesson.marks) add_person(out.persons, mark.by, "notes");
   for (const LessonSheet& sheet : lesson.sheets) add_person(out.persons, sheet.by, "notes");
+  if (auto part = read_part(lesson.metadata, "")) out.part = std::move(*part);
   return out;
 }
 
