@@ -6,38 +6,14 @@
 
 #include "common/base/raw_bytes.h"
 #include "proto/recording/lesson_reader.h"
-#include "proto/text/scene_text.h"
-#include "proto/text/scenes_embedded.h"
+#include "server/app/commands/run_scores.h"
 #include "server/archive/io/recording_stream.h"
-#include "tests/io/programs.h"
-#include "tests/netsim/replay/recorded_file.h"
+#include "tests/io/long_session.h"
 
 namespace tandem::test {
 namespace {
 
 namespace fs = std::filesystem;
-using netsim::test::PartsRecorder;
-
-/// The same session as one file, one.mcap, and in parts, lesson-1.mcap and so on.
-struct LongSession {
-  Folder folder;
-  std::vector<std::string> parts;  ///< names
-
-  explicit LongSession(const std::string& scene = "contact", double seconds = 3, double part_s = 0.8) {
-    netsim::SimulationConfig setup;
-    setup.scene = *parse_scene(find_shipped_scene(scene)->text, scene + ".textproto");
-    setup.seed = 3;
-    setup.network.up.floor = setup.network.down.floor = std::chrono::milliseconds(20);
-    setup.network.up.loss.probability = 0.05;
-    fs::create_directory(folder.file("one"));
-    folder.write("one/one.mcap", PartsRecorder{.part_s = 100}.record(setup, seconds).at(0));
-    for (const std::string& file : PartsRecorder{.part_s = part_s}.record(setup, seconds)) {
-      parts.push_back("lesson-" + std::to_string(parts.size() + 1) + ".mcap");
-      folder.write(parts.back(), file);
-    }
-  }
-  [[nodiscard]] std::string path(std::size_t k) const { return folder.file(parts.at(k)); }
-};
 
 Process export_of(Words arguments) {
   arguments.insert(arguments.begin(), {"recordings", "export"});
@@ -207,6 +183,73 @@ TEST(LongRecordings, ExportOverAFileOnlyOnRequest) {
   EXPECT_EQ(session.folder.read("a.csv"), "old");
   expect_exported({session.path(0), "--to", out, "--overwrite"});
   EXPECT_GT(session.folder.read("a.csv").size(), 1000u);
+}
+
+Process recordings_of(const LongSession& session, Words arguments) {
+  arguments.insert(arguments.begin(), "recordings");
+  arguments.insert(arguments.end(), {"--dir", session.folder.file("")});
+  return server(std::move(arguments));
+}
+
+TEST(LongRecordings, AreListedAndShownTogether) {
+  const LongSession session;
+  Process list = recordings_of(session, {"list"});
+  EXPECT_EQ(list.wait(), 0) << list.err();
+  EXPECT_NE(list.out().find("(part 2)"), std::string::npos) << list.out();
+  const std::string files = std::to_string(session.parts.size() + 1);
+  EXPECT_NE(list.out().find("2 recordings, " + files + " files, "), std::string::npos) << list.out();
+  EXPECT_EQ(list.out().find("is missing"), std::string::npos) << list.out();
+  fs::remove(session.path(0));
+  Process damaged = recordings_of(session, {"list"});
+  EXPECT_EQ(damaged.wait(), 0) << damaged.err();
+  EXPECT_NE(damaged.out().find("part 1 of the recording is missing, lesson-1.mcap: lesson-2.mcap is part 2"),
+            std::string::npos)
+      << damaged.out();
+  Process show = recordings_of(session, {"show", "lesson-2.mcap"});
+  EXPECT_EQ(show.wait(), 0) << show.err();
+  EXPECT_NE(show.out().find("part      2 of a recording of "), std::string::npos) << show.out();
+  EXPECT_NE(show.out().find("missing   part 1"), std::string::npos) << show.out();
+  Process json = recordings_of(session, {"show", "lesson-2.mcap", "--json"});
+  EXPECT_EQ(json.wait(), 0) << json.err();
+  EXPECT_EQ(Json::parse(json.out())[0]["part"], 2);
+}
+
+TEST(LongRecordings, NameTheFilesThatStayWhenOneIsDeleted) {
+  const LongSession session;
+  const Folder state;
+  Process init = server({"init", "--state", state.file("s")});
+  ASSERT_EQ(init.wait(), 0) << init.err();
+  Process dry = recordings_of(session, {"delete", "lesson-2.mcap"});
+  EXPECT_EQ(dry.wait(), 0) << dry.err();
+  EXPECT_NE(dry.err().find("lesson-2.mcap: only a part of a recording of "), std::string::npos) << dry.err();
+  EXPECT_NE(dry.err().find("would stay: lesson-1.mcap, lesson-3.mcap"), std::string::npos) << dry.err();
+  Process one = recordings_of(session, {"delete", "lesson-2.mcap", "--yes", "--state", state.file("s")});
+  EXPECT_EQ(one.wait(), 0) << one.err();
+  EXPECT_NE(one.err().find("The others stay: lesson-1.mcap, lesson-3.mcap"), std::string::npos) << one.err();
+  EXPECT_TRUE(fs::exists(session.path(0)));
+  EXPECT_FALSE(fs::exists(session.path(1)));
+  Words all{"delete", "--yes", "--state", state.file("s"), "lesson-1.mcap"};
+  for (std::size_t k = 2; k < session.parts.size(); ++k) all.push_back(session.parts[k]);
+  Process rest = recordings_of(session, all);
+  EXPECT_EQ(rest.wait(), 0) << rest.err();
+  EXPECT_EQ(rest.err().find("only a part"), std::string::npos) << rest.err();
+}
+
+TEST(LongRecordings, HaveTheScoresOfOneFileInTheReportOfTheirSession) {
+  const LongSession session("contact", 6, 2);
+  const auto scores = [&](const std::string& recording) {
+    const std::string report = session.folder.write("report.json", "{}");
+    EXPECT_EQ(server::add_scores(recording, report, true), "");
+    return Json::parse(session.folder.read("report.json"))["scores"];
+  };
+  const Json one = scores(session.folder.file("one/one.mcap")), parts = scores(session.path(0));
+  EXPECT_TRUE(one.is_object() || one.is_array()) << one;
+  EXPECT_EQ(one, parts) << Json::diff(one, parts).dump();
+  fs::remove(session.path(1));
+  const std::string report = session.folder.write("report.json", "{}");
+  const std::string problem = server::add_scores(session.path(0), report, true);
+  EXPECT_EQ(problem.find("--scores: part 2 of the recording is missing"), 0u) << problem;
+  EXPECT_EQ(session.folder.read("report.json"), "{}");
 }
 
 }  // namespace

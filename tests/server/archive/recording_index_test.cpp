@@ -67,6 +67,21 @@ TEST(RecordingIndex, KeepsRowsBetweenProcesses) {
   EXPECT_EQ(facts.st_mode & 07, 0u) << "names of persons are not for other users";
 }
 
+TEST(RecordingIndex, OfAnOlderVersionIsMadeAgain) {
+  const test::Folder folder;
+  EXPECT_EQ(open(folder).put({"a.mcap", 1, 2, "it is damaged", {}}), "");
+  test::Process older({"/usr/bin/python3", "-c",
+                       "import sqlite3, sys; d = sqlite3.connect(sys.argv[1]); "
+                       "d.execute('ALTER TABLE recording DROP COLUMN previous_file'); "
+                       "d.execute('PRAGMA user_version = 1'); d.commit()",
+                       folder.file(RecordingIndex::kFile)});
+  if (older.wait() != 0) GTEST_SKIP() << "python3 has no module sqlite3";
+  auto index = open(folder);
+  EXPECT_TRUE(index.rows().value().empty()) << "the next scan reads the files";
+  EXPECT_EQ(index.put({"a.mcap", 1, 2, "it is damaged", {}}), "");
+  EXPECT_EQ(open(folder).rows().value().size(), 1u);
+}
+
 TEST(RecordingIndex, RefusesForeignAndDamagedFilesWithARemedy) {
   const test::Folder folder;
   folder.write(RecordingIndex::kFile,

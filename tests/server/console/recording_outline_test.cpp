@@ -177,7 +177,10 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
   part.marks = {{0.2, "eva", "now"}};
   EXPECT_TRUE(outline.add(part));
   outline.finish(false);
-  const json message = json::parse(outline_json(outline, rpc::Id{std::byte{0xab}}, "a.mcap"));
+  const json message = json::parse(outline_json(outline, rpc::Id{std::byte{0xab}}, {"a.mcap", 3, "part 2 is missing"}));
+  EXPECT_EQ(message["file"], "a.mcap");
+  EXPECT_EQ(message["files"], 3);
+  EXPECT_EQ(message["parts_problem"], "part 2 is missing");
   EXPECT_EQ(message["id"], "ab" + std::string(30, '0'));
   EXPECT_EQ(message["scene"]["type"], "scene");
   EXPECT_EQ(message["scene"]["session"], message["id"]);
@@ -198,12 +201,15 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
 
 TEST(RecordingJson, ListsDamagedFilesWithTheirProblemOnly) {
   RecordingList list;
-  list.recordings = {{.id = "1", .file = "a.mcap", .problem = "is cut \xff"}, {.id = "2", .file = "b.mcap"}};
+  list.recordings = {{.id = "1", .file = "a.mcap", .problem = "is cut \xff"}, {.id = "2", .file = "b.mcap", .files = 2, .parts_problem = "part 1 is missing"}};
   list.recordings[1].persons = {"Ada"};
   const json message = json::parse(list_json(list));
   EXPECT_TRUE(message["recordings"][0]["problem"].is_string());
   EXPECT_FALSE(message["recordings"][0].contains("session"));
   EXPECT_TRUE(message["recordings"][1]["problem"].is_null());
+  EXPECT_TRUE(message["recordings"][0]["parts_problem"].is_null());
+  EXPECT_EQ(message["recordings"][1]["files"], 2);
+  EXPECT_EQ(message["recordings"][1]["parts_problem"], "part 1 is missing");
   EXPECT_TRUE(message["recordings"][1]["start_s"].is_null()) << "not known";
 }
 
