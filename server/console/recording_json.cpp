@@ -96,7 +96,7 @@ std::string outline_json(const RecordingOutline& outline, const rpc::Id& id, con
     events.push_back({{"t", outline.time(event.tick)},
                       {"what", event.what},
                       {"seat", event.seat},
-                      {"person", person_at(head, event.seat)},
+                      {"person", event.person.empty() ? person_at(head, event.seat) : event.person},
                       {"text", event.text}});
   for (const LessonMark& mark : outline.marks())
     marks.push_back({{"t", rounded(mark.t_s, kThousandths)}, {"person", mark.by}, {"text", mark.text}});

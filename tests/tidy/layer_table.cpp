@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 55> kLayers{{
+const std::array<Layer, 56> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -141,6 +141,10 @@ const std::array<Layer, 55> kLayers{{
      {"json"},
      "server/archive reads summaries of recordings and decides what a school keeps: no file, no clock; the database "
      "belongs to server/archive/app"},
+    {"server/archive/io",
+     {"common/base", "common/io", "proto/recording", "server/archive"},
+     {},
+     "server/archive/io reads recordings as files, for the programs that need them: no database, no session"},
     {"server/recording",
      {"common/base", "common/mcap", "proto", "server/recording", "server/report", "server/session/input_records.h"},
      {},

@@ -154,6 +154,8 @@ void write_notes(Hdf5File& file, const Lesson& lesson) {
   write_texts(file, "/events/what", "word of the audit log", lesson.events, [](const auto& e) { return e.what; });
   write_texts(file, "/events/seat", "name of the seat, or empty", lesson.events, [](const auto& e) { return e.seat; });
   write_texts(file, "/events/text", "line for users", lesson.events, [](const auto& e) { return e.text; });
+  write_texts(file, "/events/person", "person that gave the order at a console, or empty", lesson.events,
+              [](const auto& e) { return e.person; });
   write_column(file, "/marks/time", "s", "session time", lesson.marks, [](const LessonMark& m) { return m.t_s; });
   write_texts(file, "/marks/by", "author", lesson.marks, [](const auto& m) { return m.by; });
   write_texts(file, "/marks/text", "text of the mark", lesson.marks, [](const auto& m) { return m.text; });

@@ -173,7 +173,8 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
   start.seats[0].person = "ina";
   RecordingOutline outline(start);
   Lesson part = rows({0, 350});
-  part.events = {{350, 0, "stop", "trainer", "stop \x01 of trainer"}, {350, 0, "authority", "", "timeline tick 350"}};
+  part.events = {{350, 0, "stop", "trainer", "stop \x01 of trainer"}, {350, 0, "authority", "", "timeline tick 350"},
+                 {350, 0, "pause", "", "console tick 350", "ola"}};
   part.marks = {{0.2, "eva", "now"}};
   EXPECT_TRUE(outline.add(part));
   outline.finish(false);
@@ -193,6 +194,7 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
   EXPECT_EQ(message["events"][0]["person"], "ina");
   EXPECT_EQ(message["events"][1]["seat"], "") << "no seat gave this event";
   EXPECT_EQ(message["events"][1]["person"], "");
+  EXPECT_EQ(message["events"][2]["person"], "ola") << "the order of a console";
   EXPECT_EQ(message["marks"][0]["person"], "eva");
   const json& curve = message["curves"]["seats"][0]["force"];
   EXPECT_EQ(curve[0], 5);

@@ -70,6 +70,8 @@ function outline(more: Partial<Outline> = {}): Outline {
   return {
     id: 'ab',
     file: 'a.mcap',
+    files: 1,
+    parts_problem: null,
     scene: kScene,
     from_s: 5,
     to_s: 25,
@@ -265,6 +267,7 @@ describe('events of a recording', () => {
     expect(words('join', 'trainer tick 0', 'trainer')).toBe('trainer joins');
     expect(words('stop', 'trainee tick 7', 'trainee', 'ted')).toBe('ted (trainee) stops the session');
     expect(words('resume', 'console version 3 tick 900')).toBe('a console resumes the session');
+    expect(words('resume', 'console version 3 tick 900', '', 'olga')).toBe('olga (a console) resumes the session');
     expect(words('overload', 'session tick 900')).toBe('The server is too slow, so all hands are released');
   });
   it('name the shares that change, and a stale link', () => {
