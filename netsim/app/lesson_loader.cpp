@@ -12,12 +12,12 @@
 #include "common/base/csv.h"
 #include "common/base/raw_bytes.h"
 #include "common/io/whole_file.h"
-#include "server/archive/io/part_files.h"
 #include "netsim/score/motion_lesson.h"
 #include "netsim/score/trace_lesson.h"
 #include "proto/io/scene_file.h"
 #include "proto/recording/lesson_reader.h"
 #include "proto/spec/input_error.h"
+#include "server/archive/io/part_files.h"
 #include "server/export/io/hdf5_import.h"
 
 namespace tandem::netsim {

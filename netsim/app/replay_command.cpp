@@ -11,10 +11,10 @@
 #include "common/io/whole_file.h"
 #include "netsim/app/exit_status.h"
 #include "netsim/app/netsim_commands.h"
-#include "server/archive/io/part_files.h"
 #include "netsim/app/what_if.h"
 #include "netsim/replay/recording_replay.h"
 #include "proto/recording/lesson_reader.h"
+#include "server/archive/io/part_files.h"
 #include "server/session/build_text.h"
 
 namespace tandem::netsim {

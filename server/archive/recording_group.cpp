@@ -54,9 +54,9 @@ RecordingRow joined_row(const std::vector<RecordingRow>& rows, const RecordingGr
     joined.modified_ns = std::max(joined.modified_ns, row.modified_ns);
     // From the begin of the first row; recordings in virtual time do not state it.
     const bool dated = all.start_unix_ns != 0 && s.start_unix_ns >= all.start_unix_ns && s.rows > 0;
-    all.duration_s = dated ? std::max(all.duration_s, 1e-9 * static_cast<double>(s.start_unix_ns - all.start_unix_ns) +
-                                                          s.duration_s)
-                           : all.duration_s + s.duration_s;
+    all.duration_s =
+        dated ? std::max(all.duration_s, 1e-9 * static_cast<double>(s.start_unix_ns - all.start_unix_ns) + s.duration_s)
+              : all.duration_s + s.duration_s;
     all.rows += s.rows;
     all.missing_ticks += s.missing_ticks;
     all.complete = all.complete && s.complete;

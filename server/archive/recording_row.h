@@ -49,12 +49,12 @@ struct RecordingRow {
   friend bool operator==(const RecordingRow&, const RecordingRow&) = default;
 };
 
-/// Returns the ticks of a lesson without a row: those between its rows, and ticks after the last row, as on a full disk,
-/// which only the account has.
+/// Returns the ticks of a lesson without a row: those between its rows, and ticks after the last row, as on a full
+/// disk, which only the account has.
 [[nodiscard]] std::uint64_t missing_ticks_of(const Lesson& head, const LessonExtent& extent);
 
-/// Returns what the index keeps of a lesson. Persons appear once per part, in the order seats, marks, sheets. The place of
-/// the file is that in `head.metadata`, so that it is not known whether a file follows.
+/// Returns what the index keeps of a lesson. Persons appear once per part, in the order seats, marks, sheets. The place
+/// of the file is that in `head.metadata`, so that it is not known whether a file follows.
 [[nodiscard]] RecordingSummary summary_of(const Lesson& lesson);
 
 /// Limits of what a school keeps; 0: no limit.

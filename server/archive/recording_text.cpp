@@ -109,8 +109,7 @@ std::string recordings_text(const std::vector<RecordingRow>& rows, bool whole_fo
   return text + "\n" + incomplete + damaged;
 }
 
-std::string recording_text(const RecordingRow& row, const std::vector<std::string>& files,
-                           const std::string& problem) {
+std::string recording_text(const RecordingRow& row, const std::vector<std::string>& files, const std::string& problem) {
   const RecordingSummary& s = row.summary;
   std::string text = "file      " + sanitize(row.file) + "\n" + "size      " + size_text(row.bytes) + "\n";
   if (!row.readable()) return text + "skipped   " + sanitize(row.problem) + "\n";

@@ -220,7 +220,8 @@ TEST(DebianPackages, ContainHardenedUnits) {
 
 /// Copies a unit with its example for recordings to a folder of their own. @return the folder
 fs::path unit_with_recordings(const std::string& program) {
-  const fs::path folder = fs::path{TANDEM_BINARY_DIR} / "unit-recordings", source = fs::path{TANDEM_SOURCE_DIR} / "server/package";
+  const fs::path folder = fs::path{TANDEM_BINARY_DIR} / "unit-recordings",
+                 source = fs::path{TANDEM_SOURCE_DIR} / "server/package";
   const fs::path more = folder / (program + ".service.d");
   fs::create_directories(more);
   for (const auto& [from, to] : {std::pair{source / (program + ".service"), folder / (program + ".service")},

@@ -97,7 +97,8 @@ TEST(LongRecordings, ExportTheDataSetOfOneFile) {
     for (const auto& entry : fs::recursive_directory_iterator(one)) {
       if (!entry.is_regular_file()) continue;
       const std::string name = entry.path().lexically_relative(one).string();
-      EXPECT_TRUE(session.folder.read("one-" + format + "/" + name) == session.folder.read("parts-" + format + "/" + name))
+      EXPECT_TRUE(session.folder.read("one-" + format + "/" + name) ==
+                  session.folder.read("parts-" + format + "/" + name))
           << name;
       ++files;
     }

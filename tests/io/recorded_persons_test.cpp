@@ -37,16 +37,16 @@ TEST(LiveRecording, NamesAPersonThatJoinsWhileItRuns) {
 TEST(LiveRecording, NamesThePersonOfAnOrderAtAConsole) {
   MultiClientFixture fixture{
       "session { name: \"lab\" scene: \"one_axis\" duration_s: 4 restart: false record: \"a.mcap\" }"};
-  Process made = server({"ticket", "--session", "lab", "--role", "operator", "--person", "olga", "--workstation", "desk",
-                         "--state", fixture.state});
+  Process made = server({"ticket", "--session", "lab", "--role", "operator", "--person", "olga", "--workstation",
+                         "desk", "--state", fixture.state});
   ASSERT_EQ(made.wait(), 0) << made.err();
   Process trainer = fixture.join("trainer", {"--ticket", seat_ticket(fixture, "trainer", "ann")});
   ASSERT_TRUE(fixture.host.wait_for("the session runs")) << fixture.host.err();
   Process console({TANDEM_CLIENT, "control", "--server", fixture.address, "--state", fixture.own, "--ticket",
                    first_line(made.out()), "pause"});
   EXPECT_EQ(console.wait(), 0) << console.err();
-  Process again = server({"ticket", "--session", "lab", "--role", "operator", "--person", "olga", "--workstation", "desk",
-                          "--state", fixture.state});
+  Process again = server({"ticket", "--session", "lab", "--role", "operator", "--person", "olga", "--workstation",
+                          "desk", "--state", fixture.state});
   ASSERT_EQ(again.wait(), 0) << again.err();
   Process resume({TANDEM_CLIENT, "control", "--server", fixture.address, "--state", fixture.own, "--ticket",
                   first_line(again.out()), "resume"});

@@ -45,8 +45,8 @@ TEST(Recordings, AreNotOverwrittenByTheirExport) {
   fs::create_hard_link(file, folder.file("twin.csv"));
   for (const std::string& to : {file, folder.file("link.csv"), folder.file("twin.csv"), folder.file("./a.mcap")})
     for (const std::string format : {"csv", "hdf5"}) {
-      Process refused = recordings({"export", "a.mcap", "--dir", folder.file(""), "--to", to, "--format", format,
-                                    "--overwrite"});
+      Process refused =
+          recordings({"export", "a.mcap", "--dir", folder.file(""), "--to", to, "--format", format, "--overwrite"});
       EXPECT_EQ(refused.wait(), 1) << to;
       EXPECT_NE(refused.err().find("is the recording itself; name another file"), std::string::npos) << refused.err();
       EXPECT_TRUE(folder.read("a.mcap") == bytes) << to;

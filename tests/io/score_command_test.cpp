@@ -58,7 +58,8 @@ TEST(ScoreCommand, ReplacesAReportOnlyOnRequest) {
   const std::string file = trace(folder, "a.csv", "contact", "0.5"), report = folder.write("a.html", "old");
   Process refused = score({file, "--scene", "contact", "--quiet", "--html", report});
   EXPECT_EQ(code_of(refused), 2);
-  EXPECT_NE(refused.err().find("--html: " + report + " exists already; choose another name, or replace it with "
+  EXPECT_NE(refused.err().find("--html: " + report +
+                               " exists already; choose another name, or replace it with "
                                "--overwrite"),
             std::string::npos)
       << refused.err();

@@ -35,7 +35,9 @@ std::expected<std::vector<FileNames>, std::string> files_to_export(const Recordi
   const auto found = find_recordings(named);
   if (!found)
     return std::unexpected(sanitize(found.error().text) +
-                           (found.error().incomplete ? ". To export the named files alone, each as a lesson, repeat with --one-file" : ""));
+                           (found.error().incomplete
+                                ? ". To export the named files alone, each as a lesson, repeat with --one-file"
+                                : ""));
   for (const std::vector<RecordedPart>& parts : *found) {
     FileNames& files = recordings.emplace_back();
     for (const RecordedPart& part : parts) files.push_back(part.file);
@@ -66,8 +68,8 @@ bool is_data_set(ExportFormat format) {
   return format == ExportFormat::kLerobot21 || format == ExportFormat::kLerobot30;
 }
 
-std::string export_lessons(const RecordingsTask& task, const std::vector<FileNames>& recordings,
-                           LongWork& reading, LongWork& writing) {
+std::string export_lessons(const RecordingsTask& task, const std::vector<FileNames>& recordings, LongWork& reading,
+                           LongWork& writing) {
   const ExportProgress progress = [&writing](double share) { return writing.advance(share); };
   if (is_data_set(task.format)) {
     LerobotRequest request;

@@ -64,7 +64,7 @@ class RecordingDesk {
   mutable std::mutex lock_;
   std::vector<std::string> persons_;
   bool pseudonyms_;
-  std::map<std::string, std::string> names_;  ///< pseudonym of each participant
+  std::map<std::string, std::string> names_;                              ///< pseudonym of each participant
   std::array<std::pair<std::uint32_t, std::string>, kOrdersMax> orders_;  ///< number and person, by number
   std::uint32_t order_ = 0;                                               ///< number of the last one
   Items items_;

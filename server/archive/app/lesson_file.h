@@ -14,8 +14,8 @@ namespace tandem::server {
 [[nodiscard]] std::expected<Lesson, std::string> load_lesson(const std::string& path,
                                                              const LessonSeatSet& without = {});
 
-/// Reads the files of a recording, in their order, as one lesson. @return the lesson, or why one of them cannot be read;
-/// of several with the name of the file
+/// Reads the files of a recording, in their order, as one lesson. @return the lesson, or why one of them cannot be
+/// read; of several with the name of the file
 [[nodiscard]] std::expected<Lesson, std::string> load_lesson(const std::vector<std::string>& files,
                                                              const LessonSeatSet& without = {});
 

@@ -15,7 +15,7 @@ namespace tandem::server {
 namespace {
 
 constexpr int kBusyMs = 5000;
-constexpr int kVersion = 2;  // 1 had no parts of recordings
+constexpr int kVersion = 2;               // 1 had no parts of recordings
 constexpr int kApplication = 0x54644d72;  // "TdMr"; tells this index from other databases
 constexpr mode_t kIndexMode = 0640;
 
@@ -146,9 +146,10 @@ std::string RecordingIndex::prepare() {
     return problem;
   if (*objects > 0 && *version == kVersion) return {};
   // The rows of an older version are read again from the recordings.
-  const std::string first = "BEGIN IMMEDIATE; DROP TABLE IF EXISTS person; DROP TABLE IF EXISTS recording; "
-                            "PRAGMA application_id = " + std::to_string(kApplication) +
-                            "; PRAGMA user_version = " + std::to_string(kVersion) + "; " + kTables + "COMMIT;";
+  const std::string first =
+      "BEGIN IMMEDIATE; DROP TABLE IF EXISTS person; DROP TABLE IF EXISTS recording; "
+      "PRAGMA application_id = " +
+      std::to_string(kApplication) + "; PRAGMA user_version = " + std::to_string(kVersion) + "; " + kTables + "COMMIT;";
   return run(first.c_str());
 }
 

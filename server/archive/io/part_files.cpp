@@ -107,7 +107,8 @@ std::expected<std::vector<std::vector<RecordedPart>>, PartsProblem> find_recordi
   for (const std::string& path : named) {
     auto part = part_of(path);
     if (!part) return std::unexpected(PartsProblem{path + ": " + part.error(), false});
-    const auto known = std::ranges::find_if(recordings, [&](const auto& parts) { return same_recording(parts[0], *part); });
+    const auto known =
+        std::ranges::find_if(recordings, [&](const auto& parts) { return same_recording(parts[0], *part); });
     if (known == recordings.end()) {
       recordings.push_back({std::move(*part)});
     } else if (std::ranges::none_of(*known, [&](const RecordedPart& other) { return same_file(other, *part); })) {
@@ -121,7 +122,7 @@ std::expected<std::vector<std::vector<RecordedPart>>, PartsProblem> find_recordi
       continue;
     }
     parts.resize(1);  // its folder has the rest
-    if (std::string problem = complete_parts(parts); !problem.empty()) 
+    if (std::string problem = complete_parts(parts); !problem.empty())
       return std::unexpected(PartsProblem{std::move(problem), true});
   }
   return recordings;

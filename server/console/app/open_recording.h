@@ -12,8 +12,8 @@
 
 namespace tandem::console {
 
-/// A recording of one or more files that pages play. Its outline is read first, a few chunks at a time; then it gives pieces. Memory: the
-/// outline, 20 bytes per group of chunks, and the rows of one piece.
+/// A recording of one or more files that pages play. Its outline is read first, a few chunks at a time; then it gives
+/// pieces. Memory: the outline, 20 bytes per group of chunks, and the rows of one piece.
 class OpenRecording {
  public:
   static constexpr std::size_t kGroupChunks = 8;          ///< 4 s at 500 ms
@@ -38,7 +38,9 @@ class OpenRecording {
   /// Returns the JSON text of a piece. @pre piece < pieces()
   [[nodiscard]] std::string piece(std::uint32_t piece) const;
   /// False: a file was changed or deleted, so that it must not be shown any more.
-  [[nodiscard]] bool unchanged() const noexcept { return std::ranges::all_of(files_, &server::RecordingFile::unchanged); }
+  [[nodiscard]] bool unchanged() const noexcept {
+    return std::ranges::all_of(files_, &server::RecordingFile::unchanged);
+  }
 
  private:
   struct Group {

@@ -38,7 +38,8 @@ std::vector<std::string> all_files(const std::vector<std::string>& named) {
       add(file);
       continue;
     }
-    for (const server::RecordedPart& part : found->front()) add(std::filesystem::path(part.file).lexically_normal().string());
+    for (const server::RecordedPart& part : found->front())
+      add(std::filesystem::path(part.file).lexically_normal().string());
   }
   return files;
 }
@@ -56,10 +57,11 @@ int run_play(const PlayArguments& arguments) {
                  "tandem-netsim");
   if (!errors.empty()) return errors.print("tandem-console: ");
   const io::Fd signals = io::make_signalfd();
-  const WebOptions web{.listen = page.listen,
-                       .tls = std::move(page.tls),
-                       .signals = signals.get(),
-                       .gateway = {.join = {}, .local = false, .release = TANDEM_VERSION, .files = all_files(arguments.files)}};
+  const WebOptions web{
+      .listen = page.listen,
+      .tls = std::move(page.tls),
+      .signals = signals.get(),
+      .gateway = {.join = {}, .local = false, .release = TANDEM_VERSION, .files = all_files(arguments.files)}};
   const auto served = run_web_server(web, {}, print_page_url);
   if (served) return io::kExitDone;
   io::print(stderr, "tandem-console: " + served.error() + "\n");
@@ -74,7 +76,8 @@ void add_play_command(const io::Command& root) {
   command.add_option("FILE", arguments.files, "recordings (MCAP); the page compares two of them").required();
   add_page_address_options(command, arguments.page);
   command.footer(
-      "A long session has several files, NAME.mcap, NAME-2.mcap and so on, which the page plays as one recording: name one "
+      "A long session has several files, NAME.mcap, NAME-2.mcap and so on, which the page plays as one recording: name "
+      "one "
       "of them.\n\n"
       "Exit: 0 ended by a signal; 1 port in use; 2 wrong arguments, or a file that is no recording.\n\n"
       "Examples\n"

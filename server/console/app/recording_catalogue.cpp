@@ -115,9 +115,8 @@ void RecordingCatalogue::keep(RecordingList& list, const std::vector<server::Rec
     known_.emplace(id_of(first), std::move(found));
   }
   if (!folder_.empty())
-    std::ranges::stable_sort(groups, std::ranges::greater{}, [&](const server::RecordingGroup& group) {
-      return rows[group.rows.front()].begun_ns();
-    });
+    std::ranges::stable_sort(groups, std::ranges::greater{},
+                             [&](const server::RecordingGroup& group) { return rows[group.rows.front()].begun_ns(); });
   list.left_out = groups.size() - std::min(groups.size(), kListedMax);
   groups.resize(std::min(groups.size(), kListedMax));
   for (const server::RecordingGroup& group : groups) list.recordings.push_back(listed(rows, group));

@@ -12,8 +12,8 @@
 namespace tandem::console {
 
 /// Recordings that a gateway shows: given files, or those of a folder and its subfolders by the index of
-/// `tandem-server recordings`. The files of a long recording are one. Each has an id, the digest of the name of its first
-/// file, by which pages ask for it.
+/// `tandem-server recordings`. The files of a long recording are one. Each has an id, the digest of the name of its
+/// first file, by which pages ask for it.
 class RecordingCatalogue {
  public:
   static constexpr std::size_t kListedMax = 1000;

@@ -139,10 +139,11 @@ void RecordingLibrary::prepare(Open& open) try { open.recording->advance(); } ca
 RecordingReply RecordingLibrary::outline_of(Open& open) {
   const OpenRecording& recording = *open.recording;
   if (!recording.ready()) return reply_of(202, progress_json(recording.progress()));
-  if (recording.outline().empty()) return reply_of(422, problem_json(open.found.files.file + ": it has no tick of a session"));
+  if (recording.outline().empty())
+    return reply_of(422, problem_json(open.found.files.file + ": it has no tick of a session"));
   if (!open.outline)
-    open.outline =
-        std::make_shared<const std::string>(gzip(outline_json(recording.outline(), bytes_of(open.id), open.found.files)));
+    open.outline = std::make_shared<const std::string>(
+        gzip(outline_json(recording.outline(), bytes_of(open.id), open.found.files)));
   return {200, open.outline};
 }
 

@@ -37,9 +37,9 @@ class RecordingScores {
   struct Row {
     std::string id;
     std::vector<std::string> paths;  ///< of its files, in their order
-    LessonSeatSet without;         ///< seats that no participant had: their columns are not read
-    bool taken = false;            ///< the thread computes it
-    std::optional<Answer> answer;  ///< empty: not computed yet
+    LessonSeatSet without;           ///< seats that no participant had: their columns are not read
+    bool taken = false;              ///< the thread computes it
+    std::optional<Answer> answer;    ///< empty: not computed yet
   };
   void work(const std::stop_token& stop);
 

@@ -50,8 +50,7 @@ class SignalDatasets {
     for (std::size_t begin = 0; begin < rows && file_->error().empty(); begin += Hdf5File::kChunkRows) {
       const std::size_t count = std::min(Hdf5File::kChunkRows, rows - begin);
       buffer.resize(count * width);
-      for (std::size_t row = 0; row < count; ++row)
-        source(begin + row, std::span(buffer).subspan(row * width, width));
+      for (std::size_t row = 0; row < count; ++row) source(begin + row, std::span(buffer).subspan(row * width, width));
       file_->put(to, first + begin, count, std::span<const Number>(buffer));
     }
   }
@@ -78,7 +77,8 @@ std::string write_rows(Hdf5File& file, LessonSource& lesson, GapFinder& gaps, co
     for (std::size_t k = 0; k < signals.size() && file.error().empty(); ++k) {
       datasets.put(k, signals[k], done, rows.rows());
       const double of_piece = static_cast<double>(k + 1) / static_cast<double>(signals.size());
-      if (!progress((static_cast<double>(done) + of_piece * static_cast<double>(rows.rows())) / static_cast<double>(all)))
+      if (!progress((static_cast<double>(done) + of_piece * static_cast<double>(rows.rows())) /
+                    static_cast<double>(all)))
         return kExportInterrupted;
     }
     done += rows.rows();

@@ -93,9 +93,9 @@ std::unique_ptr<Hdf5File::Open> Hdf5File::create(const std::string& path, std::s
     return nullptr;
   }
   const hid_t space = h5().H5Screate_simple(rank, size.data(), nullptr);
-  auto made = std::make_unique<Open>(path, columns, space,
-                                     h5().H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space, H5P_DEFAULT,
-                                                     settings.get(), H5P_DEFAULT));
+  auto made = std::make_unique<Open>(
+      path, columns, space,
+      h5().H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space, H5P_DEFAULT, settings.get(), H5P_DEFAULT));
   return failed(!made->data.good(), path) ? nullptr : std::move(made);
 }
 

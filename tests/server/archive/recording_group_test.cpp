@@ -22,7 +22,12 @@ RecordingRow part(const std::string& file, unsigned number, std::optional<bool> 
   row.summary.start_unix_ns = kBegin + (number - 1) * 10 * kMinute;
   row.summary.duration_s = 600;
   row.summary.rows = 600'000;
-  row.summary.part = {.file = "", .session_id = "5", .epoch = "1", .recording = name, .number = number, .last = last,
+  row.summary.part = {.file = "",
+                      .session_id = "5",
+                      .epoch = "1",
+                      .recording = name,
+                      .number = number,
+                      .last = last,
                       .previous_file = ""};
   return row;
 }

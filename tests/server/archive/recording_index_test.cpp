@@ -46,8 +46,20 @@ ScanReport scan(const test::Folder& folder, RecordingIndex& index) {
 TEST(RecordingIndex, KeepsRowsBetweenProcesses) {
   const test::Folder folder;
   RecordingRow row{"a.mcap", 12, 34, "", {}};
-  row.summary = {"session", "scene", -5, 1.25, 1ULL << 40, 3, false, {{"Ada", "trainee"}, {"Ada", "notes"}},
-                 {.file = "", .session_id = "5", .epoch = "7", .recording = "lab", .number = 3, .last = false,
+  row.summary = {"session",
+                 "scene",
+                 -5,
+                 1.25,
+                 1ULL << 40,
+                 3,
+                 false,
+                 {{"Ada", "trainee"}, {"Ada", "notes"}},
+                 {.file = "",
+                  .session_id = "5",
+                  .epoch = "7",
+                  .recording = "lab",
+                  .number = 3,
+                  .last = false,
                   .previous_file = "lab-2.mcap"}};
   EXPECT_EQ(open(folder).put(row), "");
   EXPECT_EQ(open(folder).put({"B.mcap", 1, 2, "it is damaged", {}}), "");

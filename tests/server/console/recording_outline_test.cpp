@@ -173,7 +173,8 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
   start.seats[0].person = "ina";
   RecordingOutline outline(start);
   Lesson part = rows({0, 350});
-  part.events = {{350, 0, "stop", "trainer", "stop \x01 of trainer"}, {350, 0, "authority", "", "timeline tick 350"},
+  part.events = {{350, 0, "stop", "trainer", "stop \x01 of trainer"},
+                 {350, 0, "authority", "", "timeline tick 350"},
                  {350, 0, "pause", "", "console tick 350", "ola"}};
   part.marks = {{0.2, "eva", "now"}};
   EXPECT_TRUE(outline.add(part));
@@ -203,7 +204,8 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
 
 TEST(RecordingJson, ListsDamagedFilesWithTheirProblemOnly) {
   RecordingList list;
-  list.recordings = {{.id = "1", .file = "a.mcap", .problem = "is cut \xff"}, {.id = "2", .file = "b.mcap", .files = 2, .parts_problem = "part 1 is missing"}};
+  list.recordings = {{.id = "1", .file = "a.mcap", .problem = "is cut \xff"},
+                     {.id = "2", .file = "b.mcap", .files = 2, .parts_problem = "part 1 is missing"}};
   list.recordings[1].persons = {"Ada"};
   const json message = json::parse(list_json(list));
   EXPECT_TRUE(message["recordings"][0]["problem"].is_string());

@@ -210,7 +210,8 @@ TEST(RecordingWriter, BoundsAChunkWhileTheSessionClockStands) {
 TEST(RecordingWriter, KeepsNotesWithTheirTimes) {
   const SceneSpec scene = shipped_scene("contact");
   RecordingWriter writer{scene, sample_info(scene)};
-  writer.add_event({.tick = 0, .time_ns = 5, .what = "join", .seat = scene.seats[0].name, .text = "joined", .person = "Ada"});
+  writer.add_event(
+      {.tick = 0, .time_ns = 5, .what = "join", .seat = scene.seats[0].name, .text = "joined", .person = "Ada"});
   writer.add(smooth_record(scene, 10));
   writer.add_mark({.t_s = 0.01, .by = "Ada", .text = "look"});
   writer.add_sheet({.sheet = "OSATS", .of = scene.seats[1].name, .by = "Eva", .scores = {{"flow", 4}}, .closed = true});

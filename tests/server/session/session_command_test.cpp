@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include <cmath>
+#include <map>
 
 #include "server/policy/admission_control.h"
 #include "tests/server/session/session_fixture.h"
