@@ -52,7 +52,7 @@ TEST(Commands, PutTheirOrderOnTheEventsThatFollowFromThem) {
   SessionFixture rig("free_motion");
   rig.run(2s);
   static_cast<void>(events(*rig.session));
-  SessionCommand change = weights(AccessRole::kOperator, 0, {0, 1});
+  SessionCommand change = weights(AccessRole::kInstructor, status(rig).authority_version, {0.5, 0.5});
   change.order = 7;
   ASSERT_EQ(execute(rig, change).result, Result::kDone);
   SessionCommand halt{rpc::StopSession{}, AccessRole::kOperator};

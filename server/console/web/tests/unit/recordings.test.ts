@@ -228,6 +228,19 @@ describe('replies about recordings', () => {
     expect(readOutline({ ...outline(), to_s: 5, events: [], marks: [] })).toBeNull();
   });
 
+  it('have the number of files, and which one is missing', () => {
+    const [long, old] = readList({
+      recordings: [{ id: '1', file: 'a.mcap', files: 3, parts_problem: 'part 2 is missing' }, { id: '2' }],
+    }).recordings;
+    expect([long?.files, long?.parts_problem]).toEqual([3, 'part 2 is missing']);
+    expect([old?.files, old?.parts_problem]).toEqual([1, null]);
+    const raw = { ...outline(), scene: kScene, events: [], marks: [] };
+    expect(readOutline({ ...raw, files: 3, parts_problem: 'part 2 is missing' })?.parts_problem).toBe(
+      'part 2 is missing',
+    );
+    expect(readOutline({ ...raw, files: undefined })?.files).toBe(1);
+  });
+
   it('sort marks and events by time', () => {
     const found = readOutline({
       ...outline(),
