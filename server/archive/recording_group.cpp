@@ -28,19 +28,27 @@ void order_group(const std::vector<RecordingRow>& rows, RecordingGroup& group) {
 
 std::vector<RecordingGroup> group_recordings(const std::vector<RecordingRow>& rows) {
   std::vector<RecordingGroup> groups;
-  std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> known;
+  std::map<std::tuple<std::string, std::string, std::string, std::string>, std::vector<std::size_t>> known;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const RecordedPart& part = rows[k].summary.part;
     if (!rows[k].readable() || part.recording.empty()) {
       groups.push_back({{k}, {}});
       continue;
     }
-    const auto [at, added] = known.try_emplace(
-        std::tuple(folder_of(rows[k].file), part.session_id, part.epoch, part.recording), groups.size());
-    if (added) groups.emplace_back();
-    groups[at->second].rows.push_back(k);
+    std::vector<std::size_t>& copies = known[{folder_of(rows[k].file), part.session_id, part.epoch, part.recording}];
+    const auto place = std::ranges::find_if(copies, [&](std::size_t group) {
+      return std::ranges::none_of(groups[group].rows,
+                                  [&](std::size_t other) { return rows[other].summary.part.number == part.number; });
+    });
+    if (place != copies.end()) {
+      groups[*place].rows.push_back(k);
+    } else {
+      copies.push_back(groups.size());
+      groups.push_back({{k}, {}});
+    }
   }
-  for (const auto& [key, number] : known) order_group(rows, groups[number]);
+  for (const auto& [key, copies] : known)
+    for (const std::size_t copy : copies) order_group(rows, groups[copy]);
   return groups;
 }
 

@@ -58,6 +58,18 @@ TEST(RecordingGroups, HaveTheFilesOfOneRecordingInTheirOrder) {
   }
 }
 
+TEST(RecordingGroups, KeepCopiesApart) {
+  const std::vector<RecordingRow> rows{part("a.mcap", 1, false), part("b.mcap", 2, true),
+                                       part("copy of a.mcap", 1, false), part("copy of b.mcap", 2, true),
+                                       part("third a.mcap", 1, false)};
+  const auto groups = group_recordings(rows);
+  ASSERT_EQ(groups.size(), 3u);
+  EXPECT_EQ(groups[0].rows, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(groups[1].rows, (std::vector<std::size_t>{2, 3}));
+  EXPECT_EQ(groups[0].problem + groups[1].problem, "");
+  EXPECT_NE(groups[2].problem.find("part 2 of the recording is missing"), std::string::npos);
+}
+
 TEST(RecordingGroups, AreOneRecordingTogether) {
   auto rows = folder();
   rows[0].summary.missing_ticks = 7;
