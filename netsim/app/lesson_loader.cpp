@@ -12,12 +12,12 @@
 #include "common/base/csv.h"
 #include "common/base/raw_bytes.h"
 #include "common/io/whole_file.h"
-#include "netsim/app/part_files.h"
 #include "netsim/score/motion_lesson.h"
 #include "netsim/score/trace_lesson.h"
 #include "proto/io/scene_file.h"
 #include "proto/recording/lesson_reader.h"
 #include "proto/spec/input_error.h"
+#include "server/archive/io/part_files.h"
 #include "server/export/io/hdf5_import.h"
 
 namespace tandem::netsim {
@@ -99,7 +99,7 @@ std::expected<Lesson, std::string> read_recording(const LessonFile& named) {
 void find_more(LessonFile& file) {
   if (std::error_code error; !std::filesystem::is_regular_file(file.name, error)) return;  // a pipe is read once
   if (Pieces pieces(file.name); !pieces.next(file.name).starts_with(kMcap)) return;
-  const auto parts = find_parts({file.name});
+  const auto parts = server::find_parts({file.name});
   if (!parts) {
     file.note = parts.error();
     return;

@@ -11,10 +11,10 @@
 #include "common/io/whole_file.h"
 #include "netsim/app/exit_status.h"
 #include "netsim/app/netsim_commands.h"
-#include "netsim/app/part_files.h"
 #include "netsim/app/what_if.h"
 #include "netsim/replay/recording_replay.h"
 #include "proto/recording/lesson_reader.h"
+#include "server/archive/io/part_files.h"
 #include "server/session/build_text.h"
 
 namespace tandem::netsim {
@@ -118,9 +118,9 @@ int what_if(const ReplayArguments& arguments) {
 }
 
 /// Replays the files of a recording, one after the other. @return why one cannot be replayed, with its name
-std::expected<RecordingReplay, std::string> replay_parts(const std::vector<RecordedPart>& parts) {
+std::expected<RecordingReplay, std::string> replay_parts(const std::vector<server::RecordedPart>& parts) {
   RecordingReplayer replayer;
-  for (const RecordedPart& part : parts) {
+  for (const server::RecordedPart& part : parts) {
     const auto bytes = io::read_whole_file(part.file, kReplayedMax);
     if (!bytes) return std::unexpected(bytes.error());
     if (const auto added = replayer.add(bytes_of(*bytes)); !added)
@@ -137,7 +137,7 @@ int replay_command(const ReplayArguments& arguments) {
   if (std::ranges::find(arguments.recordings, arguments.json) != arguments.recordings.end())
     return replay_usage_error("--json: is the recording itself");
   if (!arguments.what_if.empty()) return what_if(arguments);
-  const auto parts = find_parts(arguments.recordings);
+  const auto parts = server::find_parts(arguments.recordings);
   if (!parts) return replay_usage_error(parts.error());
   const auto replay = replay_parts(*parts);
   if (!replay) return replay_usage_error(replay.error());

@@ -25,7 +25,7 @@ struct ScoreArguments {
   std::vector<std::string> files, experts, learner, hands;
   std::string scene, seat, json, csv, html;
   score::ScoreOptions options;
-  bool quiet = false;
+  bool quiet = false, overwrite = false;
 };
 
 using Scored = std::vector<score::LessonScores>;
@@ -118,6 +118,8 @@ int score_command(const ScoreArguments& a) {
       if (!outputs[i].second->empty() && *outputs[i].second == *outputs[j].second)
         mistakes.add(std::string(outputs[i].first) + ": is the same file as " + outputs[j].first);
   }
+  if (std::error_code error; !a.overwrite && std::filesystem::is_regular_file(a.html, error))
+    mistakes.add("--html: " + a.html + " exists already; choose another name, or replace it with --overwrite");
   std::vector<std::string> paths = a.files;
   paths.insert(paths.end(), a.learner.begin(), a.learner.end());
   for (const auto& [option, file] : outputs)
@@ -202,6 +204,7 @@ void add_score_command(const io::Command& root) {
   command
       .add_option("--html", a.html, "writes a report for the learner about the last recording; `-`: to standard output")
       .value_name("FILE|-");
+  command.add_flag("--overwrite", a.overwrite, "replaces a report of the name --html");
   command.add_flag("--quiet", a.quiet, "prints no tables");
   command.footer(
       "Each score is split by the seat that held the tool and by the phases of the scene. A score is flagged (!) or "

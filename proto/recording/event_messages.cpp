@@ -30,6 +30,7 @@ std::string encode_event(const LessonEvent& event) {
   out.set_what(event.what);
   out.set_seat(event.seat);
   out.set_text(event.text);
+  out.set_person(event.person);
   return out.SerializeAsString();
 }
 
@@ -92,8 +93,8 @@ void encode_inputs(std::uint32_t tick, std::span<const std::byte> data, std::str
 
 std::optional<LessonEvent> decode_event(std::span<const std::byte> bytes) {
   const auto in = parse<recording::Event>(bytes);
-  if (!in || !fit(in->what(), in->seat(), in->text())) return std::nullopt;
-  return LessonEvent{.what = in->what(), .seat = in->seat(), .text = in->text()};
+  if (!in || !fit(in->what(), in->seat(), in->text(), in->person())) return std::nullopt;
+  return LessonEvent{.what = in->what(), .seat = in->seat(), .text = in->text(), .person = in->person()};
 }
 
 std::optional<LessonMark> decode_mark(std::span<const std::byte> bytes) {

@@ -9,53 +9,54 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Calls `visit(column)` for every column of a seat, a tool or the lesson itself.
-template <class Seat, class Visit>
-void each_seat_column(Seat& s, Visit visit) {
-  visit(s.fresh);
-  visit(s.sample_tick);
-  visit(s.q);
-  visit(s.x);
-  visit(s.v);
-  visit(s.f);
-  visit(s.f_cmd);
-  visit(s.alpha);
-  visit(s.engaged);
-  visit(s.gate);
-  visit(s.leader);
-  visit(s.ghost);
-  visit(s.e_in);
-  visit(s.e_out);
-  visit(s.dissipated_j);
-  visit(s.refused_j);
-  visit(s.margin_min_j);
-  visit(s.delivered_j);
+/// Call `visit(columns...)` for every column of one or more seats, tools or lessons of one scene.
+template <class Visit, class... Seat>
+void each_seat_column(Visit visit, Seat&... s) {
+  visit(s.fresh...);
+  visit(s.sample_tick...);
+  visit(s.q...);
+  visit(s.x...);
+  visit(s.v...);
+  visit(s.f...);
+  visit(s.f_cmd...);
+  visit(s.alpha...);
+  visit(s.engaged...);
+  visit(s.gate...);
+  visit(s.leader...);
+  visit(s.ghost...);
+  visit(s.e_in...);
+  visit(s.e_out...);
+  visit(s.dissipated_j...);
+  visit(s.refused_j...);
+  visit(s.margin_min_j...);
+  visit(s.delivered_j...);
 }
 
-template <class Tool, class Visit>
-void each_tool_column(Tool& t, Visit visit) {
-  visit(t.q);
-  visit(t.x);
-  visit(t.x_tool);
-  visit(t.f_cmd);
-  visit(t.f_env);
-  visit(t.penetration);
-  visit(t.held);
-  visit(t.alpha);
-  visit(t.mfs_j);
-  visit(t.e_p_j);
-  visit(t.e_p_axis_j);
-  visit(t.sample_tick);
+template <class Visit, class... Tool>
+void each_tool_column(Visit visit, Tool&... t) {
+  visit(t.q...);
+  visit(t.x...);
+  visit(t.x_tool...);
+  visit(t.f_cmd...);
+  visit(t.f_env...);
+  visit(t.penetration...);
+  visit(t.held...);
+  visit(t.alpha...);
+  visit(t.mfs_j...);
+  visit(t.e_p_j...);
+  visit(t.e_p_axis_j...);
+  visit(t.sample_tick...);
 }
 
-template <class Visit>
-void each_column(Lesson& lesson, const LessonSeatSet& without, Visit visit) {
-  visit(lesson.running);
-  visit(lesson.stopped_ticks);
-  visit(lesson.dropped_ticks);
-  for (std::size_t i = 0; i < lesson.seats.size(); ++i)
-    if (!without[i]) each_seat_column(lesson.seats[i], visit);
-  for (LessonTool& tool : lesson.tools) each_tool_column(tool, visit);
+/// The columns but those of ticks and times, and of the seats `without`.
+template <class Visit, class... AnyLesson>
+void each_column(const LessonSeatSet& without, Visit visit, Lesson& first, AnyLesson&... more) {
+  visit(first.running, more.running...);
+  visit(first.stopped_ticks, more.stopped_ticks...);
+  visit(first.dropped_ticks, more.dropped_ticks...);
+  for (std::size_t i = 0; i < first.seats.size(); ++i)
+    if (!without[i]) each_seat_column(visit, first.seats[i], more.seats[i]...);
+  for (std::size_t j = 0; j < first.tools.size(); ++j) each_tool_column(visit, first.tools[j], more.tools[j]...);
 }
 
 template <class Value>
@@ -75,17 +76,40 @@ Value unknown() {
 void reserve_rows(Lesson& lesson, std::size_t rows, const LessonSeatSet& without) {
   lesson.tick.reserve(rows);
   lesson.time_ns.reserve(rows);
-  each_column(lesson, without, [rows](auto& column) { column.reserve(rows); });
+  each_column(without, [rows](auto& column) { column.reserve(rows); }, lesson);
+}
+
+void copy_rows(const Lesson& from, std::size_t first, std::size_t count, Lesson& to) {
+  const auto copy = [first, count](auto& target, const auto& source) {
+    if (source.size() < first + count) return;  // a seat without columns
+    const auto begin = source.begin() + static_cast<std::ptrdiff_t>(first);
+    target.insert(target.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  copy(to.tick, from.tick);
+  copy(to.time_ns, from.time_ns);
+  each_column({}, copy, to, from);
+}
+
+void erase_rows(Lesson& lesson, std::size_t count) {
+  const auto erase = [count](auto& column) {
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(std::min(count, column.size())));
+  };
+  erase(lesson.tick);
+  erase(lesson.time_ns);
+  each_column({}, erase, lesson);
 }
 
 void append_row(Lesson& lesson, std::uint32_t tick, std::int64_t time_ns, const LessonSeatSet& without) {
   lesson.tick.push_back(tick);
   lesson.time_ns.push_back(time_ns);
-  each_column(lesson, without, [](auto& column) {
-    using Value = typename std::remove_reference_t<decltype(column)>::value_type;
-    const Value value = column.empty() ? unknown<Value>() : column.back();
-    column.push_back(value);
-  });
+  each_column(
+      without,
+      [](auto& column) {
+        using Value = typename std::remove_reference_t<decltype(column)>::value_type;
+        const Value value = column.empty() ? unknown<Value>() : column.back();
+        column.push_back(value);
+      },
+      lesson);
   for (LessonSeat& seat : lesson.seats)
     if (!seat.fresh.empty()) seat.fresh.back() = 0;
 }

@@ -36,11 +36,13 @@ constexpr std::size_t kBytesPerRow = 16;           // every tick has an entry of
 constexpr std::size_t kRowsOfACutChunk = 100'000;  // the index of the last chunk may be missing
 constexpr std::size_t kNotesMax = 1'000'000;       // events, marks, sheets or links that are read
 
+}  // namespace
+
 /// Fills a lesson from the messages of a file.
-class LessonBuilder {
+class LessonReader::Builder {
  public:
-  LessonBuilder(Lesson& lesson, std::size_t rows_max, const LessonSeatSet& without)
-      : lesson_(&lesson), rows_max_(lesson.rows() + rows_max), without_(without), counted_(lesson.counts) {}
+  Builder(Lesson& lesson, std::size_t rows_max, const LessonSeatSet& without)
+      : lesson_(&lesson), rows_left_(rows_max), without_(without), counted_(lesson.counts) {}
 
   /// @return false if the message is damaged or does not fit the scene
   bool add(const mcap::Message& message, const mcap::Channel& channel) {
@@ -122,7 +124,8 @@ class LessonBuilder {
   bool to_row(const mcap::Message& message, Set set) {
     const std::uint32_t tick = message.sequence;
     if (lesson_->tick.empty() || tick > lesson_->tick.back()) {
-      if (lesson_->rows() >= rows_max_) return false;
+      if (rows_left_ == 0) return false;
+      --rows_left_;
       append_row(*lesson_, tick, since_start(message.log_time), without_);
     } else if (tick < lesson_->tick.back()) {
       return false;
@@ -170,7 +173,7 @@ class LessonBuilder {
   }
 
   Lesson* lesson_;
-  std::size_t rows_max_;
+  std::size_t rows_left_;  ///< that the file may still have
   LessonSeatSet without_;
   std::map<std::string, LessonCount> counted_;  ///< in the files before
   std::vector<std::optional<Use>> uses_;        ///< by number of the channel
@@ -179,6 +182,8 @@ class LessonBuilder {
   AuthoritySample authority_;
   SessionSample session_;
 };
+
+namespace {
 
 /// Sets what the metadata records say. @return why this is no recording that can be read; empty: it is
 std::string read_metadata(const mcap::Reader& reader, Lesson& lesson) {
@@ -233,28 +238,81 @@ std::expected<Lesson, std::string> read_lesson(std::span<const std::byte> bytes,
   return reader.take();
 }
 
-std::expected<void, std::string> LessonReader::add(std::span<const std::byte> bytes) {
-  const auto reader = mcap::Reader::open(bytes);
+LessonReader::LessonReader(const LessonSeatSet& without) : without_(without) {}
+LessonReader::~LessonReader() = default;
+
+std::expected<void, std::string> LessonReader::begin_file(std::span<const std::byte> definitions,
+                                                          std::uint64_t file_bytes) {
+  const auto reader = mcap::Reader::open(definitions);
   if (!reader) return std::unexpected(reader.error().message);
+  return begin_file(*reader, file_bytes);
+}
+
+std::expected<void, std::string> LessonReader::begin_file(const mcap::Reader& definitions, std::uint64_t file_bytes) {
   Lesson facts;
-  if (std::string problem = read_metadata(*reader, facts); !problem.empty()) return std::unexpected(problem);
+  if (std::string problem = read_metadata(definitions, facts); !problem.empty()) return std::unexpected(problem);
   if (!lesson_) {
     lesson_ = std::move(facts);
   } else if (facts.scene_text != lesson_->scene_text || facts.start_unix_ns != lesson_->start_unix_ns) {
     return std::unexpected("has another scene or begin than the files before, so it is of another session");
   }
-  Lesson& lesson = *lesson_;
-  const std::size_t rows_max = bytes.size() / kBytesPerRow + kRowsOfACutChunk;
-  reserve_rows(lesson, lesson.rows() + expected_rows(*reader, bytes.size() / kBytesPerRow), without_);
-  LessonBuilder builder{lesson, rows_max, without_};
-  mcap::MessageCursor cursor{*reader};
-  bool whole = true;
+  builder_ = std::make_unique<Builder>(*lesson_, file_bytes / kBytesPerRow + kRowsOfACutChunk, without_);
+  whole_ = true;
+  return {};
+}
+
+void LessonReader::add_piece(std::span<const std::byte> piece) {
+  if (const auto reader = mcap::Reader::open(piece)) {
+    add_messages(*reader);
+  } else {
+    whole_ = false;
+  }
+}
+
+void LessonReader::add_messages(const mcap::Reader& reader) {
+  mcap::MessageCursor cursor{reader};
   while (const auto message = cursor.next()) {
     const mcap::Channel* const channel = cursor.channel(message->channel);
-    whole &= channel != nullptr && builder.add(*message, *channel);
+    whole_ &= channel != nullptr && builder_->add(*message, *channel);
   }
-  lesson.complete &= whole && reader->complete() && cursor.damaged() == 0 && reader->metadata(kCountsRecord) != nullptr;
+  whole_ &= cursor.damaged() == 0;
+}
+
+void LessonReader::end_file(bool complete) {
+  lesson_->complete &= whole_ && complete;
+  builder_.reset();
+}
+
+std::expected<void, std::string> LessonReader::add(std::span<const std::byte> bytes) {
+  const auto reader = mcap::Reader::open(bytes);
+  if (!reader) return std::unexpected(reader.error().message);
+  if (auto begun = begin_file(*reader, bytes.size()); !begun) return begun;
+  reserve_rows(*lesson_, lesson_->rows() + expected_rows(*reader, bytes.size() / kBytesPerRow), without_);
+  add_messages(*reader);
+  end_file(reader->complete() && reader->metadata(kCountsRecord) != nullptr);
   return {};
+}
+
+Lesson LessonReader::take_rows(bool last) {
+  Lesson out;
+  out.session = lesson_->session;
+  out.scene = lesson_->scene;
+  out.start_unix_ns = lesson_->start_unix_ns;
+  out.seats.resize(lesson_->seats.size());
+  out.tools.resize(lesson_->tools.size());
+  const std::size_t end = lesson_->rows() - (last || lesson_->rows() == 0 ? 0 : 1);
+  if (end <= taken_) return out;
+  copy_rows(*lesson_, taken_, end - taken_, out);
+  // The last row that was taken stays: the next one compares its samples with it.
+  erase_rows(*lesson_, end - 1);
+  taken_ = 1;
+  return out;
+}
+
+Lesson LessonReader::take() {
+  erase_rows(*lesson_, taken_);
+  taken_ = 0;
+  return std::move(*lesson_);
 }
 
 }  // namespace tandem

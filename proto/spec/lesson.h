@@ -80,6 +80,7 @@ struct LessonEvent {
   std::string what;          ///< word of the audit log
   std::string seat;          ///< name of the seat, or empty
   std::string text;          ///< line for people
+  std::string person{};      ///< that gave the order at a console; empty: no order, or not known
 };
 
 /// A mark on the timeline.

@@ -74,6 +74,12 @@ std::uint64_t RecordingParts::bytes(std::size_t begin, std::size_t end) const no
   return sum;
 }
 
+std::size_t RecordingParts::group_end(std::size_t begin, std::size_t count, std::uint64_t bytes_max) const noexcept {
+  std::size_t end = begin + 1;
+  while (end < size() && end - begin < count && bytes(begin, end + 1) <= bytes_max) ++end;
+  return end;
+}
+
 std::vector<std::byte> RecordingParts::piece(const ReadAt& read, std::size_t begin, std::size_t end) const {
   std::vector<std::byte> out;
   out.reserve(head_.size() + rest_.size() + static_cast<std::size_t>(bytes(begin, end)));

@@ -31,6 +31,9 @@ class RecordingParts {
   [[nodiscard]] bool complete() const noexcept { return complete_; }
   /// Size of the chunks [begin, end) in the file [bytes].
   [[nodiscard]] std::uint64_t bytes(std::size_t begin, std::size_t end) const noexcept;
+  /// Returns the end of the chunks from `begin` on that are read together: one at least, at most `count`, and further
+  /// ones only up to this size in the file. @pre begin < size()
+  [[nodiscard]] std::size_t group_end(std::size_t begin, std::size_t count, std::uint64_t bytes_max) const noexcept;
   /// Returns a recording with the definitions of the file and only the messages of the chunks [begin, end), without a
   /// summary. Chunks that can no longer be read are missing.
   [[nodiscard]] std::vector<std::byte> piece(const ReadAt& read, std::size_t begin, std::size_t end) const;

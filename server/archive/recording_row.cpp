@@ -17,6 +17,16 @@ void add_person(std::vector<RecordedPerson>& persons, const std::string& name, c
   if (std::ranges::find(persons, person) == persons.end()) persons.push_back(person);
 }
 
+std::uint64_t missing_ticks_of(const Lesson& head, const LessonExtent& extent) {
+  std::uint64_t missing = 0;
+  if (extent.rows > 0) {
+    const std::uint64_t span = std::uint64_t{extent.last_tick} - extent.first_tick + 1;
+    missing = span - std::min<std::uint64_t>(span, extent.rows);
+  }
+  for (const auto& [topic, count] : head.counts) missing = std::max(missing, count.dropped);
+  return missing;
+}
+
 RecordingSummary summary_of(const Lesson& lesson) {
   RecordingSummary out;
   out.session = lesson.session;
@@ -29,14 +39,13 @@ RecordingSummary summary_of(const Lesson& lesson) {
   if (!lesson.tick.empty()) {
     const std::uint64_t span = lesson.tick.back() - lesson.tick.front();
     out.duration_s = static_cast<double>(span) / lesson.scene.tick_hz;
-    out.missing_ticks = span + 1 - std::min<std::uint64_t>(span + 1, lesson.rows());
   }
-  // Ticks after the last row, as on a full disk, are in the account only.
-  for (const auto& [topic, count] : lesson.counts) out.missing_ticks = std::max(out.missing_ticks, count.dropped);
+  out.missing_ticks = missing_ticks_of(lesson, extent_of(lesson));
   for (std::size_t i = 0; i < std::min(lesson.seats.size(), lesson.scene.seats.size()); ++i)
     add_person(out.persons, lesson.seats[i].person, lesson.scene.seats[i].name);
   for (const LessonMark& mark : lesson.marks) add_person(out.persons, mark.by, "notes");
   for (const LessonSheet& sheet : lesson.sheets) add_person(out.persons, sheet.by, "notes");
+  if (auto part = read_part(lesson.metadata, "")) out.part = std::move(*part);
   return out;
 }
 

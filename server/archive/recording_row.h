@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "proto/spec/lesson.h"
+#include "proto/recording/lesson_source.h"
+#include "server/archive/recorded_part.h"
 
 /// Recordings of a school as its index knows them.
 namespace tandem::server {
@@ -27,6 +28,7 @@ struct RecordingSummary {
   std::uint64_t rows = 0, missing_ticks = 0;
   bool complete = true;  ///< false: the file was cut, damaged or repaired
   std::vector<RecordedPerson> persons;
+  RecordedPart part;  ///< place of the file in its recording; `file` is empty
   friend bool operator==(const RecordingSummary&, const RecordingSummary&) = default;
 };
 
@@ -47,7 +49,12 @@ struct RecordingRow {
   friend bool operator==(const RecordingRow&, const RecordingRow&) = default;
 };
 
-/// Returns what the index keeps of a lesson. Persons appear once per part, in the order seats, marks, sheets.
+/// Returns the ticks of a lesson without a row: those between its rows, and ticks after the last row, as on a full
+/// disk, which only the account has.
+[[nodiscard]] std::uint64_t missing_ticks_of(const Lesson& head, const LessonExtent& extent);
+
+/// Returns what the index keeps of a lesson. Persons appear once per part, in the order seats, marks, sheets. The place
+/// of the file is that in `head.metadata`, so that it is not known whether a file follows.
 [[nodiscard]] RecordingSummary summary_of(const Lesson& lesson);
 
 /// Limits of what a school keeps; 0: no limit.

@@ -6,6 +6,7 @@
 
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
+#include "server/archive/recording_group.h"
 
 namespace tandem::server {
 
@@ -36,6 +37,12 @@ std::string persons_text(const RecordingSummary& summary) {
   return text.empty() ? "-" : text;
 }
 
+/// Place in a recording of several files; empty: it has one.
+std::string part_text(const RecordedPart& part) {
+  const bool alone = part.recording.empty() || (part.number == 1 && part.last.value_or(true));
+  return alone ? std::string() : format("  (part %u)", part.number);
+}
+
 nlohmann::ordered_json row_json(const RecordingRow& row) {
   using Json = nlohmann::ordered_json;
   const RecordingSummary& s = row.summary;
@@ -52,12 +59,15 @@ nlohmann::ordered_json row_json(const RecordingRow& row) {
           {"rows", s.rows},
           {"missing_ticks", s.missing_ticks},
           {"complete", s.complete},
-          {"persons", std::move(persons)}};
+          {"persons", std::move(persons)},
+          {"recording", s.part.recording.empty() ? Json(nullptr) : Json(s.part.recording)},
+          {"part", s.part.number},
+          {"last_part", s.part.last ? Json(*s.part.last) : Json(nullptr)}};
 }
 
 }  // namespace
 
-std::string recordings_text(const std::vector<RecordingRow>& rows) {
+std::string recordings_text(const std::vector<RecordingRow>& rows, bool whole_folder) {
   std::size_t width = 4, names = 7;
   for (const RecordingRow& row : rows) {
     width = std::max(width, sanitize(row.file).size());
@@ -67,30 +77,39 @@ std::string recordings_text(const std::vector<RecordingRow>& rows) {
   std::string text, damaged;
   std::uint64_t bytes = 0;
   std::size_t readable = 0;
-  for (const RecordingRow& row : rows) {
-    const std::string file = sanitize(row.file);
-    if (!row.readable()) {
-      damaged += file + ": skipped, " + sanitize(row.problem) + "\n";
-      continue;
+  std::size_t recordings = 0;
+  std::string incomplete;
+  for (const RecordingGroup& group : group_recordings(rows)) {
+    if (whole_folder && !group.problem.empty()) incomplete += sanitize(group.problem) + "\n";
+    if (rows[group.rows.front()].readable()) ++recordings;
+    for (const std::size_t k : group.rows) {
+      const RecordingRow& row = rows[k];
+      const std::string file = sanitize(row.file);
+      if (!row.readable()) {
+        damaged += file + ": skipped, " + sanitize(row.problem) + "\n";
+        continue;
+      }
+      ++readable;
+      bytes += row.bytes;
+      text += format("%-*s  %16s  %9.1f s  %10s  %-*s  %s%s%s\n", w, file.c_str(), begin_text(row.summary).c_str(),
+                     row.summary.duration_s, size_text(row.bytes).c_str(), n, sanitize(row.summary.session, 32).c_str(),
+                     persons_text(row.summary).c_str(), part_text(row.summary.part).c_str(),
+                     row.summary.rows == 0  ? "  (no tick: the session did not run)"
+                     : row.summary.complete ? ""
+                                            : "  (cut, damaged or repaired)");
     }
-    ++readable;
-    bytes += row.bytes;
-    text += format("%-*s  %16s  %9.1f s  %10s  %-*s  %s%s\n", w, file.c_str(), begin_text(row.summary).c_str(),
-                   row.summary.duration_s, size_text(row.bytes).c_str(), n, sanitize(row.summary.session, 32).c_str(),
-                   persons_text(row.summary).c_str(),
-                   row.summary.rows == 0  ? "  (no tick: the session did not run)"
-                   : row.summary.complete ? ""
-                                          : "  (cut, damaged or repaired)");
   }
   if (readable > 0)
     text.insert(0, format("%-*s  %16s  %11s  %10s  %-*s  %s\n", w, "file", "begin (UTC)", "duration", "size", n,
                           "session", "persons"));
-  text += format("%zu recording%s, %s", readable, readable == 1 ? "" : "s", size_text(bytes).c_str());
+  text += format("%zu recording%s, ", recordings, recordings == 1 ? "" : "s");
+  if (readable != recordings) text += format("%zu files, ", readable);
+  text += size_text(bytes);
   if (readable < rows.size()) text += format("; files that cannot be read: %zu", rows.size() - readable);
-  return text + "\n" + damaged;
+  return text + "\n" + incomplete + damaged;
 }
 
-std::string recording_text(const RecordingRow& row) {
+std::string recording_text(const RecordingRow& row, const std::vector<std::string>& files, const std::string& problem) {
   const RecordingSummary& s = row.summary;
   std::string text = "file      " + sanitize(row.file) + "\n" + "size      " + size_text(row.bytes) + "\n";
   if (!row.readable()) return text + "skipped   " + sanitize(row.problem) + "\n";
@@ -101,6 +120,12 @@ std::string recording_text(const RecordingRow& row) {
   text += format("ticks     %llu recorded, %llu not recorded\n", static_cast<unsigned long long>(s.rows),
                  static_cast<unsigned long long>(s.missing_ticks));
   text += std::string("whole     ") + (s.complete ? "yes" : "no: the file was cut, damaged or repaired") + "\n";
+  if (files.size() > 1) {
+    text += format("part      %u of a recording of %zu files:", s.part.number, files.size());
+    for (const std::string& file : files) text += " " + sanitize(file);
+    text += "\n";
+  }
+  if (!problem.empty()) text += "missing   " + sanitize(problem) + "\n";
   return text + "persons   " + persons_text(s) + "\n";
 }
 

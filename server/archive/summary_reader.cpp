@@ -95,6 +95,7 @@ std::expected<RecordingSummary, std::string> read_summary(const RecordingParts& 
   lesson->complete = whole && builder.whole() && parts.complete();
   RecordingSummary summary = summary_of(*lesson);
   if (const auto reader = mcap::Reader::open(definitions)) add_participants(*reader, summary);
+  if (auto part = read_part(definitions, "")) summary.part = std::move(*part);
   return summary;
 }
 

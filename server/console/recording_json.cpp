@@ -59,6 +59,8 @@ std::string list_json(const RecordingList& list) {
   json rows = json::array();
   for (const ListedRecording& r : list.recordings) {
     json row{{"id", r.id}, {"file", r.file}, {"bytes", r.bytes}, {"problem", nullptr}};
+    row["files"] = r.files;
+    row["parts_problem"] = r.parts_problem.empty() ? json() : json(r.parts_problem);
     if (!r.problem.empty()) {
       row["problem"] = r.problem;
     } else {
@@ -84,7 +86,7 @@ std::string progress_json(double share) { return json_text({{"progress", rounded
 
 std::string problem_json(std::string_view text) { return json_text({{"problem", text}}); }
 
-std::string outline_json(const RecordingOutline& outline, const rpc::Id& id, const std::string& file) {
+std::string outline_json(const RecordingOutline& outline, const rpc::Id& id, const RecordingFiles& files) {
   const Lesson& head = outline.head();
   const RecordingPeriods periods(head.scene.tick_hz, outline.first(), outline.last());
   json gaps = json::array(), events = json::array(), marks = json::array();
@@ -94,12 +96,14 @@ std::string outline_json(const RecordingOutline& outline, const rpc::Id& id, con
     events.push_back({{"t", outline.time(event.tick)},
                       {"what", event.what},
                       {"seat", event.seat},
-                      {"person", person_at(head, event.seat)},
+                      {"person", event.person.empty() ? person_at(head, event.seat) : event.person},
                       {"text", event.text}});
   for (const LessonMark& mark : outline.marks())
     marks.push_back({{"t", rounded(mark.t_s, kThousandths)}, {"person", mark.by}, {"text", mark.text}});
   return json_text({{"id", to_hex(id)},
-                    {"file", file},
+                    {"file", files.file},
+                    {"files", files.count},
+                    {"parts_problem", files.parts_problem.empty() ? json() : json(files.parts_problem)},
                     {"scene", json::parse(scene_json(recording_base(head, id)))},
                     {"start_s", head.start_unix_ns > 0 ? json(1e-9 * static_cast<double>(head.start_unix_ns)) : json()},
                     {"from_s", outline.time(outline.first())},

@@ -13,9 +13,10 @@ namespace tandem::console {
 
 /// One recording of the list.
 struct ListedRecording {
-  std::string id{}, file{};  ///< `file` is for display
-  std::uint64_t bytes = 0;
-  std::string problem{};  ///< why it cannot be read; empty: it can, and the members below are valid
+  std::string id{}, file{};            ///< `file` is for display
+  std::uint64_t bytes = 0, files = 1;  ///< of all files
+  std::string parts_problem{};         ///< which file is missing; empty: none is known to be
+  std::string problem{};               ///< why it cannot be read; empty: it can, and the members below are valid
   std::string session{}, scene{};
   double start_s = 0;  ///< seconds since 1970; 0: unknown
   double duration_s = 0;
@@ -37,7 +38,13 @@ struct RecordingList {
 [[nodiscard]] std::string progress_json(double share);
 /// @param text  cause and remedy
 [[nodiscard]] std::string problem_json(std::string_view text);
+/// Files of a recording, for display.
+struct RecordingFiles {
+  std::string file{};  ///< the first
+  std::uint64_t count = 1;
+  std::string parts_problem{};  ///< as in ListedRecording
+};
 /// @pre !outline.empty()
-[[nodiscard]] std::string outline_json(const RecordingOutline& outline, const rpc::Id& id, const std::string& file);
+[[nodiscard]] std::string outline_json(const RecordingOutline& outline, const rpc::Id& id, const RecordingFiles& files);
 
 }  // namespace tandem::console

@@ -95,14 +95,14 @@ void LerobotLayout::add(const char* name, LerobotType type, std::vector<std::siz
   features_.push_back({name, type, std::move(shape), std::move(columns)});
 }
 
-std::size_t LerobotLayout::frames(const Lesson& lesson) const noexcept {
-  const std::uint64_t ticks = std::uint64_t{lesson.tick.back()} - lesson.tick.front() + 1;
+std::size_t LerobotLayout::frames(const LessonExtent& lesson) const noexcept {
+  const std::uint64_t ticks = std::uint64_t{lesson.last_tick} - lesson.first_tick + 1;
   return static_cast<std::size_t>(ticks / window_);
 }
 
-LerobotLayout::Rows LerobotLayout::rows_of(const Lesson& lesson, std::int64_t frame) const {
-  const auto offset = static_cast<std::uint32_t>(static_cast<std::size_t>(frame) * window_);
-  const std::uint32_t first = lesson.tick.front() + offset;
+LerobotLayout::Rows LerobotLayout::rows_of(const Lesson& lesson, const LerobotPlace& place) const {
+  const auto offset = static_cast<std::uint32_t>(static_cast<std::size_t>(place.frame) * window_);
+  const std::uint32_t first = place.first_tick + offset;
   const auto begin = std::ranges::lower_bound(lesson.tick, first);
   const auto end = std::lower_bound(begin, lesson.tick.end(), std::uint64_t{first} + window_);
   Rows rows;
@@ -128,7 +128,7 @@ void LerobotLayout::fill_window(const Lesson& lesson, const Rows& rows, bool act
 
 void LerobotLayout::fill(const Lesson& lesson, const LerobotPlace& place, std::size_t feature,
                          std::span<double> out) const {
-  const Rows rows = rows_of(lesson, place.frame);
+  const Rows rows = rows_of(lesson, place);
   const std::size_t missing = window_ - (rows.end - rows.begin);
   switch (static_cast<Feature>(feature)) {
     case kState:

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "proto/spec/lesson.h"
+#include "proto/recording/lesson_source.h"
 
 /// Data sets in the format of LeRobot (huggingface/lerobot, versions 2.1 and 3.0 of its data sets). One lesson is one
 /// episode. A frame is one row of the data set: a window of consecutive ticks of the session.
@@ -39,6 +39,8 @@ struct LerobotPlace {
   std::int64_t episode = 0;  ///< number of the episode
   std::int64_t frame = 0;    ///< number of the frame in its episode
   std::int64_t index = 0;    ///< number of the frame in the data set
+  /// Session tick at which the episode begins: that of its first row.
+  std::uint32_t first_tick = 0;
 };
 
 /// The features of a scene at one rate of frames, and their values.
@@ -65,10 +67,11 @@ class LerobotLayout {
   [[nodiscard]] unsigned fps() const noexcept { return fps_; }
   /// Ticks per frame.
   [[nodiscard]] std::size_t window() const noexcept { return window_; }
-  /// Number of whole frames of a lesson. @pre lesson_problem(lesson).empty()
-  [[nodiscard]] std::size_t frames(const Lesson& lesson) const noexcept;
+  /// Number of whole frames of a lesson. @pre it has a row
+  [[nodiscard]] std::size_t frames(const LessonExtent& lesson) const noexcept;
   /// Writes the numbers of one feature of one frame.
-  /// @pre the lesson has the scene's seats and tools; place.frame < frames(lesson); out.size() == the feature's size
+  /// @param lesson  rows of the lesson; at least those of the window and the last one before its end
+  /// @pre the lesson has the scene's seats and tools; place.frame < frames(extent); out.size() == the feature's size
   void fill(const Lesson& lesson, const LerobotPlace& place, std::size_t feature, std::span<double> out) const;
 
  private:
@@ -97,7 +100,7 @@ class LerobotLayout {
 
   LerobotLayout() = default;
   void add(const char* name, LerobotType type, std::vector<std::size_t> shape, std::vector<std::string> columns = {});
-  [[nodiscard]] Rows rows_of(const Lesson& lesson, std::int64_t frame) const;
+  [[nodiscard]] Rows rows_of(const Lesson& lesson, const LerobotPlace& place) const;
   void fill_window(const Lesson& lesson, const Rows& rows, bool action, std::span<double> out) const;
 
   unsigned fps_ = 0;

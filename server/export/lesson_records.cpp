@@ -86,13 +86,17 @@ std::string lesson_problem(const Lesson& lesson) {
   return {};
 }
 
-std::vector<LessonGap> gaps_of(const Lesson& lesson) {
-  std::vector<LessonGap> gaps;
-  for (std::size_t k = 1; k < lesson.rows(); ++k) {
-    const std::uint32_t step = lesson.tick[k] - lesson.tick[k - 1];
-    if (step > 1) gaps.push_back({lesson.tick[k - 1] + 1, step - 1});
+void GapFinder::add(const Lesson& rows) {
+  for (const std::uint32_t tick : rows.tick) {
+    if (last_ && tick - *last_ > 1) gaps_.push_back({*last_ + 1, tick - *last_ - 1});
+    last_ = tick;
   }
-  return gaps;
+}
+
+std::vector<LessonGap> gaps_of(const Lesson& lesson) {
+  GapFinder finder;
+  finder.add(lesson);
+  return finder.gaps();
 }
 
 std::size_t joints_of(const SceneSpec& scene) {

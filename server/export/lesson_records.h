@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,20 @@ struct LessonGap {
   friend bool operator==(const LessonGap&, const LessonGap&) = default;
 };
 
-/// Returns the gaps between the first and the last row, in ascending order.
+/// Finds the gaps between the first and the last row of a lesson that comes piece by piece.
+class GapFinder {
+ public:
+  /// @param rows  the next rows
+  void add(const Lesson& rows);
+  /// Returns the gaps so far, in ascending order.
+  [[nodiscard]] const std::vector<LessonGap>& gaps() const noexcept { return gaps_; }
+
+ private:
+  std::vector<LessonGap> gaps_;
+  std::optional<std::uint32_t> last_;  ///< tick of the last row
+};
+
+/// Returns the gaps of a lesson in memory.
 [[nodiscard]] std::vector<LessonGap> gaps_of(const Lesson& lesson);
 
 /// Returns the number of joints of the scene's devices: 1 for LINEAR, otherwise 3. @pre a scene with a seat

@@ -51,7 +51,8 @@ struct AuditEvent {
   std::uint8_t tool = 0, masters = 0;
   std::uint8_t party = kNoSeat;  ///< seat with the stale link
   std::uint32_t version = 0;
-  std::uint32_t tick = 0;  ///< of the session
+  std::uint32_t tick = 0;   ///< of the session
+  std::uint32_t order = 0;  ///< SessionCommand::order of the command that it follows from; 0: none
   Time at{};
   std::array<double, kMastersMax> before{}, after{};  ///< authority by master
 };

@@ -24,8 +24,11 @@ class AuditTrail {
   void emit(Time now, AuditEvent event) noexcept {
     event.tick = clock_->session_tick();
     event.at = now;
+    event.order = order_;
     queue_.push(event);
   }
+  /// Sets the order of the events from now on; 0: they follow from none.
+  void set_order(std::uint32_t order) noexcept { order_ = order; }
   /// Next event, in order; nullopt when there is none. To be called after every tick: the queue holds
   /// AuditQueue::kCapacity events.
   [[nodiscard]] std::optional<AuditEvent> poll() noexcept { return queue_.poll(); }
@@ -35,6 +38,7 @@ class AuditTrail {
  private:
   const SessionClock* clock_;
   AuditQueue queue_;
+  std::uint32_t order_ = 0;
 };
 
 }  // namespace tandem::server

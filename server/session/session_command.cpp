@@ -85,9 +85,11 @@ Result remove_client(Session& session, std::size_t seat, std::uint32_t cid, wire
 CommandOutcome execute_command(Session& session, Time now, const SessionCommand& command) noexcept {
   if (InputJournal* const journal = session.journal()) journal->command(now, command);
   Effect effect;
+  session.audit().set_order(command.order);
   const Result result = holds_seat(session, command)
                             ? std::visit(Execution{session, now, command, effect}, command.body)
                             : Result::kSeatLost;
+  session.audit().set_order(0);
   const StopLatch& stop = session.stop_control().latch();
   const StopLatch::Latest& latest = stop.latest();
   CommandOutcome out{.result = result,

@@ -26,6 +26,7 @@ struct SessionCommand {
   AccessRole role = AccessRole::kObserver;
   std::uint8_t seat = AuditEvent::kNoSeat;  ///< seat of the client, AuditEvent::kNoSeat for a console
   std::uint32_t cid = 0;                    ///< of the client's datagrams: they must still own the seat
+  std::uint32_t order = 0;                  ///< number for the events that follow from it; changes nothing else
 };
 
 /// Result of a command, and the state of the session afterwards.

@@ -218,6 +218,38 @@ TEST(DebianPackages, ContainHardenedUnits) {
   }
 }
 
+/// Copies a unit with its example for recordings to a folder of their own. @return the folder
+fs::path unit_with_recordings(const std::string& program) {
+  const fs::path folder = fs::path{TANDEM_BINARY_DIR} / "unit-recordings",
+                 source = fs::path{TANDEM_SOURCE_DIR} / "server/package";
+  const fs::path more = folder / (program + ".service.d");
+  fs::create_directories(more);
+  for (const auto& [from, to] : {std::pair{source / (program + ".service"), folder / (program + ".service")},
+                                 std::pair{source / (program + "-recordings.conf"), more / "recordings.conf"}})
+    EXPECT_EQ(shell("sed 's|/usr/bin/" + program + "|" + (fs::path{TANDEM_BINARY_DIR} / "bin" / program).string() +
+                    "|' " + quoted(from) + " > " + quoted(to))
+                  .code,
+              0);
+  return folder;
+}
+
+// The sandbox with recordings: the console may write into their folder, and only there.
+TEST(DebianPackages, ContainExamplesOfUnitsWithRecordings) {
+  if (!there("systemd-analyze")) GTEST_SKIP() << kNoSystemd;
+  for (const std::string program : {"tandem-server", "tandem-console"}) {
+    const fs::path folder = unit_with_recordings(program);
+    const std::string unit = quoted(folder / (program + ".service"));
+    const Done accepted = shell("systemd-analyze verify --man=no " + unit);
+    EXPECT_EQ(accepted.code, 0) << accepted.text;
+    EXPECT_EQ(accepted.text.find(program + ".service"), std::string::npos) << accepted.text;
+    EXPECT_EQ(accepted.text.find("recordings.conf"), std::string::npos) << accepted.text;
+    const Done judged = shell("systemd-analyze security --offline=true --threshold=30 " + unit);
+    if (judged.text.find("Overall exposure level") == std::string::npos)
+      GTEST_SKIP() << "systemd-analyze security does not judge files offline here: " << judged.text;
+    EXPECT_EQ(judged.code, 0) << "above 3.0\n" << judged.text;
+  }
+}
+
 // Checks the installed units, except that their programs are those of this build.
 TEST(DebianPackages, ContainUnitsThatSystemdAccepts) {
   if (!there("systemd-analyze")) GTEST_SKIP() << kNoSystemd;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "tests/io/long_session.h"
 #include "tests/io/multi_client_fixture.h"
 #include "tests/io/web_fixture.h"
 
@@ -137,6 +138,66 @@ TEST(GatewayRecordings, GiveTheSameStatesAndScoresAsTheFile) {
       EXPECT_NEAR(std::stod(cells[m]["text"].get<std::string>()), millimetres, 0.006 * millimetres);
     }
   }
+}
+
+/// The outline of a recording without its name, and its pieces and scores.
+Json played(const WebGateway& gateway, const Json& row) {
+  const std::string place = "/recordings/" + row["id"].get<std::string>();
+  Json out;
+  out["outline"] = get_ready(gateway.at, place, gateway.cookie).body;
+  for (const char* key : {"id", "file", "files", "scene"}) out["outline"].erase(key);
+  for (unsigned k = 0; k < out["outline"].value("pieces", 0u); ++k) {
+    Json piece = get(gateway.at, place + "/pieces/" + std::to_string(k), gateway.cookie).body;
+    for (Json& state : piece["states"]) state.erase("session");
+    out["pieces"].push_back(std::move(piece["states"]));
+  }
+  out["scores"] = get_ready(gateway.at, place + "/scores", gateway.cookie).body;
+  return out;
+}
+
+TEST(GatewayRecordings, OfSeveralFilesPlayAsOneLesson) {
+  const LongSession session("contact", 25, 7);
+  ASSERT_GE(session.parts.size(), 3u);
+  WebGateway gateway(Process({TANDEM_CONSOLE, "play", session.path(1), session.folder.file("one/one.mcap"), "--listen",
+                              "127.0.0.1:0"}),
+                     "\n", false);
+  ASSERT_NE(gateway.at.port, 0) << gateway.process.err();
+  gateway.open_url();
+  const Json rows = get(gateway.at, "/recordings", gateway.cookie).body["recordings"];
+  ASSERT_EQ(rows.size(), 2U) << rows;
+  EXPECT_EQ(rows[0]["files"], session.parts.size());
+  EXPECT_EQ(rows[1]["files"], 1);
+  EXPECT_EQ(rows[0]["complete"], true);
+  EXPECT_TRUE(rows[0]["parts_problem"].is_null()) << rows[0];
+  EXPECT_EQ(rows[0]["missing_ticks"], 0);
+  const Json parts = played(gateway, rows[0]), one = played(gateway, rows[1]);
+  EXPECT_GE(one["pieces"].size(), 2U) << "a piece has parts of several files";
+  EXPECT_EQ(parts["outline"], one["outline"]) << Json::diff(parts["outline"], one["outline"]).dump().substr(0, 2000);
+  EXPECT_EQ(parts["pieces"], one["pieces"]) << Json::diff(parts["pieces"], one["pieces"]).dump().substr(0, 2000);
+  EXPECT_EQ(parts["scores"], one["scores"]) << Json::diff(parts["scores"], one["scores"]).dump().substr(0, 2000);
+}
+
+TEST(GatewayRecordings, OfSeveralFilesSayWhichIsMissing) {
+  const LongSession session("one_axis", 3, 0.8);
+  std::filesystem::remove(session.path(1));
+  Process host = hosting("one_axis");
+  WebGateway gateway(address_of(host), {"--recordings", session.folder.file("")});
+  gateway.open_url();
+  const auto rows = [&] { return get(gateway.at, "/recordings", gateway.cookie).body["recordings"]; };
+  const Json all = rows();
+  ASSERT_EQ(all.size(), 2U) << all;
+  const Json& row = all[0]["file"] == "lesson-1.mcap" ? all[0] : all[1];
+  EXPECT_EQ(row["files"], session.parts.size() - 1);
+  EXPECT_EQ(row["complete"], false);
+  EXPECT_NE(row["parts_problem"].get<std::string>().find("part 2 of the recording is missing, lesson-2.mcap"),
+            std::string::npos)
+      << row;
+  const Reply outline = get_ready(gateway.at, "/recordings/" + row["id"].get<std::string>(), gateway.cookie);
+  ASSERT_EQ(outline.status, 200U) << outline.body;
+  EXPECT_EQ(outline.body["complete"], false);
+  EXPECT_EQ(outline.body["parts_problem"], row["parts_problem"]);
+  EXPECT_EQ(outline.body["gap_count"], 1) << "the ticks of the missing file";
+  EXPECT_GT(outline.body["missing_ticks"].get<int>(), 700);
 }
 
 TEST(GatewayRecordings, SurviveDamagedDeletedAndForeignFiles) {

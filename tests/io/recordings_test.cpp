@@ -30,7 +30,7 @@ TEST(Recordings, ExportTheBytesOfTheTrace) {
   const Folder folder;
   for (const std::string scene : {"one_axis", "contact"}) {
     ASSERT_TRUE(record(folder, scene, scene));
-    Process out = recordings({"export", folder.file(scene + ".mcap"), "--to", folder.file("out.csv")});
+    Process out = recordings({"export", folder.file(scene + ".mcap"), "--to", folder.file("out.csv"), "--overwrite"});
     EXPECT_EQ(out.wait(), 0) << out.err();
     EXPECT_NE(out.err().find("out.csv is complete"), std::string::npos) << out.err();
     EXPECT_TRUE(folder.read("out.csv") == folder.read(scene + ".csv")) << scene << ": the files differ";
@@ -45,7 +45,8 @@ TEST(Recordings, AreNotOverwrittenByTheirExport) {
   fs::create_hard_link(file, folder.file("twin.csv"));
   for (const std::string& to : {file, folder.file("link.csv"), folder.file("twin.csv"), folder.file("./a.mcap")})
     for (const std::string format : {"csv", "hdf5"}) {
-      Process refused = recordings({"export", "a.mcap", "--dir", folder.file(""), "--to", to, "--format", format});
+      Process refused =
+          recordings({"export", "a.mcap", "--dir", folder.file(""), "--to", to, "--format", format, "--overwrite"});
       EXPECT_EQ(refused.wait(), 1) << to;
       EXPECT_NE(refused.err().find("is the recording itself; name another file"), std::string::npos) << refused.err();
       EXPECT_TRUE(folder.read("a.mcap") == bytes) << to;
@@ -240,7 +241,7 @@ TEST(Recordings, NameAllMistakesOfTheirArguments) {
                                     {{"retain", "--dir", "."}, "retain needs --days or --bytes"},
                                     {{"retain", "--dir", ".", "--days", "x"}, "--days"},
                                     {{"forget-person", "Ada", "Byron", "--dir", "."}, "quotation marks"},
-                                    {{"export", "a", "b", "--to", "x.csv"}, "csv and hdf5 take one recording"}}) {
+                                    {{"export", "a", "b", "--one-file", "--to", "x.csv"}, "take one file, not 2"}}) {
     Process process = recordings(words);
     EXPECT_EQ(process.wait(), 2) << words.front();
     EXPECT_NE(process.err().find(part), std::string::npos) << part << " not in " << process.err();

@@ -53,6 +53,22 @@ TEST(ScoreCommand, WritesTablesJsonCsvAndAReport) {
   EXPECT_NE(folder.read("a.html").find("</html>"), std::string::npos);
 }
 
+TEST(ScoreCommand, ReplacesAReportOnlyOnRequest) {
+  const Folder folder;
+  const std::string file = trace(folder, "a.csv", "contact", "0.5"), report = folder.write("a.html", "old");
+  Process refused = score({file, "--scene", "contact", "--quiet", "--html", report});
+  EXPECT_EQ(code_of(refused), 2);
+  EXPECT_NE(refused.err().find("--html: " + report +
+                               " exists already; choose another name, or replace it with "
+                               "--overwrite"),
+            std::string::npos)
+      << refused.err();
+  EXPECT_EQ(folder.read("a.html"), "old");
+  Process replaced = score({file, "--scene", "contact", "--quiet", "--html", report, "--overwrite"});
+  EXPECT_EQ(code_of(replaced), 0) << replaced.err();
+  EXPECT_NE(folder.read("a.html").find("</html>"), std::string::npos);
+}
+
 TEST(ScoreCommand, GivesARecordingTheScoresOfItsTrace) {
   const Folder folder;
   Process run({TANDEM_NETSIM, "run", "evaluation", "--duration", "12", "--delay", "10", "--jitter", "2", "--quiet",

@@ -142,6 +142,10 @@ const std::array<Layer, 56> kLayers{{
      {"json"},
      "server/archive reads summaries of recordings and decides what a school keeps: no file, no clock; the database "
      "belongs to server/archive/app"},
+    {"server/archive/io",
+     {"common/base", "common/io", "proto/recording", "server/archive"},
+     {},
+     "server/archive/io reads recordings as files, for the programs that need them: no database, no session"},
     {"server/recording",
      {"common/base", "common/mcap", "proto", "server/recording", "server/report", "server/session/input_records.h"},
      {},

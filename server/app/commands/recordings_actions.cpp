@@ -12,6 +12,7 @@
 #include "server/archive/app/lesson_file.h"
 #include "server/archive/app/recording_deletion.h"
 #include "server/archive/app/recording_scan.h"
+#include "server/archive/recording_group.h"
 #include "server/archive/recording_text.h"
 
 namespace tandem::server {
@@ -80,13 +81,30 @@ int print_chosen(const std::vector<RecordingRow>& rows, bool deleted, bool json)
     return printed(std::string("{\"deleted\": ") + (deleted ? "true" : "false") +
                    ", \"recordings\": " + recordings_json(rows) + "}\n");
   if (rows.empty()) return printed("no recording is to be deleted\n");
-  return printed((deleted ? "deleted:\n" : "would be deleted:\n") + recordings_text(rows) +
+  return printed((deleted ? "deleted:\n" : "would be deleted:\n") + recordings_text(rows, false) +
                  (deleted ? "" : "nothing was deleted: repeat with --yes to delete\n"));
+}
+
+/// Names the files that stay of recordings of which some files are chosen.
+void print_remaining(const std::vector<RecordingRow>& rows, const std::vector<std::size_t>& chosen, bool delete_now) {
+  for (const RecordingGroup& group : group_recordings(rows)) {
+    std::string gone, rest;
+    for (const std::size_t k : group.rows) {
+      std::string& text = std::ranges::find(chosen, k) != chosen.end() ? gone : rest;
+      text += (text.empty() ? "" : ", ") + sanitize(rows[k].file);
+    }
+    if (gone.empty() || rest.empty()) continue;
+    io::print_formatted(stderr,
+                        "%s: only a part of a recording of %zu files. The others %s: %s; name them too to delete the "
+                        "whole recording\n",
+                        gone.c_str(), group.rows.size(), delete_now ? "stay" : "would stay", rest.c_str());
+  }
 }
 
 /// Deletes the chosen recordings with --yes, otherwise prints them. @param reason  of the audit lines
 int delete_chosen(const RecordingsTask& task, OpenIndex& open, const std::vector<std::size_t>& chosen,
                   const char* reason) {
+  print_remaining(open.rows, chosen, task.yes);
   if (!task.yes || chosen.empty()) return print_chosen(picked(open.rows, chosen), false, task.json);
   const std::string why = "nothing was deleted: each deletion needs a line in the audit log of a state folder";
   if (const auto path = auth::server_state_path(task.state); path)
@@ -130,11 +148,18 @@ int show_recordings(const RecordingsTask& task) {
   const auto open = open_index(task.folder);
   if (!open) return print_error(kCommand, open.error());
   io::UsageErrors errors;
-  const std::vector<RecordingRow> rows = picked(open->rows, find_named(open->rows, task.names, errors));
+  const std::vector<std::size_t> named = find_named(open->rows, task.names, errors);
   if (!errors.empty()) return print_usage_errors(kCommand, errors);
-  if (task.json) return printed(recordings_json(rows));
+  if (task.json) return printed(recordings_json(picked(open->rows, named)));
+  const std::vector<RecordingGroup> groups = group_recordings(open->rows);
   std::string text;
-  for (const RecordingRow& row : rows) text += (text.empty() ? "" : "\n") + recording_text(row);
+  for (const std::size_t k : named) {
+    const auto group = std::ranges::find_if(
+        groups, [k](const RecordingGroup& g) { return std::ranges::find(g.rows, k) != g.rows.end(); });
+    std::vector<std::string> files;
+    for (const std::size_t other : group->rows) files.push_back(open->rows[other].file);
+    text += (text.empty() ? "" : "\n") + recording_text(open->rows[k], files, group->problem);
+  }
   return printed(text);
 }
 

@@ -22,6 +22,7 @@ struct RecordingsTask {
   ExportFormat format = ExportFormat::kCsv;
   std::string to, task;
   unsigned fps = 50;
+  bool one_file = false;  ///< --one-file: each named file is a lesson of its own
 };
 
 [[nodiscard]] int list_recordings(const RecordingsTask& task);

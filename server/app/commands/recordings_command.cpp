@@ -16,7 +16,7 @@ namespace {
 struct RecordingsArguments {
   std::string action, dir, state, to, format, fps = "50", task, days, bytes;
   std::vector<std::string> names;
-  bool yes = false, json = false;
+  bool yes = false, json = false, one_file = false, overwrite = false;
 };
 
 /// Names that an action takes.
@@ -72,10 +72,11 @@ void parse_export(const RecordingsArguments& arguments, RecordingsTask& task, io
   if (arguments.to.empty()) {
     errors.add("--to is required: the file, or for a data set the new folder");
   } else {
-    errors.add("--to", PendingPath::problem(arguments.to, set));
+    errors.add("--to", PendingPath::problem(arguments.to, set, arguments.overwrite));
   }
-  if (!set && arguments.names.size() > 1)
-    errors.add("NAME", "csv and hdf5 take one recording, not " + std::to_string(arguments.names.size()));
+  task.one_file = arguments.one_file;
+  if (!set && arguments.one_file && arguments.names.size() > 1)
+    errors.add("NAME", "csv and hdf5 with --one-file take one file, not " + std::to_string(arguments.names.size()));
   std::string fps = arguments.fps;
   const std::string problem = io::whole_number_in(1, kFramesPerSecondMax)(fps);
   errors.add("--fps", problem);
@@ -152,6 +153,11 @@ void add_recordings_command(const io::Command& root) {
   command.add_option("--task", arguments.task, "data sets: subject of the lessons; default: the scene")
       .value_name("TEXT")
       .group("Export");
+  command
+      .add_flag("--one-file", arguments.one_file,
+                "export: only the named files of a recording of several files, each as a lesson")
+      .group("Export");
+  command.add_flag("--overwrite", arguments.overwrite, "export: replaces a file of the name --to").group("Export");
   command.add_option("--days", arguments.days, "retain: recordings that are older are deleted [days]")
       .value_name("N")
       .group("Retention");
@@ -169,7 +175,11 @@ void add_recordings_command(const io::Command& root) {
       "folder, and none\n"
       "happens without it. Files that cannot be read are named and skipped. csv has the columns of --trace; hdf5 has "
       "one dataset per\n"
-      "signal with its unit; a data set for LeRobot has one episode per recording and needs Node.js.\n"
+      "signal with its unit; a data set for LeRobot has one episode per recording and needs Node.js. A long session "
+      "has "
+      "several files,\n"
+      "NAME.mcap, NAME-2.mcap and so on, which are one recording: of a named one, export finds the others in its "
+      "folder.\n"
       "Exit: 0 done; 1 a file or the index cannot be read, written or deleted, or Ctrl-C; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-server recordings list --dir ./recordings\n"

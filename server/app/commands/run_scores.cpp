@@ -8,6 +8,7 @@
 #include "common/io/whole_file.h"
 #include "netsim/score/score_output.h"
 #include "server/archive/app/lesson_file.h"
+#include "server/archive/io/part_files.h"
 
 namespace tandem::server {
 namespace {
@@ -38,8 +39,12 @@ std::string put_scores(const std::string& report, const std::string& scores) {
 }  // namespace
 
 std::string add_scores(const std::string& recording, const std::string& report, bool quiet) {
-  const auto lesson = load_lesson(recording);
-  if (!lesson) return "--scores: " + recording + ": " + lesson.error();
+  const auto parts = find_parts({recording});
+  if (!parts) return "--scores: " + parts.error();
+  std::vector<std::string> files;
+  for (const RecordedPart& part : *parts) files.push_back(part.file);
+  const auto lesson = load_lesson(files);
+  if (!lesson) return "--scores: " + (files.size() > 1 ? "" : recording + ": ") + lesson.error();
   const auto scores = netsim::score::score_lesson(*lesson);
   if (!scores) return "--scores: " + recording + ": " + scores.error();
   if (!quiet) io::print(stdout, netsim::score::main_scores_text(*scores));

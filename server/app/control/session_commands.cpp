@@ -83,6 +83,9 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
       return answer(ErrorReply{ErrorCode::kBadFrame, std::move(problem), 0});
   ShardRequest request{.what = ShardRequest::What::kCommand};
   request.command = {std::move(command), joined.role, seat_of(joined), joined.server_cid};
+  if (entry->registration.recording && !std::holds_alternative<rpc::StatusRequest>(request.command.body))
+    request.command.order =
+        entry->registration.recording->add_order(joined.person.empty() ? workstation.name : joined.person);
   request.done = [this, entry, joined, who, over, name = workstation.name,
                   answer = std::move(answer)](ShardRequest& executed) {
     if (executed.result == JoinResult::kSessionOver) return answer(over);

@@ -186,7 +186,7 @@ void SessionTable::report(const SessionInstance& session, const SessionStatus& s
 void SessionTable::write_audit_events(SessionInstance& session) {
   while (const auto e = session.live_session().audit().take()) {
     if (const auto first = session.live_session().first_tick())
-      session.recording_desk()->add_event(lesson_event(*e, session.options().scene, e->at - *first));
+      session.recording_desk()->add_event(lesson_event(*e, session.options().scene, e->at - *first), e->order);
     if (e->seat == AuditEvent::kControlPlane && e->party == AuditEvent::kNoSeat) continue;
     const auto author = [&registry = control_.registry(), id = session.id(), seat = e->seat, at = e->at] {
       const SessionEntry* const entry = std::as_const(registry).find(id);

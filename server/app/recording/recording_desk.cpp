@@ -37,10 +37,20 @@ std::vector<std::string> RecordingDesk::persons() const {
   return persons_;
 }
 
-void RecordingDesk::add_event(LessonEvent event) {
+std::uint32_t RecordingDesk::add_order(const std::string& person) {
+  const std::lock_guard lock(lock_);
+  if (++order_ == 0) ++order_;  // after 2^32 orders
+  orders_[order_ % kOrdersMax] = {order_, person};
+  return order_;
+}
+
+void RecordingDesk::add_event(LessonEvent event, std::uint32_t order) {
   const std::lock_guard lock(lock_);
   // Without a recording nothing takes the items, and a later one begins with its own.
-  if (status_ && room()) items_.events.push_back(std::move(event));
+  if (!status_ || !room()) return;
+  const auto& [number, person] = orders_[order % kOrdersMax];
+  if (order != 0 && number == order) event.person = named(person);
+  items_.events.push_back(std::move(event));
 }
 
 /// A note has the name in its author's ticket, else the one typed at the page, else the workstation.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -21,6 +22,7 @@ namespace tandem::server {
 class RecordingDesk {
  public:
   static constexpr std::size_t kItemsMax = 4096;  ///< events, marks and sheets that wait; further ones are counted
+  static constexpr std::size_t kOrdersMax = 256;  ///< orders whose persons are known; events come within a second
   static constexpr std::size_t kNamesMax = 1000;  ///< pseudonyms; further participants are P?
 
   /// @param pseudonyms  participants are P1, P2 ... in the order in which they come
@@ -31,8 +33,12 @@ class RecordingDesk {
   [[nodiscard]] std::optional<rpc::StatusRecording> status() const;
   /// A participant has this seat from now on.
   void set_person(std::size_t seat, const std::string& name);
+  /// A person gives an order, whose events may come before or after its outcome.
+  /// @return its number, from 1, for `add_event`
+  [[nodiscard]] std::uint32_t add_order(const std::string& person);
   /// Adds an event of the audit log.
-  void add_event(LessonEvent event);
+  /// @param order  number of the order that it follows from, which names its person; 0: none
+  void add_event(LessonEvent event, std::uint32_t order = 0);
   /// Adds a mark or a sheet. Its JSON has been checked to be an object.
   void add_note(const SessionNote& note);
 
@@ -58,7 +64,9 @@ class RecordingDesk {
   mutable std::mutex lock_;
   std::vector<std::string> persons_;
   bool pseudonyms_;
-  std::map<std::string, std::string> names_;  ///< pseudonym of each participant
+  std::map<std::string, std::string> names_;                              ///< pseudonym of each participant
+  std::array<std::pair<std::uint32_t, std::string>, kOrdersMax> orders_;  ///< number and person, by number
+  std::uint32_t order_ = 0;                                               ///< number of the last one
   Items items_;
   std::optional<rpc::StatusRecording> status_;
 };

@@ -12,7 +12,7 @@
 
 #include "common/io/fd.h"
 #include "proto/recording/lesson_reader.h"
-#include "server/archive/app/recording_file.h"
+#include "server/archive/io/recording_file.h"
 #include "server/archive/summary_reader.h"
 
 namespace tandem::server {
@@ -47,6 +47,21 @@ std::expected<Lesson, std::string> load_lesson(const std::string& path, const Le
   return read_lesson(*bytes, without);
 } catch (const std::bad_alloc&) {
   return std::unexpected(kTooLarge);
+}
+
+std::expected<Lesson, std::string> load_lesson(const std::vector<std::string>& files, const LessonSeatSet& without) {
+  LessonReader reader(without);
+  for (const std::string& file : files) {
+    const std::string name = files.size() > 1 ? file + ": " : std::string();
+    try {
+      const auto bytes = read_all(file);
+      if (!bytes) return std::unexpected(name + bytes.error());
+      if (const auto added = reader.add(*bytes); !added) return std::unexpected(name + added.error());
+    } catch (const std::bad_alloc&) {
+      return std::unexpected(name + kTooLarge);
+    }
+  }
+  return reader.take();
 }
 
 std::expected<RecordingSummary, std::string> load_summary(const std::string& path) try {

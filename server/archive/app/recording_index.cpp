@@ -15,14 +15,16 @@ namespace tandem::server {
 namespace {
 
 constexpr int kBusyMs = 5000;
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;               // 1 had no parts of recordings
 constexpr int kApplication = 0x54644d72;  // "TdMr"; tells this index from other databases
 constexpr mode_t kIndexMode = 0640;
 
 constexpr const char* kTables =
     "CREATE TABLE IF NOT EXISTS recording (file TEXT PRIMARY KEY, bytes INTEGER NOT NULL, modified_ns INTEGER NOT NULL,"
     " problem TEXT NOT NULL, session TEXT NOT NULL, scene TEXT NOT NULL, start_unix_ns INTEGER NOT NULL,"
-    " duration_s REAL NOT NULL, rows INTEGER NOT NULL, missing_ticks INTEGER NOT NULL, complete INTEGER NOT NULL)"
+    " duration_s REAL NOT NULL, rows INTEGER NOT NULL, missing_ticks INTEGER NOT NULL, complete INTEGER NOT NULL,"
+    " session_id TEXT NOT NULL, epoch TEXT NOT NULL, recording TEXT NOT NULL, part INTEGER NOT NULL,"
+    " last INTEGER, previous_file TEXT NOT NULL)"
     " STRICT;"
     "CREATE TABLE IF NOT EXISTS person (file TEXT NOT NULL REFERENCES recording ON DELETE CASCADE, place INTEGER NOT "
     "NULL, name TEXT NOT NULL, part TEXT NOT NULL, PRIMARY KEY (file, place)) STRICT;"
@@ -46,6 +48,11 @@ class Statement {
     sqlite3_bind_int64(statement_, ++bound_, number);
     return *this;
   }
+  Statement& bind(std::optional<bool> flag) {
+    if (flag) return bind(std::int64_t{*flag ? 1 : 0});
+    sqlite3_bind_null(statement_, ++bound_);
+    return *this;
+  }
   Statement& bind(double number) {
     sqlite3_bind_double(statement_, ++bound_, number);
     return *this;
@@ -66,6 +73,11 @@ class Statement {
     return bytes == nullptr ? std::string{} : std::string(bytes, size);
   }
   [[nodiscard]] std::int64_t whole() { return sqlite3_column_int64(statement_, column_++); }
+  [[nodiscard]] std::optional<bool> flag() {
+    const bool known = sqlite3_column_type(statement_, column_) != SQLITE_NULL;
+    const std::int64_t value = whole();
+    return known ? std::optional(value != 0) : std::nullopt;
+  }
   [[nodiscard]] double real() { return sqlite3_column_double(statement_, column_++); }
 
  private:
@@ -132,9 +144,12 @@ std::string RecordingIndex::prepare() {
                                 "PRAGMA secure_delete = ON");
       !problem.empty())
     return problem;
-  if (*objects > 0) return {};
-  const std::string first = "BEGIN IMMEDIATE; PRAGMA application_id = " + std::to_string(kApplication) +
-                            "; PRAGMA user_version = " + std::to_string(kVersion) + "; " + kTables + "COMMIT;";
+  if (*objects > 0 && *version == kVersion) return {};
+  // The rows of an older version are read again from the recordings.
+  const std::string first =
+      "BEGIN IMMEDIATE; DROP TABLE IF EXISTS person; DROP TABLE IF EXISTS recording; "
+      "PRAGMA application_id = " +
+      std::to_string(kApplication) + "; PRAGMA user_version = " + std::to_string(kVersion) + "; " + kTables + "COMMIT;";
   return run(first.c_str());
 }
 
@@ -142,7 +157,8 @@ std::expected<std::vector<RecordingRow>, std::string> RecordingIndex::rows() con
   std::vector<RecordingRow> rows;
   Statement all(database_.get(),
                 "SELECT file, bytes, modified_ns, problem, session, scene, start_unix_ns, duration_s, rows, "
-                "missing_ticks, complete FROM recording ORDER BY file");
+                "missing_ticks, complete, session_id, epoch, recording, part, last, previous_file FROM recording ORDER "
+                "BY file");
   while (all.next()) {
     RecordingRow& row = rows.emplace_back();
     row.file = all.text();
@@ -156,6 +172,13 @@ std::expected<std::vector<RecordingRow>, std::string> RecordingIndex::rows() con
     row.summary.rows = static_cast<std::uint64_t>(all.whole());
     row.summary.missing_ticks = static_cast<std::uint64_t>(all.whole());
     row.summary.complete = all.whole() != 0;
+    RecordedPart& part = row.summary.part;
+    part.session_id = all.text();
+    part.epoch = all.text();
+    part.recording = all.text();
+    part.number = static_cast<unsigned>(all.whole());
+    part.last = all.flag();
+    part.previous_file = all.text();
   }
   if (!all.finished()) return std::unexpected(error());
   for (RecordingRow& row : rows) {
@@ -175,10 +198,12 @@ std::string RecordingIndex::put_content(const RecordingRow& row) {
   const RecordingSummary& s = row.summary;
   Statement remove(database_.get(), "DELETE FROM recording WHERE file = ?");
   if (!remove.bind(row.file).run()) return error();
-  Statement insert(database_.get(), "INSERT INTO recording VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert(database_.get(), "INSERT INTO recording VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(row.file).bind(stored(row.bytes)).bind(row.modified_ns).bind(row.problem).bind(s.session).bind(s.scene);
   insert.bind(s.start_unix_ns).bind(s.duration_s).bind(stored(s.rows)).bind(stored(s.missing_ticks));
-  if (!insert.bind(std::int64_t{s.complete ? 1 : 0}).run()) return error();
+  insert.bind(std::int64_t{s.complete ? 1 : 0}).bind(s.part.session_id).bind(s.part.epoch).bind(s.part.recording);
+  insert.bind(std::int64_t{s.part.number}).bind(s.part.last).bind(s.part.previous_file);
+  if (!insert.run()) return error();
   std::int64_t place = 0;
   for (const RecordedPerson& person : s.persons) {
     Statement add(database_.get(), "INSERT INTO person VALUES (?, ?, ?, ?)");

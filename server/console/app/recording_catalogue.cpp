@@ -10,6 +10,7 @@
 #include "common/transport/digest.h"
 #include "server/archive/app/lesson_file.h"
 #include "server/archive/app/recording_scan.h"
+#include "server/archive/recording_group.h"
 #include "server/console/recording_request.h"
 
 namespace tandem::console {
@@ -23,8 +24,11 @@ std::string id_of(const std::string& name) {
   return to_hex(std::span(digest).first(RecordingRequest::kIdLength / 2));
 }
 
-ListedRecording listed(const server::RecordingRow& row) {
+ListedRecording listed(const std::vector<server::RecordingRow>& rows, const server::RecordingGroup& group) {
+  const server::RecordingRow row = joined_row(rows, group);
   ListedRecording out;
+  out.files = group.rows.size();
+  out.parts_problem = group.problem;
   out.id = id_of(row.file);
   out.file = row.file;
   out.bytes = row.bytes;
@@ -44,7 +48,7 @@ ListedRecording listed(const server::RecordingRow& row) {
 
 RecordingCatalogue::RecordingCatalogue(std::string folder, std::vector<std::string> files)
     : folder_(std::move(folder)), files_(std::move(files)) {
-  for (const std::string& file : files_) known_.emplace(id_of(file), Found{file, file});
+  for (const std::string& file : files_) known_.emplace(id_of(file), Found{{.file = file}, {file}});
 }
 
 RecordingList RecordingCatalogue::list() {
@@ -81,10 +85,7 @@ void RecordingCatalogue::scan(RecordingList& list) {
     list.problem = rows.error();
     return;
   }
-  known_.clear();
-  for (const server::RecordingRow& row : *rows)
-    known_.emplace(id_of(row.file), Found{row.file, folder_ + "/" + row.file});
-  keep(list, std::move(*rows));
+  keep(list, *rows);
 }
 
 void RecordingCatalogue::list_files(RecordingList& list) {
@@ -103,13 +104,22 @@ void RecordingCatalogue::list_files(RecordingList& list) {
   keep(list, file_rows_);
 }
 
-void RecordingCatalogue::keep(RecordingList& list, std::vector<server::RecordingRow> rows) {
+void RecordingCatalogue::keep(RecordingList& list, const std::vector<server::RecordingRow>& rows) {
+  std::vector<server::RecordingGroup> groups = group_recordings(rows);
+  known_.clear();
+  for (const server::RecordingGroup& group : groups) {
+    const std::string& first = rows[group.rows.front()].file;
+    Found found{{first, group.rows.size(), group.problem}, {}};
+    for (const std::size_t k : group.rows)
+      found.paths.push_back(folder_.empty() ? rows[k].file : folder_ + "/" + rows[k].file);
+    known_.emplace(id_of(first), std::move(found));
+  }
   if (!folder_.empty())
-    std::ranges::stable_sort(rows, std::ranges::greater{},
-                             [](const server::RecordingRow& row) { return row.begun_ns(); });
-  list.left_out = rows.size() - std::min(rows.size(), kListedMax);
-  rows.resize(std::min(rows.size(), kListedMax));
-  for (const server::RecordingRow& row : rows) list.recordings.push_back(listed(row));
+    std::ranges::stable_sort(groups, std::ranges::greater{},
+                             [&](const server::RecordingGroup& group) { return rows[group.rows.front()].begun_ns(); });
+  list.left_out = groups.size() - std::min(groups.size(), kListedMax);
+  groups.resize(std::min(groups.size(), kListedMax));
+  for (const server::RecordingGroup& group : groups) list.recordings.push_back(listed(rows, group));
 }
 
 std::optional<RecordingCatalogue::Found> RecordingCatalogue::find(const std::string& id) const {

@@ -12,7 +12,8 @@
 namespace tandem::console {
 
 /// Recordings that a gateway shows: given files, or those of a folder and its subfolders by the index of
-/// `tandem-server recordings`. Each has an id, the digest of its name, by which pages ask for it.
+/// `tandem-server recordings`. The files of a long recording are one. Each has an id, the digest of the name of its
+/// first file, by which pages ask for it.
 class RecordingCatalogue {
  public:
   static constexpr std::size_t kListedMax = 1000;
@@ -25,8 +26,8 @@ class RecordingCatalogue {
   [[nodiscard]] RecordingList list();
 
   struct Found {
-    std::string file;  ///< for display
-    std::string path;
+    RecordingFiles files;            ///< for display
+    std::vector<std::string> paths;  ///< of its files, in their order
   };
   /// Returns a recording by its id; nullopt: there is none. Damaged ones are found, too.
   [[nodiscard]] std::optional<Found> find(const std::string& id) const;
@@ -34,7 +35,7 @@ class RecordingCatalogue {
  private:
   void scan(RecordingList& list);
   void list_files(RecordingList& list);
-  void keep(RecordingList& list, std::vector<server::RecordingRow> rows);
+  void keep(RecordingList& list, const std::vector<server::RecordingRow>& rows);
 
   std::string folder_;
   std::vector<std::string> files_;

@@ -77,7 +77,7 @@ RecordingReply RecordingLibrary::reply_to(const RecordingRequest& request) try {
   Open* const found = open(request.id);
   if (found == nullptr)
     return reply_of(404, problem_json("there is no such recording; load the list of recordings again"));
-  if (!found->recording) return reply_of(422, problem_json(found->file + ": " + found->problem));
+  if (!found->recording) return reply_of(422, problem_json(found->found.files.file + ": " + found->problem));
   switch (request.what) {
     case What::kPiece:
       return piece_of(*found, request.piece);
@@ -103,8 +103,9 @@ RecordingLibrary::Open* RecordingLibrary::open(const std::string& id) {
     found = catalogue_.find(id);
   }
   if (!found) return nullptr;
-  Open fresh{.id = id, .file = found->file, .path = found->path, .recording = {}, .problem = {}, .outline = {}};
-  if (auto recording = OpenRecording::open(found->path, bytes_of(id))) {
+  Open fresh{.id = id, .found = std::move(*found), .recording = {}, .problem = {}, .outline = {}};
+  const bool whole = fresh.found.files.parts_problem.empty();
+  if (auto recording = OpenRecording::open(fresh.found.paths, bytes_of(id), whole)) {
     fresh.recording.emplace(std::move(*recording));
   } else {
     fresh.problem = recording.error();
@@ -138,10 +139,11 @@ void RecordingLibrary::prepare(Open& open) try { open.recording->advance(); } ca
 RecordingReply RecordingLibrary::outline_of(Open& open) {
   const OpenRecording& recording = *open.recording;
   if (!recording.ready()) return reply_of(202, progress_json(recording.progress()));
-  if (recording.outline().empty()) return reply_of(422, problem_json(open.file + ": it has no tick of a session"));
+  if (recording.outline().empty())
+    return reply_of(422, problem_json(open.found.files.file + ": it has no tick of a session"));
   if (!open.outline)
-    open.outline =
-        std::make_shared<const std::string>(gzip(outline_json(recording.outline(), bytes_of(open.id), open.file)));
+    open.outline = std::make_shared<const std::string>(
+        gzip(outline_json(recording.outline(), bytes_of(open.id), open.found.files)));
   return {200, open.outline};
 }
 
@@ -168,7 +170,7 @@ RecordingReply RecordingLibrary::piece_of(Open& open, std::uint32_t number) {
 RecordingReply RecordingLibrary::scores_of(Open& open) {
   const OpenRecording& recording = *open.recording;
   if (!recording.ready()) return outline_of(open);
-  const RecordingScores::Answer answer = scores_.of(open.id, open.path, recording.outline());
+  const RecordingScores::Answer answer = scores_.of(open.id, open.found.paths, recording.outline());
   if (answer.pending) return reply_of(202, progress_json(1));
   return reply_of(answer.problem.empty() ? 200 : 422,
                   answer.problem.empty() ? "{" + answer.members + "}" : problem_json(answer.problem));

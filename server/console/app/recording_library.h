@@ -48,7 +48,8 @@ class RecordingLibrary {
 
  private:
   struct Open {
-    std::string id, file, path;
+    std::string id;
+    RecordingCatalogue::Found found;
     std::optional<OpenRecording> recording;  ///< empty: it cannot be read
     std::string problem;
     std::shared_ptr<const std::string> outline;  ///< compressed; null: not read yet

@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kScorePriority = 19;  // nice value
 
-RecordingScores::Answer computed(const std::string& path, const LessonSeatSet& without) {
-  const auto lesson = server::load_lesson(path, without);
+RecordingScores::Answer computed(const std::vector<std::string>& paths, const LessonSeatSet& without) {
+  const auto lesson = server::load_lesson(paths, without);
   if (!lesson) return {.problem = lesson.error()};
   const auto scores = netsim::score::score_lesson(*lesson);
   if (!scores) return {.problem = scores.error()};
@@ -28,7 +28,7 @@ RecordingScores::Answer computed(const std::string& path, const LessonSeatSet& w
 
 RecordingScores::RecordingScores() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-RecordingScores::Answer RecordingScores::of(const std::string& id, const std::string& path,
+RecordingScores::Answer RecordingScores::of(const std::string& id, const std::vector<std::string>& paths,
                                             const RecordingOutline& outline) {
   const std::uint64_t bytes = outline.lesson_bytes();
   if (bytes > kBytesMax)
@@ -38,7 +38,7 @@ RecordingScores::Answer RecordingScores::of(const std::string& id, const std::st
   const std::lock_guard hold{lock_};
   const auto known = std::ranges::find(rows_, id, &Row::id);
   if (known != rows_.end()) return known->answer.value_or(Answer{.pending = true});
-  rows_.push_front({id, path, outline.seats_without_samples(), false, {}});
+  rows_.push_front({id, paths, outline.seats_without_samples(), false, {}});
   if (rows_.size() > kKept && !rows_.back().taken) rows_.pop_back();
   wake_.notify_one();
   return {.pending = true};
@@ -57,10 +57,11 @@ void RecordingScores::work(const std::stop_token& stop) {
     if (!wake_.wait(hold, stop, [&] { return std::ranges::any_of(rows_, waits); })) return;
     Row& next = *std::ranges::find_if(rows_, waits);
     next.taken = true;
-    const std::string id = next.id, path = next.path;
+    const std::string id = next.id;
+    const std::vector<std::string> paths = next.paths;
     const LessonSeatSet without = next.without;
     hold.unlock();
-    Answer answer = computed(path, without);
+    Answer answer = computed(paths, without);
     hold.lock();
     const auto row = std::ranges::find(rows_, id, &Row::id);
     if (row == rows_.end()) continue;  // forgotten meanwhile

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "server/console/recording_outline.h"
 
@@ -27,16 +28,18 @@ class RecordingScores {
     std::string problem{};  ///< why there are none, and the remedy; empty: there are
   };
   /// Returns the scores, or begins to compute them.
-  [[nodiscard]] Answer of(const std::string& id, const std::string& path, const RecordingOutline& outline);
+  [[nodiscard]] Answer of(const std::string& id, const std::vector<std::string>& paths,
+                          const RecordingOutline& outline);
   /// Forgets the scores of a recording that has changed.
   void forget(const std::string& id);
 
  private:
   struct Row {
-    std::string id, path;
-    LessonSeatSet without;         ///< seats that no participant had: their columns are not read
-    bool taken = false;            ///< the thread computes it
-    std::optional<Answer> answer;  ///< empty: not computed yet
+    std::string id;
+    std::vector<std::string> paths;  ///< of its files, in their order
+    LessonSeatSet without;           ///< seats that no participant had: their columns are not read
+    bool taken = false;              ///< the thread computes it
+    std::optional<Answer> answer;    ///< empty: not computed yet
   };
   void work(const std::stop_token& stop);
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "proto/spec/lesson.h"
+#include "proto/recording/lesson_source.h"
 #include "server/export/io/pending_path.h"
 
 namespace tandem::server {
@@ -11,6 +11,6 @@ namespace tandem::server {
 /// of the same session.
 /// @pre lesson_problem(lesson).empty()
 /// @return the error, empty if the file is complete
-[[nodiscard]] std::string export_csv(const Lesson& lesson, const std::string& file, const ExportProgress& progress);
+[[nodiscard]] std::string export_csv(LessonSource& lesson, const std::string& file, const ExportProgress& progress);
 
 }  // namespace tandem::server

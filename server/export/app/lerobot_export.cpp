@@ -9,6 +9,7 @@
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
 #include "common/io/output_file.h"
+#include "proto/recording/lesson_columns.h"
 #include "server/export/app/parquet_process.h"
 #include "server/export/lerobot_card.h"
 #include "server/export/lesson_records.h"
@@ -63,6 +64,38 @@ std::string layout_difference(const LerobotLayout& a, const LerobotLayout& b) {
   return {};
 }
 
+/// Rows of a lesson around the frames that are written.
+class FrameRows {
+ public:
+  explicit FrameRows(LessonSource& source) : source_(&source) {
+    rows_.scene = source.head().scene;
+    rows_.seats.resize(source.head().seats.size());
+    rows_.tools.resize(source.head().tools.size());
+  }
+
+  /// Reads on until there is a row at this tick or later, or no further row. @return the error of the source
+  [[nodiscard]] std::string read_to(std::uint64_t tick) {
+    while (!ended_ && (rows_.rows() == 0 || rows_.tick.back() < tick)) {
+      const auto piece = source_->next();
+      if (!piece) return piece.error();
+      ended_ = *piece == nullptr;
+      if (!ended_) rec::copy_rows(**piece, 0, (*piece)->rows(), rows_);
+    }
+    return {};
+  }
+  /// Forgets the rows before this tick, but the last of them, whose values a window without rows repeats.
+  void forget_before(std::uint64_t tick) {
+    const auto end = std::ranges::lower_bound(rows_.tick, tick) - rows_.tick.begin();
+    if (end > 1) rec::erase_rows(rows_, static_cast<std::size_t>(end) - 1);
+  }
+  [[nodiscard]] const Lesson& rows() const noexcept { return rows_; }
+
+ private:
+  LessonSource* source_;
+  Lesson rows_;
+  bool ended_ = false;
+};
+
 /// Writes one data set into a folder.
 class LerobotWriter {
  public:
@@ -72,7 +105,7 @@ class LerobotWriter {
   [[nodiscard]] std::string run();
 
  private:
-  [[nodiscard]] std::string add_episode(const Lesson& lesson);
+  [[nodiscard]] std::string add_episode(LessonSource& lesson);
   [[nodiscard]] std::string begin_file(std::int64_t episode, std::int64_t bytes);
   [[nodiscard]] std::string write_meta();
   [[nodiscard]] std::string write_text(const std::string& name, const std::string& text) const;
@@ -117,9 +150,10 @@ std::string LerobotWriter::begin_file(std::int64_t episode, std::int64_t bytes) 
   return parquet_.error();
 }
 
-std::string LerobotWriter::add_episode(const Lesson& lesson) {
+std::string LerobotWriter::add_episode(LessonSource& lesson) {
   const auto episode = static_cast<std::int64_t>(set_.episodes.size());
-  const std::size_t frames = layout_->frames(lesson);
+  const LessonExtent extent = lesson.extent();
+  const std::size_t frames = layout_->frames(extent);
   if (frames == 0)
     return format("it is shorter than one frame: %zu ticks at %u frames per second", layout_->window(), layout_->fps());
   LerobotEpisode made{static_cast<std::int64_t>(frames), set_.frames(), 0, empty_stats()};
@@ -131,15 +165,19 @@ std::string LerobotWriter::add_episode(const Lesson& lesson) {
   made.file = file_;
   ColumnBytes bytes;
   std::vector<double> values;
+  FrameRows rows(lesson);
+  const auto tick_of = [&](std::size_t frame) { return extent.first_tick + std::uint64_t{frame} * layout_->window(); };
   for (std::size_t first = 0; first < frames; first += kFramesAtOnce) {
     const std::size_t count = std::min(kFramesAtOnce, frames - first);
+    if (std::string problem = rows.read_to(tick_of(first + count)); !problem.empty()) return problem;
+    rows.forget_before(tick_of(first));
     bytes.clear();
     for (std::size_t k = 0; k < layout_->features().size(); ++k) {
       const LerobotFeature& feature = layout_->features()[k];
       values.resize(feature.size());
       for (std::size_t frame = first; frame < first + count; ++frame) {
         const auto number = static_cast<std::int64_t>(frame);
-        layout_->fill(lesson, {episode, number, made.from + number}, k, values);
+        layout_->fill(rows.rows(), {episode, number, made.from + number, extent.first_tick}, k, values);
         made.stats[k].add(values);
         total_[k].add(values);
         for (const double value : values) bytes.add(feature.type, value);
@@ -235,8 +273,9 @@ std::string LerobotWriter::run() {
   for (std::size_t e = 0; e < request_->episodes; ++e) {
     const auto lesson = request_->lesson(e);
     if (!lesson) return lesson.error();
-    const std::string named = "episode " + std::to_string(e) + ", session " + sanitize(lesson->session, 60) + ": ";
-    auto layout = LerobotLayout::make(lesson->scene, request_->fps);
+    const Lesson& head = (*lesson)->head();
+    const std::string named = "episode " + std::to_string(e) + ", session " + sanitize(head.session, 60) + ": ";
+    auto layout = LerobotLayout::make(head.scene, request_->fps);
     if (!layout) return named + layout.error();
     if (layout_) {
       if (const std::string other = layout_difference(*layout_, *layout); !other.empty())
@@ -244,9 +283,9 @@ std::string LerobotWriter::run() {
     } else {
       layout_ = std::move(*layout);
       total_ = empty_stats();
-      set_.task = request_->task.empty() ? "scene " + lesson->scene.name : request_->task;
+      set_.task = request_->task.empty() ? "scene " + head.scene.name : request_->task;
     }
-    const std::string problem = add_episode(*lesson);
+    const std::string problem = add_episode(**lesson);
     if (!problem.empty()) return problem == kExportInterrupted ? problem : named + problem;
   }
   parquet_.end();

@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <expected>
 #include <functional>
+#include <memory>
 #include <string>
 
-#include "proto/spec/lesson.h"
+#include "proto/recording/lesson_source.h"
 #include "server/export/io/pending_path.h"
 #include "server/export/lerobot_meta.h"
 
@@ -17,8 +18,8 @@ struct LerobotRequest {
   unsigned fps = 50;
   std::string task;          ///< subject of the lessons; empty: named after the scene of the first one
   std::size_t episodes = 0;  ///< at least 1
-  /// Reads one lesson, in order. @return the lesson, or the error with the name of its file
-  std::function<std::expected<Lesson, std::string>(std::size_t episode)> lesson;
+  /// Opens one lesson, in order, which has a row. @return the lesson, or the error with the name of its file
+  std::function<std::expected<std::unique_ptr<LessonSource>, std::string>(std::size_t episode)> lesson;
 };
 
 /// Writes a data set into a new folder: `meta`, `data`, and `README.md` for the users of the data. All lessons must

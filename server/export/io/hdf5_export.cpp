@@ -1,5 +1,6 @@
 #include "server/export/io/hdf5_export.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "server/export/io/hdf5_file.h"
@@ -17,21 +18,72 @@ void describe(Hdf5File& file, const std::string& path, const std::string& unit, 
   file.attribute(path, "description", description);
 }
 
-void write_signal(Hdf5File& file, const LessonSignal& signal, std::size_t rows) {
-  const std::string path = "/" + signal.group + "/" + signal.name;
-  const std::size_t width = signal.width();
-  const auto fill = [width](const auto& source) {
-    return [&source, width](std::size_t first, std::size_t count, auto to) {
-      for (std::size_t k = 0; k < count; ++k) source(first + k, to.subspan(k * width, width));
-    };
-  };
-  if (signal.real) {
-    file.real(path, rows, signal.columns.size(), fill(signal.real));
-  } else {
-    file.whole(path, rows, signal.columns.size(), fill(signal.whole));
+/// The datasets of the signals, which grow as the rows come.
+class SignalDatasets {
+ public:
+  /// @param rows  of the whole lesson
+  SignalDatasets(Hdf5File& file, const std::vector<LessonSignal>& signals, std::size_t rows) : file_(&file) {
+    for (const LessonSignal& signal : signals) {
+      const std::string path = "/" + signal.group + "/" + signal.name;
+      reals_.push_back(signal.real ? file.begin_real(path, rows, signal.columns.size()) : Hdf5File::Dataset<double>{});
+      wholes_.push_back(signal.real ? Hdf5File::Dataset<std::int64_t>{}
+                                    : file.begin_whole(path, rows, signal.columns.size()));
+      describe(file, path, signal.unit, signal.frame, signal.description);
+      if (!signal.columns.empty()) file.attribute(path, "columns", signal.columns);
+    }
   }
-  describe(file, path, signal.unit, signal.frame, signal.description);
-  if (!signal.columns.empty()) file.attribute(path, "columns", signal.columns);
+
+  /// Writes the next rows of signal `k`.
+  /// @param first  number of the first of them in the whole lesson
+  void put(std::size_t k, const LessonSignal& signal, std::size_t first, std::size_t rows) {
+    if (signal.real) {
+      put(reals_[k], signal.real, signal.width(), first, rows, real_);
+    } else {
+      put(wholes_[k], signal.whole, signal.width(), first, rows, whole_);
+    }
+  }
+
+ private:
+  template <class Number, class Source>
+  void put(Hdf5File::Dataset<Number> to, const Source& source, std::size_t width, std::size_t first, std::size_t rows,
+           std::vector<Number>& buffer) {
+    for (std::size_t begin = 0; begin < rows && file_->error().empty(); begin += Hdf5File::kChunkRows) {
+      const std::size_t count = std::min(Hdf5File::kChunkRows, rows - begin);
+      buffer.resize(count * width);
+      for (std::size_t row = 0; row < count; ++row) source(begin + row, std::span(buffer).subspan(row * width, width));
+      file_->put(to, first + begin, count, std::span<const Number>(buffer));
+    }
+  }
+
+  Hdf5File* file_;
+  std::vector<Hdf5File::Dataset<double>> reals_;
+  std::vector<Hdf5File::Dataset<std::int64_t>> wholes_;
+  std::vector<double> real_;
+  std::vector<std::int64_t> whole_;
+};
+
+/// Writes all rows. @return the error of the source, or of the user's end; errors of the file are in the file
+std::string write_rows(Hdf5File& file, LessonSource& lesson, GapFinder& gaps, const ExportProgress& progress) {
+  const std::size_t all = lesson.extent().rows;
+  SignalDatasets datasets(file, signals_of(lesson.head()), all);
+  std::size_t done = 0;
+  while (file.error().empty()) {
+    const auto piece = lesson.next();
+    if (!piece) return piece.error();
+    if (*piece == nullptr) break;
+    const Lesson& rows = **piece;
+    gaps.add(rows);
+    const std::vector<LessonSignal> signals = signals_of(rows);
+    for (std::size_t k = 0; k < signals.size() && file.error().empty(); ++k) {
+      datasets.put(k, signals[k], done, rows.rows());
+      const double of_piece = static_cast<double>(k + 1) / static_cast<double>(signals.size());
+      if (!progress((static_cast<double>(done) + of_piece * static_cast<double>(rows.rows())) /
+                    static_cast<double>(all)))
+        return kExportInterrupted;
+    }
+    done += rows.rows();
+  }
+  return {};
 }
 
 /// One dataset with one number per element of a list.
@@ -59,8 +111,7 @@ void write_texts(Hdf5File& file, const std::string& path, const char* descriptio
   file.attribute(path, "description", std::string(description));
 }
 
-void write_gaps(Hdf5File& file, const Lesson& lesson) {
-  const std::vector<LessonGap> gaps = gaps_of(lesson);
+void write_gaps(Hdf5File& file, const std::vector<LessonGap>& gaps) {
   file.whole("/gaps", gaps.size(), 2, [&gaps](std::size_t first, std::size_t count, std::span<std::int64_t> to) {
     for (std::size_t k = 0; k < count; ++k) {
       to[2 * k] = gaps[first + k].first;
@@ -103,6 +154,8 @@ void write_notes(Hdf5File& file, const Lesson& lesson) {
   write_texts(file, "/events/what", "word of the audit log", lesson.events, [](const auto& e) { return e.what; });
   write_texts(file, "/events/seat", "name of the seat, or empty", lesson.events, [](const auto& e) { return e.seat; });
   write_texts(file, "/events/text", "line for users", lesson.events, [](const auto& e) { return e.text; });
+  write_texts(file, "/events/person", "person that gave the order at a console, or empty", lesson.events,
+              [](const auto& e) { return e.person; });
   write_column(file, "/marks/time", "s", "session time", lesson.marks, [](const LessonMark& m) { return m.t_s; });
   write_texts(file, "/marks/by", "author", lesson.marks, [](const auto& m) { return m.by; });
   write_texts(file, "/marks/text", "text of the mark", lesson.marks, [](const auto& m) { return m.text; });
@@ -155,20 +208,18 @@ void write_groups(Hdf5File& file, const Lesson& lesson) {
 
 }  // namespace
 
-std::string export_hdf5(const Lesson& lesson, const std::string& file, const ExportProgress& progress) {
+std::string export_hdf5(LessonSource& lesson, const std::string& file, const ExportProgress& progress) {
   PendingPath pending(file);
   Hdf5File out(pending.path());
-  write_metadata(out, lesson);
-  write_groups(out, lesson);
-  const std::vector<LessonSignal> signals = signals_of(lesson);
-  for (std::size_t k = 0; k < signals.size() && out.error().empty(); ++k) {
-    write_signal(out, signals[k], lesson.rows());
-    if (!progress(static_cast<double>(k + 1) / static_cast<double>(signals.size()))) return kExportInterrupted;
-  }
-  write_gaps(out, lesson);
-  write_links(out, lesson);
-  write_notes(out, lesson);
-  write_counts(out, lesson);
+  const Lesson& head = lesson.head();
+  write_metadata(out, head);
+  write_groups(out, head);
+  GapFinder gaps;
+  if (std::string problem = write_rows(out, lesson, gaps, progress); !problem.empty()) return problem;
+  write_gaps(out, gaps.gaps());
+  write_links(out, head);
+  write_notes(out, head);
+  write_counts(out, head);
   if (std::string problem = out.close(); !problem.empty()) return problem;
   return pending.commit();
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "proto/spec/lesson.h"
+#include "proto/recording/lesson_source.h"
 #include "server/export/io/pending_path.h"
 
 namespace tandem::server {
@@ -19,6 +19,6 @@ inline constexpr double kMillisecondsPerSecond = 1e3, kPercent = 100;
 /// are attributes of the root and of the group `metadata`.
 /// @pre lesson_problem(lesson).empty()
 /// @return the error, empty if the file is complete
-[[nodiscard]] std::string export_hdf5(const Lesson& lesson, const std::string& file, const ExportProgress& progress);
+[[nodiscard]] std::string export_hdf5(LessonSource& lesson, const std::string& file, const ExportProgress& progress);
 
 }  // namespace tandem::server

@@ -45,6 +45,16 @@ hid_t memory_type() {
 
 }  // namespace
 
+/// Identifiers of an open dataset.
+struct Hdf5File::Open {
+  Open(std::string name, std::size_t columns, hid_t space_id, hid_t data_id)
+      : path(std::move(name)), width(columns), space(space_id, h5().H5Sclose), data(data_id, h5().H5Dclose) {}
+
+  std::string path;
+  std::size_t width;  ///< columns; 0: the dataset is a list of numbers
+  Hdf5Id space, data;
+};
+
 Hdf5File::Hdf5File(const std::string& path) : path_(path) {
   if (const auto& library = Hdf5Library::load(); !library) {
     error_ = library.error();
@@ -55,6 +65,7 @@ Hdf5File::Hdf5File(const std::string& path) : path_(path) {
 }
 
 Hdf5File::~Hdf5File() {
+  datasets_.clear();
   if (file_ >= 0) h5().H5Fclose(file_);
 }
 
@@ -71,37 +82,71 @@ void Hdf5File::group(const std::string& path) {
 }
 
 template <class Number>
-void Hdf5File::matrix(const std::string& path, std::size_t rows, std::size_t columns, const Source<Number>& source) {
-  if (!error_.empty()) return;
+std::unique_ptr<Hdf5File::Open> Hdf5File::create(const std::string& path, std::size_t rows, std::size_t columns) {
   const int rank = columns > 0 ? 2 : 1;
-  const std::size_t width = std::max<std::size_t>(columns, 1);
   const std::array<hsize_t, 2> size{rows, columns};
   const std::array<hsize_t, 2> chunk{std::min(std::max<std::size_t>(rows, 1), kChunkRows), columns};
-  const Hdf5Id space(h5().H5Screate_simple(rank, size.data(), nullptr), h5().H5Sclose);
   const Hdf5Id settings(h5().H5Pcreate(h5().dataset_create), h5().H5Pclose);
   if (rows > 0 && (h5().H5Pset_chunk(settings.get(), rank, chunk.data()) < 0 ||
                    h5().H5Pset_shuffle(settings.get()) < 0 || h5().H5Pset_deflate(settings.get(), 1) < 0)) {
     failed(true, path);
-    return;
+    return nullptr;
   }
-  Hdf5Id data(h5().H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space.get(), H5P_DEFAULT, settings.get(),
-                              H5P_DEFAULT),
-              h5().H5Dclose);
-  if (failed(!data.good(), path)) return;
+  const hid_t space = h5().H5Screate_simple(rank, size.data(), nullptr);
+  auto made = std::make_unique<Open>(
+      path, columns, space,
+      h5().H5Dcreate2(file_, path.c_str(), stored_type<Number>(), space, H5P_DEFAULT, settings.get(), H5P_DEFAULT));
+  return failed(!made->data.good(), path) ? nullptr : std::move(made);
+}
+
+template <class Number>
+void Hdf5File::write(Open& data, std::size_t first, std::size_t count, std::span<const Number> numbers) {
+  const int rank = data.width > 0 ? 2 : 1;
+  const std::array<hsize_t, 2> start{first, 0}, block{count, data.width};
+  const Hdf5Id part(h5().H5Screate_simple(rank, block.data(), nullptr), h5().H5Sclose);
+  failed(h5().H5Sselect_hyperslab(data.space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) < 0 ||
+             h5().H5Dwrite(data.data.get(), memory_type<Number>(), part.get(), data.space.get(), H5P_DEFAULT,
+                           numbers.data()) < 0,
+         data.path);
+}
+
+template <class Number>
+void Hdf5File::matrix(const std::string& path, std::size_t rows, std::size_t columns, const Source<Number>& source) {
+  if (!error_.empty()) return;
+  const auto data = create<Number>(path, rows, columns);
+  if (data == nullptr) return;
   std::vector<Number> buffer;
-  for (std::size_t first = 0; first < rows; first += kChunkRows) {
+  for (std::size_t first = 0; first < rows && error_.empty(); first += kChunkRows) {
     const std::size_t count = std::min(kChunkRows, rows - first);
-    buffer.resize(count * width);
+    buffer.resize(count * std::max<std::size_t>(columns, 1));
     source(first, count, buffer);
-    const std::array<hsize_t, 2> start{first, 0}, block{count, columns};
-    const Hdf5Id part(h5().H5Screate_simple(rank, block.data(), nullptr), h5().H5Sclose);
-    h5().H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
-    if (failed(
-            h5().H5Dwrite(data.get(), memory_type<Number>(), part.get(), space.get(), H5P_DEFAULT, buffer.data()) < 0,
-            path))
-      return;
+    write<Number>(*data, first, count, buffer);
   }
-  failed(data.close_fails(), path);
+  failed(data->data.close_fails(), path);
+}
+
+template <class Number>
+Hdf5File::Dataset<Number> Hdf5File::begin(const std::string& path, std::size_t rows, std::size_t columns) {
+  if (error_.empty())
+    if (auto made = create<Number>(path, rows, columns); made != nullptr) datasets_.push_back(std::move(made));
+  return {datasets_.size() - 1};
+}
+
+Hdf5File::Dataset<double> Hdf5File::begin_real(const std::string& path, std::size_t rows, std::size_t columns) {
+  return begin<double>(path, rows, columns);
+}
+
+Hdf5File::Dataset<std::int64_t> Hdf5File::begin_whole(const std::string& path, std::size_t rows, std::size_t columns) {
+  return begin<std::int64_t>(path, rows, columns);
+}
+
+void Hdf5File::put(Dataset<double> to, std::size_t first, std::size_t count, std::span<const double> numbers) {
+  if (error_.empty()) write(*datasets_[to.number], first, count, numbers);
+}
+
+void Hdf5File::put(Dataset<std::int64_t> to, std::size_t first, std::size_t count,
+                   std::span<const std::int64_t> numbers) {
+  if (error_.empty()) write(*datasets_[to.number], first, count, numbers);
 }
 
 void Hdf5File::real(const std::string& path, std::size_t rows, std::size_t columns, const Source<double>& source) {
@@ -187,6 +232,8 @@ void Hdf5File::attribute(const std::string& path, const std::string& name, std::
 }
 
 std::string Hdf5File::close() {
+  for (const auto& data : datasets_) failed(data->data.close_fails(), data->path);
+  datasets_.clear();
   if (file_ >= 0) failed(h5().H5Fclose(std::exchange(file_, -1)) < 0, "");
   return error_;
 }

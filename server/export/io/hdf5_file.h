@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,20 @@ class Hdf5File {
   /// Writes a dataset of `rows` numbers, or of `rows` times `columns` numbers if `columns` > 0; compressed losslessly.
   void real(const std::string& path, std::size_t rows, std::size_t columns, const Source<double>& source);
   void whole(const std::string& path, std::size_t rows, std::size_t columns, const Source<std::int64_t>& source);
+
+  /// A dataset that is written piece by piece; its number in the file.
+  template <class Number>
+  struct Dataset {
+    std::size_t number = 0;
+  };
+  /// Begins a dataset of `rows` times `columns` numbers as above. It is open, with a cache of at most 1 MiB, until
+  /// `close`.
+  [[nodiscard]] Dataset<double> begin_real(const std::string& path, std::size_t rows, std::size_t columns);
+  [[nodiscard]] Dataset<std::int64_t> begin_whole(const std::string& path, std::size_t rows, std::size_t columns);
+  /// Writes rows [first, first + count). @pre the dataset has them
+  void put(Dataset<double> to, std::size_t first, std::size_t count, std::span<const double> numbers);
+  void put(Dataset<std::int64_t> to, std::size_t first, std::size_t count, std::span<const std::int64_t> numbers);
+
   /// Writes a list of texts as bytes of UTF-8, each as long as the longest, filled up with zeros.
   void texts(const std::string& path, const std::vector<std::string>& texts);
 
@@ -46,6 +61,13 @@ class Hdf5File {
   [[nodiscard]] std::string close();
 
  private:
+  struct Open;  ///< a dataset that is open
+  template <class Number>
+  [[nodiscard]] std::unique_ptr<Open> create(const std::string& path, std::size_t rows, std::size_t columns);
+  template <class Number>
+  void write(Open& data, std::size_t first, std::size_t count, std::span<const Number> numbers);
+  template <class Number>
+  [[nodiscard]] Dataset<Number> begin(const std::string& path, std::size_t rows, std::size_t columns);
   template <class Number>
   void matrix(const std::string& path, std::size_t rows, std::size_t columns, const Source<Number>& source);
   template <class Value>
@@ -55,6 +77,7 @@ class Hdf5File {
 
   std::string path_, error_;
   std::int64_t file_ = -1;  ///< hid_t
+  std::vector<std::unique_ptr<Open>> datasets_;
 };
 
 }  // namespace tandem::server

@@ -56,7 +56,7 @@ PendingPath::~PendingPath() {
   fs::remove_all(path_, ignored);
 }
 
-std::string PendingPath::problem(const std::string& target, bool folder) {
+std::string PendingPath::problem(const std::string& target, bool folder, bool replace) {
   if (target.empty()) return "a name is needed";
   std::error_code error;
   const fs::path path = without_slash(target);
@@ -67,6 +67,8 @@ std::string PendingPath::problem(const std::string& target, bool folder) {
     }
   } else if (fs::is_directory(path, error)) {
     return target + " is a folder; name a file";
+  } else if (!replace && fs::exists(path, error)) {
+    return target + " exists already; choose another name, or replace it with --overwrite";
   }
   const fs::path parent = parent_of(path.string());
   if (!fs::is_directory(parent, error)) return target + " cannot be written: there is no folder " + parent.string();

@@ -21,7 +21,8 @@ class PendingPath {
   PendingPath& operator=(const PendingPath&) = delete;
 
   /// Returns why the target could not be written, such as a folder with other files in it; empty: it could.
-  [[nodiscard]] static std::string problem(const std::string& target, bool folder);
+  /// @param replace  a file of that name may be replaced
+  [[nodiscard]] static std::string problem(const std::string& target, bool folder, bool replace);
   /// The temporary name.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// Puts the data on disk and renames. A file of that name is replaced, a folder only if it is empty.

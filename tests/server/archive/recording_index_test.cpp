@@ -46,7 +46,21 @@ ScanReport scan(const test::Folder& folder, RecordingIndex& index) {
 TEST(RecordingIndex, KeepsRowsBetweenProcesses) {
   const test::Folder folder;
   RecordingRow row{"a.mcap", 12, 34, "", {}};
-  row.summary = {"session", "scene", -5, 1.25, 1ULL << 40, 3, false, {{"Ada", "trainee"}, {"Ada", "notes"}}};
+  row.summary = {"session",
+                 "scene",
+                 -5,
+                 1.25,
+                 1ULL << 40,
+                 3,
+                 false,
+                 {{"Ada", "trainee"}, {"Ada", "notes"}},
+                 {.file = "",
+                  .session_id = "5",
+                  .epoch = "7",
+                  .recording = "lab",
+                  .number = 3,
+                  .last = false,
+                  .previous_file = "lab-2.mcap"}};
   EXPECT_EQ(open(folder).put(row), "");
   EXPECT_EQ(open(folder).put({"B.mcap", 1, 2, "it is damaged", {}}), "");
   auto index = open(folder);
@@ -63,6 +77,21 @@ TEST(RecordingIndex, KeepsRowsBetweenProcesses) {
   struct stat facts{};
   ASSERT_EQ(stat(folder.file(RecordingIndex::kFile).c_str(), &facts), 0);
   EXPECT_EQ(facts.st_mode & 07, 0u) << "names of persons are not for other users";
+}
+
+TEST(RecordingIndex, OfAnOlderVersionIsMadeAgain) {
+  const test::Folder folder;
+  EXPECT_EQ(open(folder).put({"a.mcap", 1, 2, "it is damaged", {}}), "");
+  test::Process older({"/usr/bin/python3", "-c",
+                       "import sqlite3, sys; d = sqlite3.connect(sys.argv[1]); "
+                       "d.execute('ALTER TABLE recording DROP COLUMN previous_file'); "
+                       "d.execute('PRAGMA user_version = 1'); d.commit()",
+                       folder.file(RecordingIndex::kFile)});
+  if (older.wait() != 0) GTEST_SKIP() << "python3 has no module sqlite3";
+  auto index = open(folder);
+  EXPECT_TRUE(index.rows().value().empty()) << "the next scan reads the files";
+  EXPECT_EQ(index.put({"a.mcap", 1, 2, "it is damaged", {}}), "");
+  EXPECT_EQ(open(folder).rows().value().size(), 1u);
 }
 
 TEST(RecordingIndex, RefusesForeignAndDamagedFilesWithARemedy) {

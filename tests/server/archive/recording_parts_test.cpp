@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 
+#include "common/base/raw_bytes.h"
 #include "common/base/rng.h"
+#include "common/mcap/mcap_writer.h"
+#include "common/mcap/message_cursor.h"
 #include "proto/recording/lesson_reader.h"
 #include "server/archive/summary_reader.h"
 #include "tests/support/recorded_bytes.h"
@@ -47,6 +51,61 @@ TEST(RecordingParts, TogetherAreTheWholeRecording) {
   }
   EXPECT_EQ(ticks, whole->tick);
   EXPECT_EQ(read_summary(*parts, read), summary_of(*whole));
+}
+
+/// A recording with every message in a chunk of its own, so that chunks end within ticks. At every third tick, the
+/// message of each channel repeats the one before, so that some samples are not fresh.
+std::vector<std::byte> with_a_chunk_per_message(const std::vector<std::byte>& bytes) {
+  const auto reader = mcap::Reader::open(bytes);
+  mcap::MessageCursor cursor{*reader};
+  mcap::Writer writer{reader->profile(), "test"};
+  for (const mcap::Metadata& metadata : reader->metadata()) writer.add_metadata(metadata);
+  for (const mcap::Channel& channel : cursor.channels())
+    writer.add_channel(channel.topic, 0, channel.message_encoding, channel.metadata);
+  std::map<std::uint16_t, std::string> last;
+  while (const auto message = cursor.next()) {
+    std::string& data = last[message->channel];
+    if (data.empty() || message->sequence % 3 != 0) data = text_of(message->data);
+    writer.add_message(message->channel, message->sequence, message->log_time, data);
+    writer.close_chunk();
+  }
+  writer.finish();
+  const std::string text = writer.take();
+  const auto all = bytes_of(text);
+  return {all.begin(), all.end()};
+}
+
+TEST(RecordingParts, AreTheWholeLessonWhenRowsAreTakenBetweenThem) {
+  const auto bytes = with_a_chunk_per_message(recorded_bytes("contact", 0.2));
+  const auto read = reader_of(bytes);
+  const auto parts = RecordingParts::find(read, bytes.size());
+  ASSERT_TRUE(parts) << parts.error();
+  const auto whole = read_lesson(bytes);
+  ASSERT_TRUE(whole) << whole.error();
+  ASSERT_GT(parts->size(), 3 * whole->rows()) << "ticks have several chunks";
+  LessonReader reader;
+  ASSERT_TRUE(reader.begin_file(parts->piece(read, 0, 0), bytes.size()));
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < parts->size(); ++i) {
+    reader.add_piece(parts->piece(read, i, i + 1));
+    const Lesson rows = reader.take_rows(i + 1 == parts->size());
+    for (std::size_t k = 0; k < rows.rows(); ++k, ++row) {
+      ASSERT_EQ(rows.tick[k], whole->tick[row]);
+      for (std::size_t seat = 0; seat < 2; ++seat) {
+        ASSERT_EQ(rows.seats[seat].fresh[k], whole->seats[seat].fresh[row]) << "row " << row;
+        ASSERT_EQ(rows.seats[seat].sample_tick[k], whole->seats[seat].sample_tick[row]) << "row " << row;
+        ASSERT_EQ(rows.seats[seat].x[k], whole->seats[seat].x[row]);
+      }
+      ASSERT_EQ(rows.tools[0].x[k], whole->tools[0].x[row]);
+    }
+  }
+  reader.end_file(parts->complete());
+  EXPECT_EQ(row, whole->rows());
+  EXPECT_LT(std::ranges::count(whole->seats[0].fresh, 1), static_cast<std::ptrdiff_t>(row)) << "some are repeated";
+  const Lesson head = reader.take();
+  EXPECT_EQ(head.rows(), 0u);
+  EXPECT_EQ(head.complete, whole->complete);
+  EXPECT_EQ(head.events.size(), whole->events.size());
 }
 
 TEST(RecordingParts, OfACutFileEndBeforeTheCut) {

@@ -173,11 +173,16 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
   start.seats[0].person = "ina";
   RecordingOutline outline(start);
   Lesson part = rows({0, 350});
-  part.events = {{350, 0, "stop", "trainer", "stop \x01 of trainer"}, {350, 0, "authority", "", "timeline tick 350"}};
+  part.events = {{350, 0, "stop", "trainer", "stop \x01 of trainer"},
+                 {350, 0, "authority", "", "timeline tick 350"},
+                 {350, 0, "pause", "", "console tick 350", "ola"}};
   part.marks = {{0.2, "eva", "now"}};
   EXPECT_TRUE(outline.add(part));
   outline.finish(false);
-  const json message = json::parse(outline_json(outline, rpc::Id{std::byte{0xab}}, "a.mcap"));
+  const json message = json::parse(outline_json(outline, rpc::Id{std::byte{0xab}}, {"a.mcap", 3, "part 2 is missing"}));
+  EXPECT_EQ(message["file"], "a.mcap");
+  EXPECT_EQ(message["files"], 3);
+  EXPECT_EQ(message["parts_problem"], "part 2 is missing");
   EXPECT_EQ(message["id"], "ab" + std::string(30, '0'));
   EXPECT_EQ(message["scene"]["type"], "scene");
   EXPECT_EQ(message["scene"]["session"], message["id"]);
@@ -190,6 +195,7 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
   EXPECT_EQ(message["events"][0]["person"], "ina");
   EXPECT_EQ(message["events"][1]["seat"], "") << "no seat gave this event";
   EXPECT_EQ(message["events"][1]["person"], "");
+  EXPECT_EQ(message["events"][2]["person"], "ola") << "the order of a console";
   EXPECT_EQ(message["marks"][0]["person"], "eva");
   const json& curve = message["curves"]["seats"][0]["force"];
   EXPECT_EQ(curve[0], 5);
@@ -198,12 +204,16 @@ TEST(RecordingJson, HasNoNumberForWhatIsNotKnown) {
 
 TEST(RecordingJson, ListsDamagedFilesWithTheirProblemOnly) {
   RecordingList list;
-  list.recordings = {{.id = "1", .file = "a.mcap", .problem = "is cut \xff"}, {.id = "2", .file = "b.mcap"}};
+  list.recordings = {{.id = "1", .file = "a.mcap", .problem = "is cut \xff"},
+                     {.id = "2", .file = "b.mcap", .files = 2, .parts_problem = "part 1 is missing"}};
   list.recordings[1].persons = {"Ada"};
   const json message = json::parse(list_json(list));
   EXPECT_TRUE(message["recordings"][0]["problem"].is_string());
   EXPECT_FALSE(message["recordings"][0].contains("session"));
   EXPECT_TRUE(message["recordings"][1]["problem"].is_null());
+  EXPECT_TRUE(message["recordings"][0]["parts_problem"].is_null());
+  EXPECT_EQ(message["recordings"][1]["files"], 2);
+  EXPECT_EQ(message["recordings"][1]["parts_problem"], "part 1 is missing");
   EXPECT_TRUE(message["recordings"][1]["start_s"].is_null()) << "not known";
 }
 

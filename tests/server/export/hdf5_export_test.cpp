@@ -21,6 +21,12 @@ using test::Process;
 
 constexpr auto kGoOn = [](double) { return true; };
 
+/// Exports a lesson in memory.
+std::string export_hdf5(const Lesson& lesson, const std::string& file, const ExportProgress& progress) {
+  WholeLesson whole(lesson);
+  return server::export_hdf5(whole, file, progress);
+}
+
 /// A lesson with a gap, a link, an event, a mark, a sheet and counts.
 Lesson full_lesson() {
   Lesson lesson = test::lesson_of("contact", 6).lesson;

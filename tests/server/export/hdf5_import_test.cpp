@@ -20,6 +20,12 @@ namespace tandem::server {
 namespace {
 
 constexpr auto kGoOn = [](double) { return true; };
+
+/// Exports a lesson in memory.
+std::string export_hdf5(const Lesson& lesson, const std::string& file, const ExportProgress& progress) {
+  WholeLesson whole(lesson);
+  return server::export_hdf5(whole, file, progress);
+}
 constexpr const char* kNoLibrary = "libhdf5 is not installed (apt install " TANDEM_HDF5_PACKAGE ")";
 
 /// A lesson with a gap, links, an event, a mark, a sheet, counts and a scheduled end of its own.

@@ -27,7 +27,9 @@ LerobotRequest request_of(LerobotVersion version, const std::vector<Lesson>& les
   LerobotRequest request;
   request.version = version;
   request.episodes = lessons.size();
-  request.lesson = [&lessons](std::size_t episode) { return std::expected<Lesson, std::string>(lessons[episode]); };
+  request.lesson = [&lessons](std::size_t episode) -> std::expected<std::unique_ptr<LessonSource>, std::string> {
+    return std::make_unique<WholeLesson>(lessons[episode]);
+  };
   return request;
 }
 

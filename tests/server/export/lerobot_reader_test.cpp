@@ -44,20 +44,22 @@ std::string write_set(LerobotVersion version, const std::vector<Lesson>& lessons
   request.version = version;
   request.task = "follow the circle";
   request.episodes = lessons.size();
-  request.lesson = [&lessons](std::size_t episode) { return std::expected<Lesson, std::string>(lessons[episode]); };
+  request.lesson = [&lessons](std::size_t episode) -> std::expected<std::unique_ptr<LessonSource>, std::string> {
+    return std::make_unique<WholeLesson>(lessons[episode]);
+  };
   return export_lerobot(request, folder, [](double) { return true; });
 }
 
 /// Compares the rows of one episode with its lesson. @param first  number of its first frame in the data set
 void expect_episode(const Json& rows, const Lesson& lesson, std::int64_t episode, std::int64_t first) {
   const auto layout = LerobotLayout::make(lesson.scene, 50).value();
-  const auto frames = static_cast<std::int64_t>(layout.frames(lesson));
+  const auto frames = static_cast<std::int64_t>(layout.frames(extent_of(lesson)));
   std::size_t unknown = 0;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
     for (std::size_t k = 0; k < layout.features().size(); ++k) {
       const LerobotFeature& feature = layout.features()[k];
       std::vector<double> expected(feature.size());
-      layout.fill(lesson, {episode, frame, first + frame}, k, expected);
+      layout.fill(lesson, {episode, frame, first + frame, lesson.tick.front()}, k, expected);
       Json value = rows.at(static_cast<std::size_t>(frame)).at(feature.name);
       if (feature.shape.size() == 2) {
         ASSERT_EQ(value.size(), feature.shape[0]) << feature.name;

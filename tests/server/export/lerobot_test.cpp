@@ -49,7 +49,7 @@ std::vector<double> values(const LerobotLayout& layout, const Lesson& lesson, st
                            const std::string& name) {
   const std::size_t k = number_of(layout, name);
   std::vector<double> out(layout.features()[k].size());
-  layout.fill(lesson, {3, frame, 100 + frame}, k, out);
+  layout.fill(lesson, {3, frame, 100 + frame, lesson.tick.front()}, k, out);
   return out;
 }
 
@@ -65,7 +65,7 @@ TEST(LerobotLayout, TakesTheNewestRowOfEachWindow) {
   const Lesson lesson = lesson_at(ticks(40, 40 + 65));
   const auto layout = LerobotLayout::make(lesson.scene, 50).value();
   EXPECT_EQ(layout.window(), 20u);
-  EXPECT_EQ(layout.frames(lesson), 3u) << "the last five ticks are no whole frame";
+  EXPECT_EQ(layout.frames(extent_of(lesson)), 3u) << "the last five ticks are no whole frame";
   const std::string seat = lesson.scene.seats[0].name, tool = lesson.scene.tools[0].name;
   const std::size_t x = column(layout, "observation.state", seat + ".measured_cp.x[m]");
   EXPECT_EQ(values(layout, lesson, 0, "observation.state")[x], 59);
@@ -99,7 +99,7 @@ TEST(LerobotLayout, FlagsGapsAndRepeatsNoTickInWindows) {
   for (const std::uint32_t tick : ticks(60, 80)) recorded.push_back(tick);
   const Lesson lesson = lesson_at(recorded);
   const auto layout = LerobotLayout::make(lesson.scene, 50).value();
-  ASSERT_EQ(layout.frames(lesson), 4u);
+  ASSERT_EQ(layout.frames(extent_of(lesson)), 4u);
   const std::size_t x = column(layout, "observation.state", lesson.scene.seats[0].name + ".measured_cp.x[m]");
   const double missing[] = {0, 15, 20, 0}, last[] = {19, 24, 24, 79};
   for (std::int64_t frame = 0; frame < 4; ++frame) {

@@ -16,6 +16,12 @@ namespace {
 
 constexpr auto kGoOn = [](double) { return true; };
 
+/// Exports a lesson in memory.
+std::string export_csv(const Lesson& lesson, const std::string& file, const ExportProgress& progress) {
+  WholeLesson whole(lesson);
+  return server::export_csv(whole, file, progress);
+}
+
 /// A lesson with rows at the given ticks and recognisable numbers.
 Lesson lesson_at(const std::vector<std::uint32_t>& ticks) {
   Lesson lesson = test::empty_lesson(test::shipped("one_axis"));
@@ -118,13 +124,13 @@ TEST(PendingPath, ReplacesAFileAndNoFolderWithFiles) {
   const std::string file = folder.write("a.csv", "old");
   EXPECT_EQ(export_csv(lesson_at({1}), file, kGoOn), "");
   EXPECT_NE(folder.read("a.csv"), "old");
-  EXPECT_EQ(PendingPath::problem(file, false), "");
-  EXPECT_NE(PendingPath::problem(file, true).find("is no folder"), std::string::npos);
-  EXPECT_NE(PendingPath::problem(folder.file(""), true).find("has files in it"), std::string::npos);
-  EXPECT_NE(PendingPath::problem(folder.file(""), false).find("is a folder"), std::string::npos);
-  EXPECT_NE(PendingPath::problem(folder.file("no/a.csv"), false).find("there is no folder"), std::string::npos);
+  EXPECT_EQ(PendingPath::problem(file, false, true), "");
+  EXPECT_NE(PendingPath::problem(file, true, true).find("is no folder"), std::string::npos);
+  EXPECT_NE(PendingPath::problem(folder.file(""), true, true).find("has files in it"), std::string::npos);
+  EXPECT_NE(PendingPath::problem(folder.file(""), false, true).find("is a folder"), std::string::npos);
+  EXPECT_NE(PendingPath::problem(folder.file("no/a.csv"), false, true).find("there is no folder"), std::string::npos);
   std::filesystem::create_directory(folder.file("empty"));
-  EXPECT_EQ(PendingPath::problem(folder.file("empty/"), true), "");
+  EXPECT_EQ(PendingPath::problem(folder.file("empty/"), true, true), "");
 }
 
 TEST(PendingPath, ReportsAFullDisk) {

@@ -210,7 +210,8 @@ TEST(RecordingWriter, BoundsAChunkWhileTheSessionClockStands) {
 TEST(RecordingWriter, KeepsNotesWithTheirTimes) {
   const SceneSpec scene = shipped_scene("contact");
   RecordingWriter writer{scene, sample_info(scene)};
-  writer.add_event({.tick = 0, .time_ns = 5, .what = "join", .seat = scene.seats[0].name, .text = "joined"});
+  writer.add_event(
+      {.tick = 0, .time_ns = 5, .what = "join", .seat = scene.seats[0].name, .text = "joined", .person = "Ada"});
   writer.add(smooth_record(scene, 10));
   writer.add_mark({.t_s = 0.01, .by = "Ada", .text = "look"});
   writer.add_sheet({.sheet = "OSATS", .of = scene.seats[1].name, .by = "Eva", .scores = {{"flow", 4}}, .closed = true});
@@ -224,6 +225,7 @@ TEST(RecordingWriter, KeepsNotesWithTheirTimes) {
   ASSERT_TRUE(lesson);
   ASSERT_EQ(lesson->events.size(), 1u);
   EXPECT_EQ(lesson->events[0].what, "join");
+  EXPECT_EQ(lesson->events[0].person, "Ada");
   EXPECT_EQ(lesson->events[0].time_ns, 5);
   ASSERT_EQ(lesson->marks.size(), 1u);
   EXPECT_EQ(lesson->marks[0].text, "look");

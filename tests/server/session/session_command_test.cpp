@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "server/policy/admission_control.h"
 #include "tests/server/session/session_fixture.h"
@@ -45,6 +46,25 @@ std::vector<AuditEvent> events(Session& session) {
   std::vector<AuditEvent> out;
   while (const auto e = session.audit().poll()) out.push_back(*e);
   return out;
+}
+
+TEST(Commands, PutTheirOrderOnTheEventsThatFollowFromThem) {
+  SessionFixture rig("free_motion");
+  rig.run(2s);
+  static_cast<void>(events(*rig.session));
+  SessionCommand change = weights(AccessRole::kInstructor, status(rig).authority_version, {0.5, 0.5});
+  change.order = 7;
+  ASSERT_EQ(execute(rig, change).result, Result::kDone);
+  SessionCommand halt{rpc::StopSession{}, AccessRole::kOperator};
+  halt.order = 8;
+  ASSERT_EQ(execute(rig, halt).result, Result::kDone);
+  ASSERT_EQ(stop(rig, AccessRole::kInstructor).result, Result::kDone);
+  rig.run(100ms);
+  std::map<std::uint32_t, std::vector<AuditEvent::What>> by_order;
+  for (const AuditEvent& event : events(*rig.session)) by_order[event.order].push_back(event.what);
+  EXPECT_EQ(by_order[7], (std::vector{AuditEvent::What::kAuthority}));
+  EXPECT_EQ(by_order[8], (std::vector{AuditEvent::What::kStop}));
+  EXPECT_FALSE(by_order[0].empty()) << "the second stop has no order";
 }
 
 TEST(Commands, LatchAStopAndEndOnlyTheNewest) {

@@ -70,6 +70,28 @@ TEST(RecordingDesk, ReplacesAllNamesByPseudonyms) {
   EXPECT_EQ(items.marks[2].by, "P2");
 }
 
+TEST(RecordingDesk, NamesThePersonOfAnOrderInItsEvents) {
+  for (const bool pseudonyms : {false, true}) {
+    RecordingDesk desk(1, pseudonyms);
+    desk.set_status(rpc::StatusRecording{.by_server = true});
+    desk.set_person(0, "ann");
+    const std::uint32_t eva = desk.add_order("eva"), ann = desk.add_order("ann");
+    EXPECT_NE(eva, 0u);
+    EXPECT_NE(eva, ann);
+    desk.add_event({1, 1, "stop", "", ""}, ann);
+    desk.add_event({2, 2, "resume", "", ""}, eva);
+    desk.add_event({3, 3, "authority", "", "timeline"});
+    const auto events = desk.take().events;
+    ASSERT_EQ(events.size(), 3u);
+    EXPECT_EQ(events[0].person, pseudonyms ? "P1" : "ann") << "the name that the seat has";
+    EXPECT_EQ(events[1].person, pseudonyms ? "P2" : "eva");
+    EXPECT_EQ(events[2].person, "");
+    for (std::size_t i = 0; i < RecordingDesk::kOrdersMax; ++i) static_cast<void>(desk.add_order("bob"));
+    desk.add_event({4, 4, "stop", "", ""}, eva);
+    EXPECT_EQ(desk.take().events[0].person, "") << "an order so long ago has no name, rather than that of another";
+  }
+}
+
 TEST(RecordingDesk, TakesNothingWithoutARecordingAndCountsWhatDoesNotFit) {
   RecordingDesk desk(1, false);
   desk.add_event({1, 1, "stop", "", ""});

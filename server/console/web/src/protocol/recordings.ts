@@ -11,8 +11,14 @@ const kPieceMax = 2000;
 
 export interface ListedRecording {
   id: string;
+  /** Name of the first file. */
   file: string;
+  /** Number of files of a long session. */
+  files: number;
+  /** Size of all files. */
   bytes: number;
+  /** Which file of it is missing; null: none. */
+  parts_problem: string | null;
   /** Why it cannot be read; null: it can. */
   problem: string | null;
   session: string;
@@ -60,6 +66,8 @@ export interface Curves {
 export interface Outline {
   id: string;
   file: string;
+  files: number;
+  parts_problem: string | null;
   scene: Scene;
   from_s: number;
   to_s: number;
@@ -87,7 +95,9 @@ export function readList(value: unknown): RecordingList {
       .map((row) => ({
         id: text(row.id),
         file: text(row.file),
+        files: Math.max(1, count(row.files)),
         bytes: count(row.bytes),
+        parts_problem: textOrNull(row.parts_problem),
         problem: textOrNull(row.problem),
         session: text(row.session),
         scene: text(row.scene),
@@ -142,6 +152,8 @@ export function readOutline(value: unknown): Outline | null {
   return {
     id: text(from.id),
     file: text(from.file),
+    files: Math.max(1, count(from.files)),
+    parts_problem: textOrNull(from.parts_problem),
     scene,
     from_s,
     to_s,

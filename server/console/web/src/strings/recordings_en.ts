@@ -16,6 +16,7 @@ export const recordingsEn = {
   'recordings.open_of': 'Open {name}',
   'recordings.skipped': 'Skipped: {why}',
   'recordings.incomplete': 'without end',
+  'recordings.files': '{n} files',
   'recordings.missing': '{n} ticks missing',
   'recordings.reading': 'The gateway reads the folder: {n} of {of} new files.',
   'recordings.unfinished': 'Files that are being written: {n}.',
@@ -48,6 +49,7 @@ export const recordingsEn = {
   'player.facts': '{t} of session time. Ticks missing: {missing}, in {gaps} gaps.',
   'player.facts_incomplete':
     '{t} of session time. Ticks missing: {missing}, in {gaps} gaps. The file has no end: more may be missing.',
+  'player.facts_files': 'The session has {n} files.',
   'event.join': '{who} joins',
   'event.leave': '{who} leaves',
   'event.loss': '{who}: the connection is lost',

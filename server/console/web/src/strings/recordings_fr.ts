@@ -18,6 +18,7 @@ export const recordingsFr: Readonly<Record<keyof typeof recordingsEn, string>> =
   'recordings.open_of': 'Ouvrir {name}',
   'recordings.skipped': 'Ignoré : {why}',
   'recordings.incomplete': 'sans fin',
+  'recordings.files': '{n} fichiers',
   'recordings.missing': '{n} pas manquants',
   'recordings.reading': 'La passerelle lit le dossier : {n} de {of} nouveaux fichiers.',
   'recordings.unfinished': 'Fichiers en cours d’écriture : {n}.',
@@ -51,6 +52,7 @@ export const recordingsFr: Readonly<Record<keyof typeof recordingsEn, string>> =
   'player.facts': '{t} de temps de session. Pas manquants : {missing}, en {gaps} lacunes.',
   'player.facts_incomplete':
     '{t} de temps de session. Pas manquants : {missing}, en {gaps} lacunes. Le fichier n’a pas de fin : il peut en manquer plus.',
+  'player.facts_files': 'La session a {n} fichiers.',
   'event.join': '{who} entre',
   'event.leave': '{who} part',
   'event.loss': '{who} : la liaison est perdue',

@@ -5,7 +5,8 @@ import { t, word } from '../strings/strings';
 
 /** Person and seat, or what else gave the event. */
 function origin({ seat, person }: Note, facts: EventFacts): string {
-  if (seat === '') return word('event.by', facts.origin);
+  const by = word('event.by', facts.origin);
+  if (seat === '') return person === '' ? by : `${person} (${by})`;
   return person === '' ? seat : `${person} (${seat})`;
 }
 

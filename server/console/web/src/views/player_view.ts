@@ -103,14 +103,17 @@ export class PlayerView {
     this.force.setData(at, forceSeries(outline), outline.to_s);
     this.authority.setData(at, authoritySeries(outline), outline.to_s);
     setText(this.title, outline.scene.name === '' ? outline.file : `${outline.scene.name} · ${outline.file}`);
-    setText(
-      this.facts,
-      t(outline.complete ? 'player.facts' : 'player.facts_incomplete', {
+    const whole = outline.complete || outline.parts_problem !== null;
+    const facts = [
+      t(whole ? 'player.facts' : 'player.facts_incomplete', {
         t: clock(outline.to_s - outline.from_s),
         missing: outline.missing_ticks,
         gaps: outline.gap_count,
       }),
-    );
+      outline.files > 1 ? t('player.facts_files', { n: outline.files }) : '',
+      outline.parts_problem ?? '',
+    ];
+    setText(this.facts, facts.filter(Boolean).join(' '));
     this.node.hidden = false;
     this.compare.setOutlines(outline, null);
     void this.loadScores(outline);

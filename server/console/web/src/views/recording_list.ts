@@ -66,7 +66,8 @@ export class RecordingListPanel {
       );
     }
     const state = [
-      row.complete ? '' : t('recordings.incomplete'),
+      row.files > 1 ? t('recordings.files', { n: row.files }) : '',
+      row.parts_problem ?? (row.complete ? '' : t('recordings.incomplete')),
       row.missing_ticks > 0 ? t('recordings.missing', { n: row.missing_ticks }) : '',
       fixed(row.bytes / 1e6, 1, 'MB'),
     ];

@@ -72,6 +72,8 @@ function outline(more: Partial<Outline> = {}): Outline {
   return {
     id: 'ab',
     file: 'a.mcap',
+    files: 1,
+    parts_problem: null,
     scene: kScene,
     from_s: 5,
     to_s: 25,
@@ -228,6 +230,19 @@ describe('replies about recordings', () => {
     expect(readOutline({ ...outline(), to_s: 5, events: [], marks: [] })).toBeNull();
   });
 
+  it('have the number of files, and which one is missing', () => {
+    const [long, old] = readList({
+      recordings: [{ id: '1', file: 'a.mcap', files: 3, parts_problem: 'part 2 is missing' }, { id: '2' }],
+    }).recordings;
+    expect([long?.files, long?.parts_problem]).toEqual([3, 'part 2 is missing']);
+    expect([old?.files, old?.parts_problem]).toEqual([1, null]);
+    const raw = { ...outline(), scene: kScene, events: [], marks: [] };
+    expect(readOutline({ ...raw, files: 3, parts_problem: 'part 2 is missing' })?.parts_problem).toBe(
+      'part 2 is missing',
+    );
+    expect(readOutline({ ...raw, files: undefined })?.files).toBe(1);
+  });
+
   it('sort marks and events by time', () => {
     const found = readOutline({
       ...outline(),
@@ -267,6 +282,7 @@ describe('events of a recording', () => {
     expect(words('join', 'trainer tick 0', 'trainer')).toBe('trainer joins');
     expect(words('stop', 'trainee tick 7', 'trainee', 'ted')).toBe('ted (trainee) stops the session');
     expect(words('resume', 'console version 3 tick 900')).toBe('a console resumes the session');
+    expect(words('resume', 'console version 3 tick 900', '', 'olga')).toBe('olga (a console) resumes the session');
     expect(words('overload', 'session tick 900')).toBe('The server is too slow, so all hands are released');
   });
   it('name the shares that change, and a stale link', () => {

@@ -17,6 +17,8 @@ class RecordingFile {
 
   [[nodiscard]] const RecordingParts& parts() const noexcept { return parts_; }
   [[nodiscard]] ReadAt read() const;
+  /// Size [bytes] when it was opened.
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
   /// Whether the file is still as it was opened: neither changed nor deleted.
   [[nodiscard]] bool unchanged() const noexcept;
 

@@ -1,4 +1,4 @@
-#include "netsim/replay/recorded_part.h"
+#include "server/archive/recorded_part.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,7 @@
 #include "common/mcap/mcap_reader.h"
 #include "proto/recording/recording_format.h"
 
-namespace tandem::netsim {
+namespace tandem::server {
 namespace {
 
 constexpr const char* kRepairText = "a file NAME.mcap.part is closed by `tandem-server repair`";
@@ -23,27 +23,34 @@ std::string number_text(unsigned number) { return "part " + std::to_string(numbe
 
 }  // namespace
 
-std::expected<RecordedPart, std::string> read_part(std::span<const std::byte> bytes, std::string file) {
-  const auto reader = mcap::Reader::open(bytes);
-  if (!reader) return std::unexpected(reader.error().message);
-  const mcap::TextMap* const session = reader->metadata(rec::kSessionRecord);
-  if (reader->profile() != rec::kProfile || session == nullptr)
-    return std::unexpected("is an MCAP file, but no recording of Tandem");
+std::expected<RecordedPart, std::string> read_part(const std::map<std::string, std::string>& session,
+                                                   std::string file) {
   RecordedPart part{.file = std::move(file),
-                    .session_id = value_of(*session, "session_id"),
-                    .epoch = value_of(*session, "epoch"),
-                    .recording = value_of(*session, rec::kRecordingKey),
+                    .session_id = value_of(session, "session_id"),
+                    .epoch = value_of(session, "epoch"),
+                    .recording = value_of(session, rec::kRecordingKey),
                     .last = {},
-                    .previous_file = sanitize(value_of(*session, rec::kPreviousKey))};
-  if (const std::string text = value_of(*session, rec::kPartKey); !part.recording.empty()) {
+                    .previous_file = sanitize(value_of(session, rec::kPreviousKey))};
+  if (const std::string text = value_of(session, rec::kPartKey); !part.recording.empty()) {
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), part.number);
     if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size() || part.number < 1 ||
         part.number > RecordedPart::kNumberMax)
       return std::unexpected("has \"" + sanitize(text, 32) + "\" as number of its part (1 to " +
                              std::to_string(RecordedPart::kNumberMax) + "); record the session again");
   }
-  if (const mcap::TextMap* const end = reader->metadata(rec::kPartRecord); end != nullptr)
-    part.last = value_of(*end, rec::kLastKey) != "false";
+  return part;
+}
+
+std::expected<RecordedPart, std::string> read_part(std::span<const std::byte> bytes, std::string file) {
+  const auto reader = mcap::Reader::open(bytes);
+  if (!reader) return std::unexpected(reader.error().message);
+  const mcap::TextMap* const session = reader->metadata(rec::kSessionRecord);
+  if (reader->profile() != rec::kProfile || session == nullptr)
+    return std::unexpected("is an MCAP file, but no recording of Tandem");
+  auto part = read_part(*session, std::move(file));
+  if (const mcap::TextMap* const end = reader->metadata(rec::kPartRecord);
+      part && !part->recording.empty() && end != nullptr)
+    part->last = value_of(*end, rec::kLastKey) != "false";
   return part;
 }
 
@@ -81,4 +88,4 @@ std::string order_parts(std::vector<RecordedPart>& parts) {
   return {};
 }
 
-}  // namespace tandem::netsim
+}  // namespace tandem::server

@@ -3,12 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace tandem::netsim {
+namespace tandem::server {
 
 /// Place of a file in a recording of several files, as its metadata state it (server/recording/io/recording_files.h).
 struct RecordedPart {
@@ -19,7 +20,13 @@ struct RecordedPart {
   unsigned number = 1;                       ///< from 1
   std::optional<bool> last;                  ///< no file follows; nullopt: the file has no end that says so
   std::string previous_file;                 ///< name of the file before, without its folder; empty: not stated
+  friend bool operator==(const RecordedPart&, const RecordedPart&) = default;
 };
+
+/// Reads the place of a file in its recording from its metadata record `session`.
+/// @return why the number is not valid, without the name of the file
+[[nodiscard]] std::expected<RecordedPart, std::string> read_part(const std::map<std::string, std::string>& session,
+                                                                 std::string file);
 
 /// Reads the place of a file in its recording.
 /// @param bytes  of an MCAP file, or its definitions without messages; any bytes are safe
@@ -35,4 +42,4 @@ struct RecordedPart {
 /// missing; empty: they are. A file without an end may be the last one.
 [[nodiscard]] std::string order_parts(std::vector<RecordedPart>& parts);
 
-}  // namespace tandem::netsim
+}  // namespace tandem::server

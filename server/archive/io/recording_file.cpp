@@ -1,4 +1,4 @@
-#include "server/archive/app/recording_file.h"
+#include "server/archive/io/recording_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,19 +1,12 @@
-#include "netsim/app/part_files.h"
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include "server/archive/io/part_files.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
-#include "common/io/fd.h"
-#include "server/archive/recording_parts.h"
+#include "server/archive/io/recording_file.h"
 
-namespace tandem::netsim {
+namespace tandem::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,25 +14,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t kFolderMax = 100'000;  // files of a folder that are read
 
 std::expected<RecordedPart, std::string> part_of(const std::string& path) {
-  const io::Fd file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};  // a pipe must not block
-  struct stat facts{};
-  if (!file.open() || ::fstat(file.get(), &facts) != 0) return std::unexpected(std::strerror(errno));
-  if (!S_ISREG(facts.st_mode)) return std::unexpected("is no file");
-  const server::ReadAt read = [&file](std::uint64_t offset, std::span<std::byte> into) {
-    std::size_t filled = 0;
-    while (filled < into.size()) {
-      const ssize_t got =
-          ::pread(file.get(), into.data() + filled, into.size() - filled, static_cast<off_t>(offset + filled));
-      if (got < 0 && errno == EINTR) continue;
-      if (got <= 0) break;
-      filled += static_cast<std::size_t>(got);
-    }
-    return filled;
-  };
-  const auto size = static_cast<std::uint64_t>(facts.st_size);
-  const auto found = server::RecordingParts::find(read, size);
-  if (!found) return std::unexpected(found.error());
-  return read_part(found->piece(read, 0, 0), path);
+  const auto file = RecordingFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  return read_part(file->parts().piece(file->read(), 0, 0), path);
 }
 
 /// Returns the paths of the complete recordings in a folder, sorted.
@@ -85,6 +62,21 @@ std::expected<std::vector<RecordedPart>, std::string> recordings_of(const std::s
   return found;
 }
 
+/// Adds the parts beside the only one that is named, unless it is whole alone.
+std::string complete_parts(std::vector<RecordedPart>& parts) {
+  const bool whole = parts[0].number == 1 && parts[0].last.value_or(true);
+  if (parts.size() == 1 && !parts[0].recording.empty() && !whole) {
+    const RecordedPart only = parts[0];
+    if (std::string problem = add_neighbours(only, parts); !problem.empty()) return problem;
+  }
+  return order_parts(parts);
+}
+
+bool same_file(const RecordedPart& a, const RecordedPart& b) {
+  std::error_code ignored;
+  return fs::equivalent(a.file, b.file, ignored);
+}
+
 }  // namespace
 
 std::expected<std::vector<RecordedPart>, std::string> find_parts(const std::vector<std::string>& named) {
@@ -105,13 +97,35 @@ std::expected<std::vector<RecordedPart>, std::string> find_parts(const std::vect
       parts.push_back(std::move(*part));
     }
   }
-  const bool whole = parts[0].number == 1 && parts[0].last.value_or(true);
-  if (parts.size() == 1 && !parts[0].recording.empty() && !whole) {
-    const RecordedPart only = parts[0];
-    if (std::string problem = add_neighbours(only, parts); !problem.empty()) return std::unexpected(std::move(problem));
-  }
-  if (std::string problem = order_parts(parts); !problem.empty()) return std::unexpected(std::move(problem));
+  if (std::string problem = complete_parts(parts); !problem.empty()) return std::unexpected(std::move(problem));
   return parts;
 }
 
-}  // namespace tandem::netsim
+std::expected<std::vector<std::vector<RecordedPart>>, PartsProblem> find_recordings(
+    const std::vector<std::string>& named) {
+  std::vector<std::vector<RecordedPart>> recordings;
+  for (const std::string& path : named) {
+    auto part = part_of(path);
+    if (!part) return std::unexpected(PartsProblem{path + ": " + part.error(), false});
+    const auto known =
+        std::ranges::find_if(recordings, [&](const auto& parts) { return same_recording(parts[0], *part); });
+    if (known == recordings.end()) {
+      recordings.push_back({std::move(*part)});
+    } else if (std::ranges::none_of(*known, [&](const RecordedPart& other) { return same_file(other, *part); })) {
+      known->push_back(std::move(*part));
+    }
+  }
+  for (std::vector<RecordedPart>& parts : recordings) {
+    std::vector<RecordedPart> all = parts;
+    if (all.size() > 1 && order_parts(all).empty()) {
+      parts = std::move(all);
+      continue;
+    }
+    parts.resize(1);  // its folder has the rest
+    if (std::string problem = complete_parts(parts); !problem.empty())
+      return std::unexpected(PartsProblem{std::move(problem), true});
+  }
+  return recordings;
+}
+
+}  // namespace tandem::server

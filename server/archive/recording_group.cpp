@@ -1,0 +1,77 @@
+#include "server/archive/recording_group.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace tandem::server {
+namespace {
+
+std::string folder_of(const std::string& file) {
+  const std::size_t slash = file.rfind('/');
+  return slash == std::string::npos ? std::string() : file.substr(0, slash);
+}
+
+/// Orders the rows of a group and finds what is missing.
+void order_group(const std::vector<RecordingRow>& rows, RecordingGroup& group) {
+  std::ranges::stable_sort(group.rows, {}, [&](std::size_t k) { return rows[k].summary.part.number; });
+  std::vector<RecordedPart> parts;
+  for (const std::size_t k : group.rows) {
+    parts.push_back(rows[k].summary.part);
+    parts.back().file = rows[k].file;
+  }
+  group.problem = order_parts(parts);
+}
+
+}  // namespace
+
+std::vector<RecordingGroup> group_recordings(const std::vector<RecordingRow>& rows) {
+  std::vector<RecordingGroup> groups;
+  std::map<std::tuple<std::string, std::string, std::string, std::string>, std::vector<std::size_t>> known;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const RecordedPart& part = rows[k].summary.part;
+    if (!rows[k].readable() || part.recording.empty()) {
+      groups.push_back({{k}, {}});
+      continue;
+    }
+    std::vector<std::size_t>& copies = known[{folder_of(rows[k].file), part.session_id, part.epoch, part.recording}];
+    const auto place = std::ranges::find_if(copies, [&](std::size_t group) {
+      return std::ranges::none_of(groups[group].rows,
+                                  [&](std::size_t other) { return rows[other].summary.part.number == part.number; });
+    });
+    if (place != copies.end()) {
+      groups[*place].rows.push_back(k);
+    } else {
+      copies.push_back(groups.size());
+      groups.push_back({{k}, {}});
+    }
+  }
+  for (const auto& [key, copies] : known)
+    for (const std::size_t copy : copies) order_group(rows, groups[copy]);
+  return groups;
+}
+
+RecordingRow joined_row(const std::vector<RecordingRow>& rows, const RecordingGroup& group) {
+  RecordingRow joined = rows[group.rows.front()];
+  RecordingSummary& all = joined.summary;
+  for (std::size_t i = 1; i < group.rows.size(); ++i) {
+    const RecordingRow& row = rows[group.rows[i]];
+    const RecordingSummary& s = row.summary;
+    joined.bytes += row.bytes;
+    joined.modified_ns = std::max(joined.modified_ns, row.modified_ns);
+    // From the begin of the first row; recordings in virtual time do not state it.
+    const bool dated = all.start_unix_ns != 0 && s.start_unix_ns >= all.start_unix_ns && s.rows > 0;
+    all.duration_s =
+        dated ? std::max(all.duration_s, 1e-9 * static_cast<double>(s.start_unix_ns - all.start_unix_ns) + s.duration_s)
+              : all.duration_s + s.duration_s;
+    all.rows += s.rows;
+    all.missing_ticks += s.missing_ticks;
+    all.complete = all.complete && s.complete;
+    for (const RecordedPerson& person : s.persons) add_person(all.persons, person.name, person.part);
+  }
+  all.complete = all.complete && group.problem.empty();
+  return joined;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,119 @@
+// Files of long recordings in the index: which belong together, what is missing, and what they are together.
+#include "server/archive/recording_group.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "server/archive/recording_text.h"
+
+namespace tandem::server {
+namespace {
+
+constexpr std::int64_t kBegin = 1'700'000'000'000'000'000;
+constexpr std::int64_t kMinute = 60'000'000'000;
+
+/// Part `number` of a recording, each of ten minutes.
+RecordingRow part(const std::string& file, unsigned number, std::optional<bool> last, const std::string& name = "lab") {
+  RecordingRow row;
+  row.file = file;
+  row.bytes = 1'000'000;
+  row.summary.session = "lesson";
+  row.summary.start_unix_ns = kBegin + (number - 1) * 10 * kMinute;
+  row.summary.duration_s = 600;
+  row.summary.rows = 600'000;
+  row.summary.part = {.file = "",
+                      .session_id = "5",
+                      .epoch = "1",
+                      .recording = name,
+                      .number = number,
+                      .last = last,
+                      .previous_file = ""};
+  return row;
+}
+
+std::vector<RecordingRow> folder() {
+  std::vector<RecordingRow> rows{part("lab-2.mcap", 2, false), part("lab-3.mcap", 3, true), part("lab.mcap", 1, false),
+                                 part("old/lab-2.mcap", 2, true), part("other.mcap", 1, true, "other")};
+  RecordingRow alone;
+  alone.file = "alone.mcap";
+  rows.push_back(alone);
+  alone.file = "damaged.mcap";
+  alone.problem = "it is no MCAP file";
+  rows.push_back(alone);
+  return rows;
+}
+
+TEST(RecordingGroups, HaveTheFilesOfOneRecordingInTheirOrder) {
+  const auto groups = group_recordings(folder());
+  ASSERT_EQ(groups.size(), 5u);
+  EXPECT_EQ(groups[0].rows, (std::vector<std::size_t>{2, 0, 1}));
+  EXPECT_EQ(groups[0].problem, "");
+  EXPECT_EQ(groups[1].rows, (std::vector<std::size_t>{3})) << "another folder";
+  EXPECT_EQ(groups[1].problem.find("part 1 of the recording is missing: old/lab-2.mcap is part 2"), 0u)
+      << groups[1].problem;
+  for (std::size_t k = 2; k < 5; ++k) {
+    EXPECT_EQ(groups[k].rows.size(), 1u);
+    EXPECT_EQ(groups[k].problem, "");
+  }
+}
+
+TEST(RecordingGroups, KeepCopiesApart) {
+  const std::vector<RecordingRow> rows{part("a.mcap", 1, false), part("b.mcap", 2, true),
+                                       part("copy of a.mcap", 1, false), part("copy of b.mcap", 2, true),
+                                       part("third a.mcap", 1, false)};
+  const auto groups = group_recordings(rows);
+  ASSERT_EQ(groups.size(), 3u);
+  EXPECT_EQ(groups[0].rows, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(groups[1].rows, (std::vector<std::size_t>{2, 3}));
+  EXPECT_EQ(groups[0].problem + groups[1].problem, "");
+  EXPECT_NE(groups[2].problem.find("part 2 of the recording is missing"), std::string::npos);
+}
+
+TEST(RecordingGroups, AreOneRecordingTogether) {
+  auto rows = folder();
+  rows[0].summary.missing_ticks = 7;
+  rows[1].summary.persons = {{"Ada", "trainee"}};
+  rows[2].summary.persons = {{"Bob", "trainee"}, {"Ada", "trainee"}};
+  auto group = group_recordings(rows)[0];
+  RecordingRow all = joined_row(rows, group);
+  EXPECT_EQ(all.file, "lab.mcap");
+  EXPECT_EQ(all.bytes, 3'000'000u);
+  EXPECT_EQ(all.summary.rows, 1'800'000u);
+  EXPECT_EQ(all.summary.missing_ticks, 7u);
+  EXPECT_DOUBLE_EQ(all.summary.duration_s, 1800);
+  EXPECT_TRUE(all.summary.complete);
+  EXPECT_EQ(all.summary.persons, (std::vector<RecordedPerson>{{"Bob", "trainee"}, {"Ada", "trainee"}}));
+  for (const std::size_t k : {0u, 1u, 2u}) rows[k].summary.start_unix_ns = 0;  // in virtual time
+  EXPECT_DOUBLE_EQ(joined_row(rows, group).summary.duration_s, 1800);
+  rows[1].summary.complete = false;
+  EXPECT_FALSE(joined_row(rows, group).summary.complete);
+  rows[1].summary.complete = true;
+  group.rows = {2, 1};
+  group.problem = "part 2 is missing";
+  EXPECT_FALSE(joined_row(rows, group).summary.complete);
+}
+
+TEST(RecordingGroups, StandTogetherInTheTable) {
+  const auto rows = folder();
+  const std::string text = recordings_text(rows);
+  const auto first = text.find("lab.mcap "), second = text.find("lab-2.mcap "), third = text.find("lab-3.mcap ");
+  EXPECT_LT(first, second) << text;
+  EXPECT_LT(second, third) << text;
+  EXPECT_NE(text.find("(part 3)"), std::string::npos) << text;
+  EXPECT_NE(text.find("4 recordings, 6 files, 5.0 MB; files that cannot be read: 1"), std::string::npos) << text;
+  EXPECT_NE(text.find("\npart 1 of the recording is missing: old/lab-2.mcap is part 2"), std::string::npos) << text;
+  EXPECT_EQ(recordings_text({rows[0]}, false).find("is missing"), std::string::npos) << "a choice of files";
+  const auto json = nlohmann::json::parse(recordings_json(rows));
+  EXPECT_EQ(json[1]["recording"], "lab");
+  EXPECT_EQ(json[1]["part"], 3);
+  EXPECT_EQ(json[1]["last_part"], true);
+  EXPECT_TRUE(json[5]["recording"].is_null());
+  const std::string one = recording_text(rows[0], {"lab.mcap", "lab-2.mcap"}, "part 3 is missing");
+  EXPECT_NE(one.find("part      2 of a recording of 2 files: lab.mcap lab-2.mcap\nmissing   part 3 is missing\n"),
+            std::string::npos)
+      << one;
+}
+
+}  // namespace
+}  // namespace tandem::server
