@@ -11,6 +11,7 @@ namespace tandem::netsim {
 
 std::optional<ReplayDifference> RowComparison::add(std::shared_ptr<const Lesson> lesson) {
   if (lesson->rows() == 0) return std::nullopt;
+  if (!first_) first_ = lesson->tick.front();
   lessons_.push_back(std::move(lesson));
   while (!waiting_.empty() && waiting_.front().record->tick <= lessons_.back()->tick.back()) {
     const Waiting first = std::move(waiting_.front());
@@ -21,6 +22,7 @@ std::optional<ReplayDifference> RowComparison::add(std::shared_ptr<const Lesson>
 }
 
 std::optional<ReplayDifference> RowComparison::compare(const server::Session& session, std::uint64_t tick) {
+  count_unseen(session);
   const server::TickRecord& record = session.record();
   if (!session.recorded() || (last_ ? record.tick <= *last_ : !record.running)) return std::nullopt;
   last_ = record.tick;
@@ -56,6 +58,13 @@ std::optional<ReplayDifference> RowComparison::compare(const server::TickRecord&
     difference->session_tick = record.tick;
   }
   return difference;
+}
+
+void RowComparison::count_unseen(const server::Session& session) {
+  const std::uint32_t now = session.clock().session_tick();
+  const bool ran = clock_ ? now != *clock_ : session.state() == wire::SessionState::kRunning;
+  clock_ = now;
+  if (ran && first_ && now < *first_) ++unseen_;
 }
 
 void RowComparison::round_tools(server::TickRecord& record) const noexcept {

@@ -51,7 +51,7 @@ std::expected<std::unique_ptr<SessionInstance>, int> SessionTable::open_session(
                                                                                 std::size_t slot, std::uint64_t epoch,
                                                                                 const SessionSnapshot* snapshot) {
   auto made = SessionInstance::open(options, static_cast<std::uint8_t>(slot), epoch,
-                                    !control_.ephemeral_keys() && !options.tickets_only, snapshot);
+                                    !control_.ephemeral_keys() && !options.tickets_only, keeper_, snapshot);
   if (!made) {
     for (const std::string& text : made.error().texts) output_.error(text);
     return std::unexpected(made.error().code);
