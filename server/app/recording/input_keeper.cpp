@@ -44,12 +44,13 @@ void InputKeeper::drain() {
 }
 
 void InputKeeper::keep() {
+  KeptBlockWriter writer;
   do {
     release_unused();
     // One block of each session in turn, so that none waits for the others.
     for (bool more = true; more;) {
       more = false;
-      for (const auto& inputs : all()) more = inputs->keep() || more;
+      for (const auto& inputs : all()) more = inputs->keep(writer) || more;
     }
     keep_ns_.store(io::read_clock(CLOCK_THREAD_CPUTIME_ID).count(), std::memory_order_relaxed);
   } while (pause(kKeepInterval));

@@ -79,7 +79,7 @@ void KeptInputs::end(std::string why, bool known) {
   packed_ = 0;
 }
 
-bool KeptInputs::keep() {
+bool KeptInputs::keep(KeptBlockWriter& writer) {
   std::string piece;
   bool read = false;
   {
@@ -90,18 +90,17 @@ bool KeptInputs::keep() {
     read = std::ranges::any_of(readers_, [](const Reader* reader) { return reader->is_behind(); });
   }
   static_cast<void>(packer_.add(bytes_of(piece)));
-  piece = {};
-  std::string block;
+  std::string block, entry;
   packer_.take(block, false);
-  std::uint64_t size = 0;
-  std::string why = block.empty() ? std::string() : spool_block(block, read, size);
+  if (!block.empty()) writer.write(block, entry);
+  std::string why = entry.empty() ? std::string() : spool(entry, read);
   const std::lock_guard lock(lock_);
   if (!problem_.empty()) return false;
   if (!why.empty()) {
     end(std::move(why), false);
     return false;
   }
-  spooled_ += size;
+  spooled_ += entry.size();
   // The packer has the begin of a record that is not whole; readers get it from `pending_`.
   const std::size_t done = packed_ - packer_.size();
   pending_.erase(0, done);
@@ -111,11 +110,8 @@ bool KeptInputs::keep() {
   return true;
 }
 
-/// Adds a block to the spool. @param beyond  its limit, too. @return why it is not there
-std::string KeptInputs::spool_block(std::string_view block, bool beyond, std::uint64_t& size) {
-  if (!writer_) writer_ = std::make_unique<KeptBlockWriter>();
-  std::string entry;
-  writer_->write(block, entry);
+/// Adds an entry to the spool. @param beyond  its limit, too. @return why it is not there
+std::string KeptInputs::spool(const std::string& entry, bool beyond) {
   if (!spool_) {
     auto made = InputSpool::create(folder_);
     if (!made) return "no file can be made for them: " + made.error();
@@ -124,7 +120,6 @@ std::string KeptInputs::spool_block(std::string_view block, bool beyond, std::ui
   if (!beyond && spool_->size() + entry.size() > limit_)
     return format("the session had run longer than the inputs kept: %.6g MiB (recording { inputs_mib })",
                   static_cast<double>(limit_) / (1 << 20));
-  size = entry.size();
   return spool_->append(entry);
 }
 

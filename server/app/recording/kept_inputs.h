@@ -25,7 +25,7 @@ namespace tandem::server {
 /// lose none of them: the spool may exceed its limit while one reads it. Thread-safe but for `journal`; only `keep` and `Reader::next` may wait for the disk.
 class KeptInputs : public std::enable_shared_from_this<KeptInputs> {
  public:
-  static constexpr std::size_t kBlockBytes = std::size_t{256} << 10U;   ///< of the journal in one block [bytes]
+  static constexpr std::size_t kBlockBytes = std::size_t{128} << 10U;   ///< of the journal in one block [bytes]
   static constexpr std::size_t kPendingMax = std::size_t{8} << 20U;     ///< that wait for the spool [bytes]
   static constexpr std::size_t kUnreadMax = std::size_t{64} << 20U;     ///< that wait for a recording [bytes]
 
@@ -41,9 +41,10 @@ class KeptInputs : public std::enable_shared_from_this<KeptInputs> {
 
   /// Takes what the journal has. Call it so often that the journal never fills.
   void drain();
-  /// Packs the oldest inputs into the spool if they are enough for a block. Only one thread calls it.
+  /// Packs the oldest inputs into the spool if they are enough for a block. Only one thread calls it, with the same
+  /// writer for all sessions.
   /// @return whether a block was written: there may be more
-  bool keep();
+  bool keep(KeptBlockWriter& writer);
   /// Why no further inputs are kept; empty: they are.
   [[nodiscard]] std::string problem() const;
   /// The problem, at most once, for the operator; empty: there is no new one.
@@ -61,7 +62,7 @@ class KeptInputs : public std::enable_shared_from_this<KeptInputs> {
   void append(std::string_view bytes);
   /// Ends the spool. Readers get the inputs that wait.
   void end(std::string why, bool known);
-  [[nodiscard]] std::string spool_block(std::string_view block, bool beyond, std::uint64_t& size);
+  [[nodiscard]] std::string spool(const std::string& entry, bool beyond);
 
   std::unique_ptr<InputJournal> journal_;
   std::string folder_;
@@ -78,7 +79,6 @@ class KeptInputs : public std::enable_shared_from_this<KeptInputs> {
   std::optional<InputSpool> spool_;  ///< made by `keep`; readers use it once `spooled_` > 0
   // Of the thread that calls `keep`.
   InputPacker packer_;
-  std::unique_ptr<KeptBlockWriter> writer_;
 };
 
 /// One recording's way through the inputs of a session. Used by one thread.
