@@ -1,5 +1,6 @@
 #include "netsim/replay/row_comparison.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/base/format.h"
@@ -60,11 +61,13 @@ std::optional<ReplayDifference> RowComparison::compare(const server::TickRecord&
   return difference;
 }
 
+/// Counts a tick, and the missed ones before it, which advance the session's clock too.
 void RowComparison::count_unseen(const server::Session& session) {
-  const std::uint32_t now = session.clock().session_tick();
-  const bool ran = clock_ ? now != *clock_ : session.state() == wire::SessionState::kRunning;
-  clock_ = now;
-  if (ran && first_ && now < *first_) ++unseen_;
+  if (session.state() != wire::SessionState::kRunning) return;
+  const std::uint32_t now = session.clock().session_tick(), counted = uncounted_.value_or(now);
+  if (now < counted) return;  // a restarted server repeats ticks
+  uncounted_ = now + 1;
+  if (first_ && counted < *first_) unseen_ += std::min(now + 1, *first_) - counted;
 }
 
 void RowComparison::round_tools(server::TickRecord& record) const noexcept {

@@ -60,8 +60,8 @@ class RowComparison {
   server::ToolDigest own_digest_;      ///< of the rows since its last digest
   std::optional<std::uint32_t> last_;  ///< tick of the newest record, as RecordingWriter decides
   std::uint64_t rows_ = 0, unseen_ = 0;
-  std::optional<std::uint32_t> first_;   ///< tick of the first row
-  std::optional<std::uint32_t> clock_;   ///< session tick after the last tick of the server
+  std::optional<std::uint32_t> first_;      ///< tick of the first row
+  std::optional<std::uint32_t> uncounted_;  ///< first session tick that `count_unseen` has not counted
   std::deque<Waiting> waiting_;
   server::TickRecord recorded_{}, replayed_{};
   std::vector<double> before_, now_;

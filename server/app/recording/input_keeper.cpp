@@ -1,5 +1,8 @@
 #include "server/app/recording/input_keeper.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -7,6 +10,12 @@
 #include "common/io/clock.h"
 
 namespace tandem::server {
+namespace {
+
+// A journal that is drained too late ends. The thread has little to do, so that it precedes others where permitted.
+constexpr int kDrainNice = -10;
+
+}  // namespace
 
 InputKeeper::~InputKeeper() {
   {
@@ -37,6 +46,7 @@ bool InputKeeper::pause(Duration interval) {
 }
 
 void InputKeeper::drain() {
+  static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kDrainNice));
   do {
     for (const auto& inputs : all()) inputs->drain();
     drain_ns_.store(io::read_clock(CLOCK_THREAD_CPUTIME_ID).count(), std::memory_order_relaxed);

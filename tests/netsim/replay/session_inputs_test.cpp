@@ -293,7 +293,7 @@ TEST(SessionInputs, OfAQuarterOfASecondFitInTheJournalOfTheirScene) {
     const std::size_t quarter = (bytes() - before) * 5 / 4;
     const std::size_t capacity = InputJournal::capacity_for(r.s.scene.seats.size(), r.s.scene.tools.size());
     EXPECT_GE(capacity, quarter) << scene;
-    EXPECT_LE(capacity, std::max<std::size_t>(std::size_t{256} << 10U, 4 * quarter)) << scene << ": memory that no session needs";
+    EXPECT_LE(capacity, 16 * quarter) << scene << ": memory that no session needs";
   }
 }
 
