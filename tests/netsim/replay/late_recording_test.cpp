@@ -52,7 +52,7 @@ class LateRecorder {
     if (ticks_ % 10 == 0) inputs_->drain();
     static_cast<void>(inputs_->keep(blocks_));
     if (!writer_) return;
-    if (parts_ > 0 && (ticks_ - begin_) % parts_ == parts_ - 1) {
+    if (parts_ > 0 && fed_ && (ticks_ - begin_) % parts_ == parts_ - 1) {
       end_file(false);
       begin_file();
     }
@@ -70,6 +70,7 @@ class LateRecorder {
     return files_;
   }
   [[nodiscard]] bool late() const { return late_; }
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
   [[nodiscard]] std::size_t blocks() const { return read_; }
 
  private:
@@ -85,6 +86,7 @@ class LateRecorder {
   bool add_inputs() {
     const KeptInputs::Reader::Item item = reader_->next();
     EXPECT_NE(item.kind, KeptInputs::Reader::Kind::kLost) << item.bytes;
+    fed_ = fed_ || item.kind != KeptInputs::Reader::Kind::kNothing;
     if (item.kind == KeptInputs::Reader::Kind::kPiece) writer_->add_inputs(bytes_of(item.bytes));
     if (item.kind != KeptInputs::Reader::Kind::kBlock) return false;
     writer_->add_input_block(item.bytes);
@@ -104,7 +106,7 @@ class LateRecorder {
   std::vector<std::string> files_;
   std::uint64_t ticks_ = 0;
   std::size_t read_ = 0;
-  bool rows_ = false, late_ = false;
+  bool rows_ = false, fed_ = false, late_ = false;
 };
 
 std::string problem_of(const RecordingReplay& replay) {
@@ -133,13 +135,14 @@ TEST(LateRecording, ReplaysRandomSessionsBitForBitFromAnyTickOn) {
         which.setup.faults, [](const Fault& fault) { return fault.kind == Fault::Kind::kServerRestart; });
     RandomStream random{RandomKey{seed}};
     // A restart repeats ticks of the checkpoint; the digest of their chunk is then of another choice of rows.
-    LateRecorder recorder{which.setup.scene, 200 + random.below(1500), seed % 3 == 0 ? 1500 : 0U, !restarts};
+    const auto second = static_cast<std::uint64_t>(which.setup.scene.tick_hz);
+    LateRecorder recorder{which.setup.scene, second / 5 + random.below(3 * second / 2), seed % 3 == 0 ? 1500 : 0U, !restarts};
     which.setup.journal = &recorder.journal();
     static_cast<void>(
         run_swarm_case(which, [&](Simulation& simulation) { recorder.take(simulation.session()); }));
     EXPECT_EQ(recorder.journal().dropped(), 0u);
     const auto files = recorder.finish();
-    ASSERT_FALSE(files.empty()) << "the session was shorter than the begin of its recording";
+    ASSERT_FALSE(files.empty()) << "it ended after " << recorder.ticks() << " ticks at " << second << " Hz";
     const RecordingReplay replay = replay_all(files);
     EXPECT_EQ(problem_of(replay), "");
     EXPECT_TRUE(replay.equal() && replay.complete);
