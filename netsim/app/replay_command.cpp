@@ -47,9 +47,10 @@ std::vector<std::string> replay_notes(const RecordingReplay& replay) {
     notes.emplace_back(
         "values of seats were not compared: the file has those of the hands themselves, before the network");
   if (replay.unseen > 0)
-    notes.push_back(format("the recording begins after %llu ticks of its session, which were replayed unseen: of them, "
-                           "hashes of what the seats were sent were compared, and no values",
-                           static_cast<unsigned long long>(replay.unseen)));
+    notes.push_back(
+        format("the recording begins after %llu ticks of its session, which were replayed unseen: of them, "
+               "hashes of what the seats were sent were compared, and no values",
+               static_cast<unsigned long long>(replay.unseen)));
   return notes;
 }
 

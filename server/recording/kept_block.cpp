@@ -29,8 +29,8 @@ std::optional<KeptBlockHead> KeptBlockReader::read_head(
   mcap::FieldReader fields{bytes};
   const KeptBlockHead head{fields.number<std::uint32_t>(), fields.number<std::uint32_t>(),
                            fields.number<std::uint32_t>()};
-  const bool possible = head.packed > 0 && head.size > 0 && head.packed <= input_block::kPieceMax &&
-                        head.size <= input_block::kPieceMax;
+  const bool possible =
+      head.packed > 0 && head.size > 0 && head.packed <= input_block::kPieceMax && head.size <= input_block::kPieceMax;
   return possible ? std::optional(head) : std::nullopt;
 }
 

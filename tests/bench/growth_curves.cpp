@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <list>
-#include <filesystem>
 #include <memory>
-#include <tuple>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -146,10 +146,10 @@ void print_memory() {
       while (queues.back()->push({})) {
       }
       if (!inputs) continue;
-      kept.push_back(server::KeptInputs::make(
-          std::make_unique<server::InputJournal>(transport::HashKey{},
-                                                 server::InputJournal::capacity_for(n, scene.tools.size())),
-          std::filesystem::temp_directory_path().string(), std::uint64_t{1} << 30U));
+      kept.push_back(
+          server::KeptInputs::make(std::make_unique<server::InputJournal>(
+                                       transport::HashKey{}, server::InputJournal::capacity_for(n, scene.tools.size())),
+                                   std::filesystem::temp_directory_path().string(), std::uint64_t{1} << 30U));
       fill(*kept.back(), n);
       if (!kept.back()->problem().empty()) std::printf("[ INVALID ] %s\n", kept.back()->problem().c_str());
     }

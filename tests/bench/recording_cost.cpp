@@ -1,6 +1,6 @@
 // The cost of a recording: processor time of its threads and bytes on the disk for eight hands on three tools at 1 kHz,
-// each hand on its own motion through a simulated session. Before it, the cost of keeping the inputs of that session for
-// a recording that begins later, and of adding them to it.
+// each hand on its own motion through a simulated session. Before it, the cost of keeping the inputs of that session
+// for a recording that begins later, and of adding them to it.
 #include <chrono>
 #include <cstdio>
 #include <ctime>

@@ -54,8 +54,9 @@ std::vector<std::string> names_in(const Folder& folder) {
 
 /// A network that loses, delays, doubles and reorders datagrams, in front of a server.
 Process lossy(const std::string& address) {
-  Process proxy = command(TANDEM_NETSIM, {"proxy", "--to", address, "--listen", "127.0.0.1:0", "--delay", "5", "--jitter",
-                                          "3", "--loss", "5", "--duplicate", "2", "--reorder", "2", "--seed", "11"});
+  Process proxy =
+      command(TANDEM_NETSIM, {"proxy", "--to", address, "--listen", "127.0.0.1:0", "--delay", "5", "--jitter", "3",
+                              "--loss", "5", "--duplicate", "2", "--reorder", "2", "--seed", "11"});
   proxy.wait_for("listening on ");
   return proxy;
 }
@@ -68,7 +69,7 @@ void expect_equal_and_whole(const Json& result, std::uint64_t unseen_least) {
 }
 
 // Two hands press a wall; an order begins a recording, ends it, and begins another one.
-TEST(LateRecording, ReplaysBitForBitFromTheSessionsBegin) {
+TEST(LiveLateRecording, ReplaysBitForBitFromTheSessionsBegin) {
   const Folder folder;
   Process host = hosting("contact", {"--duration", "13", "--record", folder.file(""), "--record-on-order"});
   const std::string address = address_of(host);
@@ -102,7 +103,7 @@ TEST(LateRecording, ReplaysBitForBitFromTheSessionsBegin) {
   std::printf("[  figures ] %s rows compared, %s ticks before the recordings replayed unseen\n",
               (first["rows"].dump() + " and " + second["rows"].dump()).c_str(),
               (first["unseen"].dump() + " and " + second["unseen"].dump()).c_str());
-  // What works on a recording from the begin works on this one.
+  // Commands for a recording from the begin work on this one.
   EXPECT_NE(netsim({"replay", files[1]}).out.find("were replayed unseen"), std::string::npos);
   EXPECT_EQ(netsim({"replay", files[1], "--what-if", "delay=10"}).code, 0);
   EXPECT_EQ(netsim({"score", files[1]}).code, 0);
@@ -118,7 +119,7 @@ TEST(LateRecording, ReplaysBitForBitFromTheSessionsBegin) {
 }
 
 // The first recording began with the session; an order ends it, and another one begins a second one of several files.
-TEST(LateRecording, FollowsARecordingFromTheBeginAndHasParts) {
+TEST(LiveLateRecording, FollowsARecordingFromTheBeginAndHasParts) {
   const Folder folder, films;
   const std::string config = folder.write(
       "s.textproto", "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + films.file("") +
@@ -153,7 +154,7 @@ std::string refusal(const std::string& file) {
   return replay.err;
 }
 
-TEST(LateRecording, SaysWhyItHasNoInputs) {
+TEST(LiveLateRecording, SaysWhyItHasNoInputs) {
   const Folder folder, none, little;
   const std::string config = folder.write(
       "s.textproto", "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + little.file("") +
@@ -181,10 +182,10 @@ TEST(LateRecording, SaysWhyItHasNoInputs) {
   EXPECT_EQ(told, 1u) << host.err();
   EXPECT_EQ(netsim({"score", files[0]}).code, 0);
 
-  const std::string other = folder.write(
-      "n.textproto", "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + none.file("") +
-                         "\" recording { from_start: false inputs_mib: 0 }\n"
-                         "session { name: \"lab\" scene: \"one_axis\" duration_s: 4 restart: false }\n");
+  const std::string other =
+      folder.write("n.textproto", "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + none.file("") +
+                                      "\" recording { from_start: false inputs_mib: 0 }\n"
+                                      "session { name: \"lab\" scene: \"one_axis\" duration_s: 4 restart: false }\n");
   Process second = server({"serve", other});
   ASSERT_TRUE(second.wait_for("Ctrl-C ends")) << second.err();
   Process hand = client(address_of(second), "trainer");
@@ -200,7 +201,7 @@ TEST(LateRecording, SaysWhyItHasNoInputs) {
 }
 
 // The disk is full for the kept inputs only: the recording that runs has everything, and the next one says why not.
-TEST(LateRecording, AFullDiskForKeptInputsDisturbsNoSessionAndNoRecording) {
+TEST(LiveLateRecording, AFullDiskForKeptInputsDisturbsNoSessionAndNoRecording) {
   const Folder folder, films;
   const std::string disk = folder.write("disk", "ok");
   Process host({"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + disk, TANDEM_SERVER,
@@ -227,10 +228,10 @@ TEST(LateRecording, AFullDiskForKeptInputsDisturbsNoSessionAndNoRecording) {
   EXPECT_EQ(server::test::account_problem(read(films, fs::path(files[0]).filename().string())), "");
 }
 
-TEST(LateRecording, LeavesNothingBehindAKilledServer) {
+TEST(LiveLateRecording, LeavesNothingBehindAKilledServer) {
   const Folder folder;
-  Process host = hosting("free_motion",
-                         {"--duration", "600", "--record", folder.file(""), "--record-on-order", "--no-restore"});
+  Process host =
+      hosting("free_motion", {"--duration", "600", "--record", folder.file(""), "--record-on-order", "--no-restore"});
   Process trainer = client(address_of(host), "trainer"), trainee = client(address_of(host), "trainee");
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
   std::this_thread::sleep_for(2s);
@@ -238,8 +239,8 @@ TEST(LateRecording, LeavesNothingBehindAKilledServer) {
   ASSERT_EQ(host.wait(), -SIGKILL);
   EXPECT_TRUE(names_in(folder).empty());
   folder.write(".tandem-inputs-000000", "of a file system that makes no files without a name");
-  Process next = hosting("free_motion",
-                         {"--duration", "600", "--record", folder.file(""), "--record-on-order", "--no-restore"});
+  Process next =
+      hosting("free_motion", {"--duration", "600", "--record", folder.file(""), "--record-on-order", "--no-restore"});
   EXPECT_TRUE(names_in(folder).empty()) << names_in(folder).front();
   next.signal(SIGINT);
   EXPECT_EQ(next.wait(), 0);

@@ -23,9 +23,7 @@ File kind_of(int file) {
   const std::string of = "/proc/self/fd/" + std::to_string(file);
   const long n = syscall(SYS_readlink, of.c_str(), link, sizeof link);
   const std::string_view name(link, n > 0 ? static_cast<std::size_t>(n) : 0);
-  return name.ends_with(".mcap.part") ? File::kRecording
-         : name.ends_with("(deleted)") ? File::kInputs
-                                       : File::kOther;
+  return name.ends_with(".mcap.part") ? File::kRecording : name.ends_with("(deleted)") ? File::kInputs : File::kOther;
 }
 
 /// @return whether the call succeeds

@@ -120,10 +120,10 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
 void SessionInstance::keep_inputs(Time start, InputKeeper& keeper, const SessionSnapshot* kept) {
   transport::HashKey key;
   auth::fill_random(key);
-  inputs_ = KeptInputs::make(
-      std::make_unique<InputJournal>(
-          key, InputJournal::capacity_for(options_->scene.seats.size(), options_->scene.tools.size())),
-      recording_folder(options_->record.target), options_->record.inputs_bytes);
+  inputs_ =
+      KeptInputs::make(std::make_unique<InputJournal>(
+                           key, InputJournal::capacity_for(options_->scene.seats.size(), options_->scene.tools.size())),
+                       recording_folder(options_->record.target), options_->record.inputs_bytes);
   live_session_->session().attach_journal(inputs_->journal(), start, build_text(),
                                           kept != nullptr ? &kept->checkpoint : nullptr);
   keeper.add(inputs_);

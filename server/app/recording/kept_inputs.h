@@ -22,12 +22,13 @@ namespace tandem::server {
 /// The inputs of a session from its begin, so that a recording that begins later can be replayed. It has the session's
 /// journal, drains it into memory, and keeps blocks of it in a spool (server/recording/io/input_spool.h). Recordings
 /// read the spool first and then what is drained. If the inputs cannot be kept further, recordings that read already
-/// lose none of them: the spool may exceed its limit while one reads it. Thread-safe but for `journal`; only `keep` and `Reader::next` may wait for the disk.
+/// lose none of them: the spool may exceed its limit while one reads it. Thread-safe but for `journal`; only `keep` and
+/// `Reader::next` may wait for the disk.
 class KeptInputs : public std::enable_shared_from_this<KeptInputs> {
  public:
-  static constexpr std::size_t kBlockBytes = std::size_t{128} << 10U;   ///< of the journal in one block [bytes]
-  static constexpr std::size_t kPendingMax = std::size_t{8} << 20U;     ///< that wait for the spool [bytes]
-  static constexpr std::size_t kUnreadMax = std::size_t{64} << 20U;     ///< that wait for a recording [bytes]
+  static constexpr std::size_t kBlockBytes = std::size_t{128} << 10U;  ///< of the journal in one block [bytes]
+  static constexpr std::size_t kPendingMax = std::size_t{8} << 20U;    ///< that wait for the spool [bytes]
+  static constexpr std::size_t kUnreadMax = std::size_t{64} << 20U;    ///< that wait for a recording [bytes]
 
   /// @param folder  of recordings, for the spool
   /// @param limit   size of the spool, at most [bytes]; 0: only a recording from the session's begin has inputs
@@ -70,9 +71,9 @@ class KeptInputs : public std::enable_shared_from_this<KeptInputs> {
   mutable std::mutex lock_;  ///< of everything below but what belongs to `keep`
   std::string pending_;      ///< bytes of the journal that are not in the spool
   std::uint64_t pending_at_ = 0;
-  std::size_t packed_ = 0;        ///< bytes of `pending_` that the packer has
-  std::uint64_t drained_ = 0;     ///< bytes of the journal so far
-  std::uint64_t spooled_ = 0;     ///< bytes of the spool
+  std::size_t packed_ = 0;     ///< bytes of `pending_` that the packer has
+  std::uint64_t drained_ = 0;  ///< bytes of the journal so far
+  std::uint64_t spooled_ = 0;  ///< bytes of the spool
   std::string problem_;
   bool told_ = false;
   std::vector<Reader*> readers_;
@@ -119,7 +120,7 @@ class KeptInputs::Reader {
 
   std::shared_ptr<KeptInputs> inputs_;
   bool late_;
-  std::uint64_t at_ = 0;  ///< in the spool
+  std::uint64_t at_ = 0;                        ///< in the spool
   bool attached_ = false, overflowed_ = false;  ///< under the lock
   std::uint64_t end_ = 0;                       ///< likewise: place in the spool at which `unread_` follows
   std::string unread_;                          ///< likewise: bytes of the journal

@@ -12,8 +12,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kPause = 20ms;  // between two looks at the queues
-// Blocks of earlier inputs per look. One is at least six times as much as the session makes meanwhile, and takes a sixth
-// of a core.
+// Blocks of earlier inputs per look. One is at least six times as much as the session makes meanwhile, and takes a
+// sixth of a core.
 constexpr int kUrgentBlocks = 4;
 constexpr Duration kFilesInterval = 250ms, kLinksInterval = 64ms;
 

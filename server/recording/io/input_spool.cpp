@@ -41,7 +41,7 @@ std::expected<InputSpool, std::string> InputSpool::create(const std::string& fol
 }
 
 std::string InputSpool::append(std::string_view bytes) {
-  struct statvfs disk {};
+  struct statvfs disk{};
   if (::fstatvfs(file_.get(), &disk) == 0 && std::uint64_t{disk.f_bavail} * disk.f_frsize < kFreeMin)
     return format("the disk has less than %llu MiB free", static_cast<unsigned long long>(kFreeMin >> 20U));
   std::uint64_t at = size_;

@@ -136,10 +136,10 @@ TEST(LateRecording, ReplaysRandomSessionsBitForBitFromAnyTickOn) {
     RandomStream random{RandomKey{seed}};
     // A restart repeats ticks of the checkpoint; the digest of their chunk is then of another choice of rows.
     const auto second = static_cast<std::uint64_t>(which.setup.scene.tick_hz);
-    LateRecorder recorder{which.setup.scene, second / 5 + random.below(3 * second / 2), seed % 3 == 0 ? 1500 : 0U, !restarts};
+    LateRecorder recorder{which.setup.scene, second / 5 + random.below(3 * second / 2), seed % 3 == 0 ? 1500 : 0U,
+                          !restarts};
     which.setup.journal = &recorder.journal();
-    static_cast<void>(
-        run_swarm_case(which, [&](Simulation& simulation) { recorder.take(simulation.session()); }));
+    static_cast<void>(run_swarm_case(which, [&](Simulation& simulation) { recorder.take(simulation.session()); }));
     EXPECT_EQ(recorder.journal().dropped(), 0u);
     const auto files = recorder.finish();
     ASSERT_FALSE(files.empty()) << "it ended after " << recorder.ticks() << " ticks at " << second << " Hz";
@@ -186,8 +186,9 @@ TEST(LateRecording, HasTheRowsOfARecordingFromTheBegin) {
     sizes.push_back(files[0].size());
   }
   EXPECT_EQ(sums[0], sums[1]);
-  std::printf("[  figures ] 8 s of contact recorded from the begin: %zu bytes; its last 4 s with all inputs: %zu bytes\n",
-              sizes[0], sizes[1]);
+  std::printf(
+      "[  figures ] 8 s of contact recorded from the begin: %zu bytes; its last 4 s with all inputs: %zu bytes\n",
+      sizes[0], sizes[1]);
 }
 
 }  // namespace

@@ -108,7 +108,8 @@ TEST(ServerConfig, ReadsWhereAndHowSessionsAreRecorded) {
   for (const char* shown : {"record", "a.mcap", "recording.pseudonyms", "recording.mib_per_min", "MiB/min"})
     EXPECT_NE(listing.find(shown), std::string::npos) << shown << " is not in\n" << listing;
   for (const char* wrong : {"file_mib: 0.9", "file_mib: 4097", "file_minutes: 0.09", "file_minutes: 1441",
-                            "total_mib: 0", "mib_per_min: 0.09", "mib_per_min: 1001", "mib_per_min: nan", "inputs_mib: -1", "inputs_mib: 65537", "names: 1"})
+                            "total_mib: 0", "mib_per_min: 0.09", "mib_per_min: 1001", "mib_per_min: nan",
+                            "inputs_mib: -1", "inputs_mib: 65537", "names: 1"})
     EXPECT_NE(mistakes_of(std::string(kSmall) + "recording { " + wrong + " }"), "") << wrong;
   EXPECT_NE(mistakes_of(std::string(kSmall) + "record: \"\"").find("record"), std::string::npos);
 }
