@@ -110,14 +110,14 @@ bool KeptInputs::keep(KeptBlockWriter& writer) {
   return true;
 }
 
-/// Adds an entry to the spool. @param beyond  its limit, too. @return why it is not there
+/// Adds an entry to the spool. @param beyond  its limit, up to twice of it, too. @return why it is not there
 std::string KeptInputs::spool(const std::string& entry, bool beyond) {
   if (!spool_) {
     auto made = InputSpool::create(folder_);
     if (!made) return "no file can be made for them: " + made.error();
     spool_.emplace(std::move(*made));
   }
-  if (!beyond && spool_->size() + entry.size() > limit_)
+  if (spool_->size() + entry.size() > (beyond ? 2 * limit_ : limit_))
     return format("the session had run longer than the inputs kept: %.6g MiB (recording { inputs_mib })",
                   static_cast<double>(limit_) / (1 << 20));
   return spool_->append(entry);

@@ -22,8 +22,8 @@ namespace tandem::server {
 /// The inputs of a session from its begin, so that a recording that begins later can be replayed. It has the session's
 /// journal, drains it into memory, and keeps blocks of it in a spool (server/recording/io/input_spool.h). Recordings
 /// read the spool first and then what is drained. If the inputs cannot be kept further, recordings that read already
-/// lose none of them: the spool may exceed its limit while one reads it. Thread-safe but for `journal`; only `keep` and
-/// `Reader::next` may wait for the disk.
+/// lose none of them: the spool may grow to twice its limit while one reads it. Thread-safe but for `journal`; only
+/// `keep` and `Reader::next` may wait for the disk.
 class KeptInputs : public std::enable_shared_from_this<KeptInputs> {
  public:
   static constexpr std::size_t kBlockBytes = std::size_t{128} << 10U;  ///< of the journal in one block [bytes]
