@@ -13,7 +13,8 @@ namespace tandem::mcap {
 void Compressor::Free::operator()(ZSTD_CCtx_s* context) const noexcept { ZSTD_freeCCtx(context); }
 void Decompressor::Free::operator()(ZSTD_DCtx_s* context) const noexcept { ZSTD_freeDCtx(context); }
 
-Compressor::Compressor(int level) : context_(ZSTD_createCCtx()), small_(ZSTD_createCCtx()) {
+Compressor::Compressor(int level, std::size_t small)
+    : context_(ZSTD_createCCtx()), small_(ZSTD_createCCtx()), small_max_(small) {
   // The optimal parser finds the short matches between numbers; a shallow search keeps it at 22 MB/s. Measured on
   // recordings of two seats: 5 % less than level 6.
   constexpr std::pair<ZSTD_cParameter, int> kSmall[] = {
@@ -30,7 +31,7 @@ Compressor::Compressor(int level) : context_(ZSTD_createCCtx()), small_(ZSTD_cre
 
 void Compressor::compress(std::string_view in, std::string& out) {
   out.resize(ZSTD_compressBound(in.size()));
-  ZSTD_CCtx* const context = (in.size() <= kSmallChunk ? small_ : context_).get();
+  ZSTD_CCtx* const context = (in.size() <= small_max_ ? small_ : context_).get();
   const std::size_t size = ZSTD_compress2(context, out.data(), out.size(), in.data(), in.size());
   if (ZSTD_isError(size) != 0) throw std::bad_alloc();  // with room for the bound, memory is all that can be short
   out.resize(size);

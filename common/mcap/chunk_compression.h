@@ -22,8 +22,9 @@ class Compressor {
   static constexpr std::size_t kSmallChunk = std::size_t{512} << 10;
 
   /// @param level  of zstd for chunks that are not small, 1 (fast) to 19
+  /// @param small  largest chunk with more effort [bytes]; 0: none
   /// @throws std::bad_alloc
-  explicit Compressor(int level);
+  explicit Compressor(int level, std::size_t small = kSmallChunk);
   /// Replaces `out` by one zstd frame that states its decompressed size. @throws std::bad_alloc
   void compress(std::string_view in, std::string& out);
 
@@ -32,6 +33,7 @@ class Compressor {
     void operator()(ZSTD_CCtx_s* context) const noexcept;
   };
   std::unique_ptr<ZSTD_CCtx_s, Free> context_, small_;
+  std::size_t small_max_;
 };
 
 /// Decompresses chunks. Any input is safe.

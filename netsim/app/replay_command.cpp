@@ -46,6 +46,11 @@ std::vector<std::string> replay_notes(const RecordingReplay& replay) {
   if (!replay.seats_compared)
     notes.emplace_back(
         "values of seats were not compared: the file has those of the hands themselves, before the network");
+  if (replay.unseen > 0)
+    notes.push_back(
+        format("the recording begins after %llu ticks of its session, which were replayed unseen: of them, "
+               "hashes of what the seats were sent were compared, and no values",
+               static_cast<unsigned long long>(replay.unseen)));
   return notes;
 }
 
@@ -61,6 +66,7 @@ std::string replay_json(const RecordingReplay& replay, std::size_t files, const 
                               {"datagrams", replay.counts.datagrams},
                               {"outputs", replay.counts.outputs},
                               {"rows", replay.rows},
+                              {"unseen", replay.unseen},
                               {"complete", replay.complete},
                               {"notes", notes}};
   if (const auto& d = replay.difference)

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "common/base/sanitize.h"
 #include "common/mcap/mcap_reader.h"
 #include "common/mcap/message_cursor.h"
 #include "proto/recording/event_messages.h"
@@ -34,10 +35,15 @@ std::string missing_inputs_text(const Lesson& lesson) {
   if (program != lesson.metadata.end() && program->second.starts_with("tandem-client record"))
     return text + "`tandem-client record` receives values, not what entered the session: let the server record " +
            "(--record of tandem-server run, key record of serve)";
+  constexpr const char* kRest = "Scores, diff, trace, exports, --what-if and hands of it work";
+  const std::string begun = lesson.rows() == 0 ? "The recording was begun by an order"
+                                               : "The recording was begun by an order at tick " +
+                                                     std::to_string(lesson.tick.front()) + " of its session";
+  if (const auto why = lesson.metadata.find(rec::kNoInputsKey); why != lesson.metadata.end())
+    return text + begun + ", and the server had not kept what entered the session before: " + sanitize(why->second) +
+           ". " + kRest;
   if (lesson.rows() > 0 && lesson.tick.front() > 1)
-    return text + "The recording was begun by an order at tick " + std::to_string(lesson.tick.front()) +
-           " of its session, and a replay needs all inputs since the first one: record the session from its begin " +
-           "(--record without --record-on-order). Scores, diff, trace, exports, --what-if and hands of it work";
+    return text + begun + ", by a server that kept no inputs for it: record the session from its begin. " + kRest;
   return text + "It was made without them";
 }
 
@@ -117,6 +123,7 @@ RecordingReplay RecordingReplayer::finish() {
   out_.other_scene = !replay_->same_scene();
   out_.counts = replay_->counts();
   out_.rows = rows_->rows();
+  out_.unseen = rows_->unseen();
   // A cut file may lack the inputs of its last rows.
   if (!ended() && out_.complete && last_row_ && rows_->last_tick().value_or(0) < *last_row_)
     out_.error = "the inputs end at tick " + std::to_string(rows_->last_tick().value_or(0)) +

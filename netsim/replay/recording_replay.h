@@ -31,7 +31,8 @@ struct RecordingReplay {
   bool complete = false;                  ///< all files have an undamaged end
   bool seats_compared = false;            ///< false: rows of seats show the hands themselves, before the network
   SessionReplay::Counts counts;
-  std::uint64_t rows = 0;  ///< ticks whose recorded values were compared
+  std::uint64_t rows = 0;    ///< ticks whose recorded values were compared
+  std::uint64_t unseen = 0;  ///< ticks before the recording: only what the seats were sent was compared
 
   /// Everything was replayed, and equal.
   [[nodiscard]] bool equal() const noexcept { return !difference && error.empty() && counts.ticks > 0; }

@@ -1,5 +1,6 @@
 #include "netsim/replay/row_comparison.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/base/format.h"
@@ -11,6 +12,7 @@ namespace tandem::netsim {
 
 std::optional<ReplayDifference> RowComparison::add(std::shared_ptr<const Lesson> lesson) {
   if (lesson->rows() == 0) return std::nullopt;
+  if (!first_) first_ = lesson->tick.front();
   lessons_.push_back(std::move(lesson));
   while (!waiting_.empty() && waiting_.front().record->tick <= lessons_.back()->tick.back()) {
     const Waiting first = std::move(waiting_.front());
@@ -21,6 +23,7 @@ std::optional<ReplayDifference> RowComparison::add(std::shared_ptr<const Lesson>
 }
 
 std::optional<ReplayDifference> RowComparison::compare(const server::Session& session, std::uint64_t tick) {
+  count_unseen(session);
   const server::TickRecord& record = session.record();
   if (!session.recorded() || (last_ ? record.tick <= *last_ : !record.running)) return std::nullopt;
   last_ = record.tick;
@@ -56,6 +59,15 @@ std::optional<ReplayDifference> RowComparison::compare(const server::TickRecord&
     difference->session_tick = record.tick;
   }
   return difference;
+}
+
+/// Counts a tick, and the missed ones before it, which advance the session's clock too.
+void RowComparison::count_unseen(const server::Session& session) {
+  if (session.state() != wire::SessionState::kRunning) return;
+  const std::uint32_t now = session.clock().session_tick(), counted = uncounted_.value_or(now);
+  if (now < counted) return;  // a restarted server repeats ticks
+  uncounted_ = now + 1;
+  if (first_ && counted < *first_) unseen_ += std::min(now + 1, *first_) - counted;
 }
 
 void RowComparison::round_tools(server::TickRecord& record) const noexcept {

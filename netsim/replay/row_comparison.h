@@ -37,6 +37,8 @@ class RowComparison {
   [[nodiscard]] bool overflowed() const noexcept { return waiting_.size() >= kWaitingMax; }
   /// Rows that were compared.
   [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
+  /// Session ticks before the first row, of a recording that began later than its session.
+  [[nodiscard]] std::uint64_t unseen() const noexcept { return unseen_; }
   /// Session tick of the newest record; nullopt: none ran.
   [[nodiscard]] std::optional<std::uint32_t> last_tick() const noexcept { return last_; }
 
@@ -45,6 +47,7 @@ class RowComparison {
     std::uint64_t tick = 0;
     std::unique_ptr<server::TickRecord> record;
   };
+  void count_unseen(const server::Session& session);
   std::optional<ReplayDifference> compare(const server::TickRecord& record, std::uint64_t tick);
   void round_tools(server::TickRecord& record) const noexcept;
   std::optional<ReplayDifference> compare_digest(const Lesson& lesson, const server::TickRecord& record);
@@ -56,7 +59,9 @@ class RowComparison {
   std::size_t row_ = 0, digest_ = 0;   ///< next ones of the first lesson
   server::ToolDigest own_digest_;      ///< of the rows since its last digest
   std::optional<std::uint32_t> last_;  ///< tick of the newest record, as RecordingWriter decides
-  std::uint64_t rows_ = 0;
+  std::uint64_t rows_ = 0, unseen_ = 0;
+  std::optional<std::uint32_t> first_;      ///< tick of the first row
+  std::optional<std::uint32_t> uncounted_;  ///< first session tick that `count_unseen` has not counted
   std::deque<Waiting> waiting_;
   server::TickRecord recorded_{}, replayed_{};
   std::vector<double> before_, now_;

@@ -29,6 +29,10 @@ inline constexpr const char* kLastKey = "last";
 inline constexpr const char* kToolsKey = "tools";
 inline constexpr const char* kRoundedTools = "16 significant bits";
 
+/// Key of the record `session`: why a server's recording has no inputs. Absent: it has them, or an older server made
+/// it.
+inline constexpr const char* kNoInputsKey = "no_inputs";
+
 /// Keys of the metadata of a channel: its kind, and the seat or tool that it shows.
 inline constexpr const char* kKindKey = "kind";
 inline constexpr const char* kNameKey = "name";

@@ -59,6 +59,7 @@ struct RecordingSpec {
   double file_minutes = 10;  ///< [min] of one file
   double total_mib = 65536;  ///< [MiB] of all files of a run; then the recording ends
   double mib_per_min = 128;  ///< [MiB/min]; further ticks are left out and counted
+  double inputs_mib = 1024;  ///< [MiB] of inputs kept per session for a recording that begins later; 0: none
 };
 
 /// How a server is a member of a service of several servers.

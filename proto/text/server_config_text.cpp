@@ -28,12 +28,13 @@ constexpr std::array<MessageKey<Limits>, 10> kLimitKeys{{{"accepts_per_s", &Limi
 constexpr std::array<MessageKey<AuditSpec>, 2> kAuditKeys{
     {{"file_mib", &AuditSpec::file_mib}, {"older_files", &AuditSpec::older_files}}};
 
-constexpr std::array<MessageKey<RecordingSpec>, 6> kRecordingKeys{{{"pseudonyms", &RecordingSpec::pseudonyms},
+constexpr std::array<MessageKey<RecordingSpec>, 7> kRecordingKeys{{{"pseudonyms", &RecordingSpec::pseudonyms},
                                                                    {"from_start", &RecordingSpec::from_start},
                                                                    {"file_mib", &RecordingSpec::file_mib},
                                                                    {"file_minutes", &RecordingSpec::file_minutes},
                                                                    {"total_mib", &RecordingSpec::total_mib},
-                                                                   {"mib_per_min", &RecordingSpec::mib_per_min}}};
+                                                                   {"mib_per_min", &RecordingSpec::mib_per_min},
+                                                                   {"inputs_mib", &RecordingSpec::inputs_mib}}};
 
 LocatedText placed(const std::string& value, const MessageValidator& validator, const std::string& key) {
   const text::SourceLocation place = validator.location(key);

@@ -363,7 +363,8 @@ void InputPacker::take(std::string& out, bool rest) {
     for (const auto& [kind, group] : groups)
       if (group.number != kPlain) put_group(group, seats_, divisions_[kind], out);
     if (divisions_.size() > kGroupsMax) divisions_.clear();
-    bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at));
+    // A session that waits for a recording has no memory for the largest block so far.
+    bytes_ = std::vector<std::byte>(bytes_.begin() + static_cast<std::ptrdiff_t>(at), bytes_.end());
     position_ += at;
   }
   if (ticks_.size() > kRowsBefore) ticks_.erase(ticks_.begin(), ticks_.end() - kRowsBefore);

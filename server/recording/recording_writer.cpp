@@ -168,11 +168,20 @@ void RecordingWriter::add_inputs(std::span<const std::byte> piece) {
   static_cast<void>(inputs_.add(piece));
 }
 
+void RecordingWriter::add_input_block(std::string_view block) {
+  begin_message(time_ns_);
+  write_inputs(true);
+  write_block(block);
+}
+
 /// Adds a block of the inputs so far. @param rest  with a record that is not whole
 void RecordingWriter::write_inputs(bool rest) {
   inputs_.take(block_, rest);
-  if (block_.empty()) return;
-  rec::encode_inputs(account_.last_tick(), bytes_of(block_), message_);
+  if (!block_.empty()) write_block(block_);
+}
+
+void RecordingWriter::write_block(std::string_view block) {
+  rec::encode_inputs(account_.last_tick(), bytes_of(block), message_);
   note(notes_.inputs, message_);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "common/mcap/mcap_writer.h"
 #include "proto/recording/tick_messages.h"
@@ -41,6 +42,9 @@ class RecordingWriter {
   /// Adds inputs of the session, for replay, after the record of their tick.
   /// @param piece  of the input journal: its position (u64), then bytes, as InputJournal::drain gives them
   void add_inputs(std::span<const std::byte> piece);
+  /// Adds inputs that were packed without rows of the recording, before those that follow them.
+  /// @param block  as InputPacker::take gave it
+  void add_input_block(std::string_view block);
   void add_event(const LessonEvent& event);
   void add_mark(const LessonMark& mark);
   void add_sheet(const LessonSheet& sheet);
@@ -74,6 +78,7 @@ class RecordingWriter {
   void note(std::uint16_t channel, std::string_view data);
   void begin_message(std::int64_t time_ns);
   void write_inputs(bool rest);
+  void write_block(std::string_view block);
   [[nodiscard]] std::uint64_t log_time(std::int64_t time_ns) const noexcept;
 
   const SceneSpec* scene_;

@@ -35,9 +35,10 @@ struct SessionCommand;
 class InputJournal {
  public:
   static constexpr std::size_t kCapacity = std::size_t{8} << 20;  ///< [bytes]: about 2 s of 16 seats at 1 kHz
-  /// Returns the bytes of about 2 s of a scene at 1 kHz. A seat's datagram grows with each tool that it is coupled to.
+  /// Returns the bytes of a scene at 1 kHz for about 2 s, at most 1 MiB: about half a second of 8 seats, a quarter
+  /// of 16. A seat's datagram grows with each tool that it is coupled to.
   [[nodiscard]] static constexpr std::size_t capacity_for(std::size_t seats, std::size_t tools) noexcept {
-    return std::min(kCapacity, seats * (1 + tools) * 320 * 1024);
+    return std::min(std::size_t{1} << 20U, seats * (1 + tools) * 160 * 1024);
   }
 
   /// @param key       hides network addresses; random, and never written to a file

@@ -7,13 +7,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <list>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "server/app/recording/kept_inputs.h"
 #include "tests/bench/hosted_shard.h"
 #include "tests/bench/scene_rows.h"
 
@@ -95,7 +98,30 @@ double resident() {
   return pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Sessions as a server has them, with their queues of tick records full.
+/// Fills the memory that the inputs of a session may take while none of its recordings runs: the journal's ring, and
+/// what waits to be a block.
+void fill(server::KeptInputs& inputs, std::size_t seats) {
+  server::KeptBlockWriter writer;
+  const std::vector<std::byte> plaintext(130, std::byte{5});
+  std::size_t seat = 0;
+  std::uint64_t counter = 0;
+  const auto add = [&](std::size_t bytes) {
+    for (std::size_t n = 0; n < bytes; n += plaintext.size()) {
+      inputs.journal().datagram(Time{}, seat++ % seats, {}, {.counter = ++counter}, plaintext, nullptr);
+      inputs.journal().tick(Time{}, 0, {});
+      inputs.journal().end_tick();
+    }
+  };
+  for (int k = 0; k < 100; ++k) {
+    add(16384);
+    inputs.drain();
+    inputs.keep(writer);
+  }
+  add(server::KeptInputs::kBlockBytes / 2);  // less than a block waits
+  inputs.drain();
+}
+
+/// Sessions as a server has them that may record them, with their queues of tick records full.
 void print_memory() {
   std::printf("resident memory per session, queues full, all seats taken; asked: at most %.0f MB\n%8s %6s %8s\n",
               kMegabytesAsked, "sessions", "seats", "MB");
@@ -103,7 +129,9 @@ void print_memory() {
   std::list<SceneSpec> scenes;
   std::vector<std::unique_ptr<server::TickQueue>> queues;
   std::vector<std::unique_ptr<server::LiveSession>> live;
-  for (const auto& [sessions, seats] : {std::pair{150, 2}, {50, 8}, {50, 16}}) {
+  std::vector<std::shared_ptr<server::KeptInputs>> kept;
+  for (const auto& [sessions, seats, inputs] :
+       {std::tuple{150, 2, false}, {50, 8, false}, {50, 16, false}, {150, 2, true}, {50, 8, true}, {50, 16, true}}) {
     const SceneSpec& scene = scenes.emplace_back(scene_with(seats));
     const double before = resident();
     for (int s = 0; s < sessions; ++s) {
@@ -117,8 +145,16 @@ void print_memory() {
           std::printf("[ INVALID ] a seat was refused\n");
       while (queues.back()->push({})) {
       }
+      if (!inputs) continue;
+      kept.push_back(
+          server::KeptInputs::make(std::make_unique<server::InputJournal>(
+                                       transport::HashKey{}, server::InputJournal::capacity_for(n, scene.tools.size())),
+                                   std::filesystem::temp_directory_path().string(), std::uint64_t{1} << 30U));
+      fill(*kept.back(), n);
+      if (!kept.back()->problem().empty()) std::printf("[ INVALID ] %s\n", kept.back()->problem().c_str());
     }
-    std::printf("%8d %6d %8.2f\n", sessions, seats, (resident() - before) / sessions / 1e6);
+    std::printf("%8d %6d %8.2f%s\n", sessions, seats, (resident() - before) / sessions / 1e6,
+                inputs ? "  with the inputs kept for a recording" : "");
   }
   std::printf("\n");
 }

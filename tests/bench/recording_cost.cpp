@@ -1,5 +1,6 @@
 // The cost of a recording: processor time of its threads and bytes on the disk for eight hands on three tools at 1 kHz,
-// each hand on its own motion through a simulated session.
+// each hand on its own motion through a simulated session. Before it, the cost of keeping the inputs of that session
+// for a recording that begins later, and of adding them to it.
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -13,7 +14,11 @@
 #include "netsim/system/simulation.h"
 #include "proto/text/scene_bytes.h"
 #include "proto/text/scene_text.h"
+#include "server/app/recording/kept_inputs.h"
+#include "server/recording/input_packer.h"
+#include "server/recording/io/input_spool.h"
 #include "server/recording/io/recording_files.h"
+#include "server/recording/kept_block.h"
 #include "server/session/input_journal.h"
 #include "tests/support/simulation_run.h"
 
@@ -46,6 +51,42 @@ SceneSpec scene() {
   return std::move(*parsed);
 }
 
+/// The session in memory, tick by tick.
+struct Recorded {
+  std::vector<server::TickRecord> records;
+  std::vector<std::vector<std::byte>> inputs;  ///< of each record
+};
+
+double percent(Duration spent, std::size_t ticks) { return 100 * seconds(spent) / (static_cast<double>(ticks) / 1000); }
+
+/// Keeps the inputs, block after block, and reads them again.
+void print_keeper(const Recorded& session) {
+  const std::size_t ticks = session.records.size();
+  server::InputPacker packer{SceneSpec{}};
+  server::KeptBlockWriter writer;
+  auto spool = server::InputSpool::create(std::filesystem::temp_directory_path().string());
+  if (!spool) return std::puts("[ INVALID ] no spool"), void();
+  std::string block, entry;
+  std::size_t raw = 0, blocks = 0;
+  const Duration before = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
+  for (const auto& inputs : session.inputs) {
+    static_cast<void>(packer.add(inputs));
+    raw += inputs.size() - server::InputJournal::kPieceHeader;
+    if (packer.size() < server::KeptInputs::kBlockBytes) continue;
+    packer.take(block, false);
+    writer.write(block, entry);
+    if (!spool->append(entry).empty()) return std::puts("[ INVALID ] the disk failed"), void();
+    ++blocks;
+  }
+  const Duration spent = io::read_clock(CLOCK_THREAD_CPUTIME_ID) - before;
+  std::printf(
+      "inputs kept for a recording that begins later: %.2f %% of a core; %.2f MB per minute and seat of %.2f in the "
+      "journal; %zu blocks, 1024 MiB last for %.0f min\n",
+      percent(spent, ticks), static_cast<double>(spool->size()) * 2e-3 * 30 / kSeats / static_cast<double>(ticks),
+      static_cast<double>(raw) * 2e-3 * 30 / kSeats / static_cast<double>(ticks), blocks,
+      1024.0 * (1 << 20) / static_cast<double>(spool->size()) * static_cast<double>(ticks) / 60'000);
+}
+
 int measure() {
   const SceneSpec setup = scene();
   server::InputJournal journal{transport::HashKey{}};
@@ -55,8 +96,8 @@ int measure() {
   config.journal = &journal;
   const auto simulation = netsim::Simulation::make(config);
   if (!simulation) return 1;
-  std::vector<server::TickRecord> records;
-  std::vector<std::vector<std::byte>> inputs;  // of each record
+  Recorded recorded;
+  auto& [records, inputs] = recorded;
   std::vector<std::byte> piece(1 << 16);
   while (records.size() < kTicks && (*simulation)->step()) {
     if (!(*simulation)->session().record().running) continue;
@@ -65,6 +106,7 @@ int measure() {
     inputs.emplace_back(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(size));
   }
   if (records.empty() || journal.dropped() > 0) return 1;
+  print_keeper(recorded);
   std::string folder = (std::filesystem::temp_directory_path() / "tandem-bench-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) return 1;
   server::RecordingInfo info;

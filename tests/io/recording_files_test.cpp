@@ -193,6 +193,26 @@ TEST(RecordingFiles, LeaveOutAndCountTicksBeyondTheRate) {
   EXPECT_LT(std::filesystem::file_size(folder.file("a.mcap")), 10'000u * (20 + 10) * 2);
 }
 
+// 3.6 MB of inputs from before a recording, whose rate allows 2 MB at its begin: no tick is left out for them.
+TEST(RecordingFiles, AddEarlierInputsBesideTheRate) {
+  const Folder folder;
+  Recording recording(folder, {.bytes_per_s = 200'000});
+  RandomStream random{RandomKey{9}};
+  std::string block(300'000, '\0');
+  for (char& c : block) c = static_cast<char>(random.bits());
+  for (int k = 0; k < 12; ++k) {
+    recording.run(2);
+    recording.settle([&] { return recording.files().accepts(); });
+    recording.files().add_input_block(block, block.size());
+  }
+  recording.run(4);
+  EXPECT_EQ(recording.files().trouble(), "");
+  EXPECT_GT(recording.files().bytes(), 3'000'000u);
+  recording.close();
+  EXPECT_EQ(recording.files().lost(), 0u);
+  EXPECT_EQ(account_problem(read(folder, "a.mcap")), "");
+}
+
 TEST(RecordingFiles, CountWhatTheSessionDidNotRecord) {
   const Folder folder;
   Recording recording(folder);

@@ -1,5 +1,6 @@
 // A disk that a test makes slow or full while a program runs: a library for LD_PRELOAD. It reads one word from the file
-// that TANDEM_SLOW_DISK names before each write and sync of a recording: ok, slow or full.
+// that TANDEM_SLOW_DISK names before each write and sync of a recording: ok, slow or full. With the word inputs it is
+// full for files without a name, in which a server keeps inputs, and for no other.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -15,28 +16,32 @@ namespace {
 
 constexpr useconds_t kSlow = 1'500'000;  // [us] of each call
 
-bool is_recording(int file) {
+enum class File { kOther, kRecording, kInputs };
+
+File kind_of(int file) {
   char link[4096];
   const std::string of = "/proc/self/fd/" + std::to_string(file);
   const long n = syscall(SYS_readlink, of.c_str(), link, sizeof link);
-  return n > 0 && std::string_view(link, static_cast<std::size_t>(n)).ends_with(".mcap.part");
+  const std::string_view name(link, n > 0 ? static_cast<std::size_t>(n) : 0);
+  return name.ends_with(".mcap.part") ? File::kRecording : name.ends_with("(deleted)") ? File::kInputs : File::kOther;
 }
 
 /// @return whether the call succeeds
 bool pass(int file) {
   const char* const control = std::getenv("TANDEM_SLOW_DISK");
-  if (control == nullptr || !is_recording(file)) return true;
+  const File kind = control == nullptr ? File::kOther : kind_of(file);
+  if (kind == File::kOther) return true;
   char word[8]{};
   const int in = static_cast<int>(syscall(SYS_openat, AT_FDCWD, control, O_RDONLY));
   if (in >= 0) {
     [[maybe_unused]] const long n = syscall(SYS_read, in, word, sizeof word - 1);
     syscall(SYS_close, in);
   }
-  if (std::strncmp(word, "full", 4) == 0) {
+  if (std::strncmp(word, kind == File::kInputs ? "inputs" : "full", 4) == 0) {
     errno = ENOSPC;
     return false;
   }
-  if (std::strncmp(word, "slow", 4) == 0) usleep(kSlow);
+  if (kind == File::kRecording && std::strncmp(word, "slow", 4) == 0) usleep(kSlow);
   return true;
 }
 

@@ -55,7 +55,8 @@ RecordingOptions recording_options_from(const ServerConfigSpec& config, const Lo
           .limits = {.file_bytes = static_cast<std::uint64_t>(in.file_mib * kMib),
                      .file_s = 60 * in.file_minutes,
                      .total_bytes = static_cast<std::uint64_t>(in.total_mib * kMib),
-                     .bytes_per_s = in.mib_per_min * kMib / 60}};
+                     .bytes_per_s = in.mib_per_min * kMib / 60},
+          .inputs_bytes = static_cast<std::uint64_t>(in.inputs_mib * kMib)};
 }
 
 SessionOptions session_options_from(const ServerConfigSpec& config, const ConfiguredSessionSpec& in,

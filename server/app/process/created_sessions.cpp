@@ -97,8 +97,10 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
 
   if (!shards_.assign(place->slot, place->shard))
     return ErrorReply{ErrorCode::kInternal, "the kernel gives no memory for the distribution of datagrams", 5};
-  auto opened = SessionInstance::open(*options, {.slot = static_cast<std::uint8_t>(place->slot),
-                                                 .with_code = !control_.ephemeral_keys() && !options->tickets_only});
+  auto opened = SessionInstance::open(*options,
+                                      {.slot = static_cast<std::uint8_t>(place->slot),
+                                       .with_code = !control_.ephemeral_keys() && !options->tickets_only},
+                                      inputs_);
   if (!opened)
     return ErrorReply{ErrorCode::kBadFrame, reply_text({{wanted.name, 0, 0, "", "", opened.error().texts.front()}}), 0};
   SessionInstance& session = **opened;

@@ -26,7 +26,8 @@ std::string SessionTable::open_owned(OwnedSession owned) {
                                                        .with_code = !owned.code.empty(),
                                                        .kept = found.snapshot ? &*found.snapshot : nullptr,
                                                        .id = owned.id,
-                                                       .code = owned.code});
+                                                       .code = owned.code},
+                                      inputs_);
   if (!opened) return opened.error().texts.front();
   SessionInstance& session = **opened;
   session.keep_options(std::move(owned.options), owned.ends_at);

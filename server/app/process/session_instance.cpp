@@ -12,6 +12,7 @@
 #include "common/io/clock.h"
 #include "common/io/exit_code.h"
 #include "common/setup/channel_factory.h"
+#include "proto/recording/recording_format.h"
 #include "proto/text/scene_bytes.h"
 #include "proto/text/scene_text.h"
 #include "server/app/control/session_registry.h"
@@ -26,6 +27,8 @@ const char* to_text(EndReason end) {
                                     "people_left", "operator", "time_limit",  "given_up"};
   return kNames[static_cast<std::size_t>(end)];
 }
+
+constexpr const char* kNoneKept = "this server keeps no inputs (recording { inputs_mib: 0 })";
 
 double cpu_seconds() {
   rusage used{};
@@ -92,13 +95,14 @@ SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves,
 }
 
 std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> SessionInstance::open(
-    const SessionOptions& plan, const Opening& opening) {
+    const SessionOptions& plan, const Opening& opening, InputKeeper& inputs) {
   const SessionSnapshot* const kept = opening.kept;
   const Time now = io::monotonic_now();
   auto slaves = make_local_slaves(plan.scene, now, kept != nullptr ? &kept->checkpoint : nullptr);
   if (!slaves) return std::unexpected(OpenError{io::kExitUsage, slaves.error()});
   std::unique_ptr<SessionInstance> run{new SessionInstance(plan, std::move(*slaves), opening)};
-  if (!plan.record.target.empty() && plan.record.from_start) run->attach_journal(now, kept);
+  const RecordingOptions& record = plan.record;
+  if (!record.target.empty() && (record.from_start || record.inputs_bytes > 0)) run->keep_inputs(now, inputs, kept);
   run->epoch_ = kept != nullptr ? std::max(kept->checkpoint.epoch + 1, opening.epoch) : opening.epoch;
   if (kept != nullptr) {
     run->snapshot_ = *kept;
@@ -129,14 +133,16 @@ void SessionInstance::set_keeper(SnapshotKeeper* keeper) {
   live_session_->persist_to(keeper->add(std::move(kept)), epoch_);
 }
 
-void SessionInstance::attach_journal(Time start, const SessionSnapshot* kept) {
+void SessionInstance::keep_inputs(Time start, InputKeeper& keeper, const SessionSnapshot* kept) {
   transport::HashKey key;
   auth::fill_random(key);
-  journal_ = std::make_unique<InputJournal>(
-      key, InputJournal::capacity_for(options_->scene.seats.size(), options_->scene.tools.size()));
-  unrecorded_ = journal_.get();
-  live_session_->session().attach_journal(*journal_, start, build_text(),
+  inputs_ =
+      KeptInputs::make(std::make_unique<InputJournal>(
+                           key, InputJournal::capacity_for(options_->scene.seats.size(), options_->scene.tools.size())),
+                       recording_folder(options_->record.target), options_->record.inputs_bytes);
+  live_session_->session().attach_journal(inputs_->journal(), start, build_text(),
                                           kept != nullptr ? &kept->checkpoint : nullptr);
+  keeper.add(inputs_);
 }
 
 std::string SessionInstance::outcome_text(const RunReport& report) const {
@@ -163,9 +169,12 @@ std::string SessionInstance::start_recording() {
                    {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
   info.round_tools = true;
   info.persons = desk_->persons();
+  std::expected<std::unique_ptr<KeptInputs::Reader>, std::string> inputs = std::unexpected(kNoneKept);
+  if (inputs_) inputs = inputs_->read();
+  if (!inputs) info.metadata[rec::kNoInputsKey] = inputs.error();
   auto started = LiveRecording::start(
       recording_path(wanted.target, options_->name, id.substr(0, 8), auth::wall_seconds()), *live_session_, info,
-      wanted.limits, wanted.pseudonyms, desk_, std::exchange(unrecorded_, nullptr));
+      wanted.limits, wanted.pseudonyms, desk_, inputs ? std::move(*inputs) : nullptr);
   if (!started) return started.error();
   recording_ = std::move(*started);
   recorder_.copy_to(recording_->ticks());
@@ -186,6 +195,10 @@ std::vector<LiveRecording::Message> SessionInstance::service_recordings() {
   const auto take = [&all](LiveRecording& from) {
     for (LiveRecording::Message& message : from.take_messages()) all.push_back(std::move(message));
   };
+  if (std::string why = inputs_ ? inputs_->take_problem() : std::string(); !why.empty())
+    all.push_back({true, "inputs_not_kept",
+                   "a recording that begins from now on has no inputs, so that it cannot be replayed bit for bit: " +
+                       std::move(why)});
   if (recording_ && recording_->done()) end_recording();
   if (recording_) take(*recording_);
   std::erase_if(ending_, [&](const std::unique_ptr<LiveRecording>& recording) {

@@ -13,6 +13,7 @@
 #include "server/app/process/live_session.h"
 #include "server/app/process/recorder.h"
 #include "server/app/process/snapshot_keeper.h"
+#include "server/app/recording/input_keeper.h"
 #include "server/app/recording/live_recording.h"
 #include "server/app/recording/recording_target.h"
 #include "server/session/session_snapshot.h"
@@ -49,9 +50,11 @@ class SessionInstance {
     std::string code{};                     ///< of a new session; empty: a random one
   };
   /// @param plan  must outlive this
+  /// @param inputs  keeps the inputs of a session that may be recorded
   /// @return the session, ready to be served, or the errors
   [[nodiscard]] static std::expected<std::unique_ptr<SessionInstance>, OpenError> open(const SessionOptions& plan,
-                                                                                       const Opening& opening);
+                                                                                       const Opening& opening,
+                                                                                       InputKeeper& inputs);
 
   [[nodiscard]] const SessionOptions& options() const noexcept { return *options_; }
   [[nodiscard]] LiveSession& live_session() noexcept { return *live_session_; }
@@ -111,8 +114,8 @@ class SessionInstance {
 
  private:
   SessionInstance(const SessionOptions& plan, LocalSlaves slaves, const Opening& opening);
-  /// Begins the journal of the session's inputs. @param start  time at which its slaves were made
-  void attach_journal(Time start, const SessionSnapshot* kept);
+  /// Keeps the session's inputs from its begin. @param start  time at which its slaves were made
+  void keep_inputs(Time start, InputKeeper& keeper, const SessionSnapshot* kept);
 
   std::shared_ptr<const SessionOptions> created_;  ///< first, because the other members refer to it
   const SessionOptions* options_;
@@ -127,9 +130,8 @@ class SessionInstance {
   io::OutputFile json_, trace_;
   TickQueue queue_;
   Recorder recorder_;
-  std::unique_ptr<InputJournal> journal_;  ///< of a session that is recorded from its start; before the session
+  std::shared_ptr<KeptInputs> inputs_;  ///< null: no recording can have them; before the session
   std::unique_ptr<LiveSession> live_session_;
-  InputJournal* unrecorded_ = nullptr;  ///< journal that no recording has taken; it belongs to the first one
   std::shared_ptr<RecordingDesk> desk_;
   std::unique_ptr<LiveRecording> recording_;
   std::vector<std::unique_ptr<LiveRecording>> ending_;  ///< whose last file is not complete

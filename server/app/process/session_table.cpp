@@ -51,10 +51,12 @@ void SessionTable::begin() {
 std::expected<std::unique_ptr<SessionInstance>, int> SessionTable::open_session(const SessionOptions& options,
                                                                                 std::size_t slot, std::uint64_t epoch,
                                                                                 const SessionSnapshot* snapshot) {
-  auto made = SessionInstance::open(options, {.slot = static_cast<std::uint8_t>(slot),
-                                              .epoch = epoch,
-                                              .with_code = !control_.ephemeral_keys() && !options.tickets_only,
-                                              .kept = snapshot});
+  auto made = SessionInstance::open(options,
+                                    {.slot = static_cast<std::uint8_t>(slot),
+                                     .epoch = epoch,
+                                     .with_code = !control_.ephemeral_keys() && !options.tickets_only,
+                                     .kept = snapshot},
+                                    inputs_);
   if (!made) {
     for (const std::string& text : made.error().texts) output_.error(text);
     return std::unexpected(made.error().code);

@@ -120,6 +120,7 @@ class SessionTable {
   CheckpointStore* checkpoints_;
   ServerOutput& output_;
   ServerHints hints_;
+  InputKeeper inputs_;  ///< before the sessions
   std::vector<std::unique_ptr<SessionInstance>> sessions_;
   std::vector<std::unique_ptr<SessionInstance>> finished_;  ///< completed, but still registered
   std::vector<std::unique_ptr<SessionInstance>> closing_;   ///< over, but a recording is not complete

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "server/recording/io/input_spool.h"
+
 namespace tandem::server {
 
 namespace {
@@ -12,8 +14,10 @@ constexpr int kLeastPriority = 19;  // nice value
 
 std::vector<std::string> leftovers_of(const std::vector<std::string>& folders) {
   std::vector<std::string> files;
-  for (const std::string& folder : folders)
+  for (const std::string& folder : folders) {
+    remove_stale_spools(folder);
     for (std::string& file : recording_leftovers(folder)) files.push_back(std::move(file));
+  }
   return files;
 }
 }  // namespace

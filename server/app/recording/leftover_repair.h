@@ -11,7 +11,7 @@
 namespace tandem::server {
 
 /// Closes the recordings that an earlier server left in its folders, on a thread of low priority: sessions start
-/// meanwhile. It looks for the files once, before the server makes new ones.
+/// meanwhile. It removes spools of inputs that it left. It looks for the files once, before the server makes new ones.
 class LeftoverRepair {
  public:
   /// @param folders    of recordings

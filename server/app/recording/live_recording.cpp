@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/base/format.h"
+#include "common/base/raw_bytes.h"
 #include "common/io/clock.h"
 
 namespace tandem::server {
@@ -10,32 +11,33 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kPiece = 65536;  // [bytes] of the input journal in one message
-constexpr Duration kPause = 20ms;      // between two looks at the queues
+constexpr Duration kPause = 20ms;  // between two looks at the queues
+// Blocks of earlier inputs per look. One is at least six times as much as the session makes meanwhile, and takes a
+// sixth of a core.
+constexpr int kUrgentBlocks = 4;
 constexpr Duration kFilesInterval = 250ms, kLinksInterval = 64ms;
 
 }  // namespace
 
 std::expected<std::unique_ptr<LiveRecording>, std::string> LiveRecording::start(
     const std::string& path, const LiveSession& session, const RecordingInfo& info, const RecordingLimits& limits,
-    bool pseudonyms, std::shared_ptr<RecordingDesk> desk, InputJournal* inputs) {
+    bool pseudonyms, std::shared_ptr<RecordingDesk> desk, std::unique_ptr<KeptInputs::Reader> inputs) {
   auto files = RecordingFiles::open(path, session.scene(), info, limits, io::monotonic_now());
   if (!files) return std::unexpected(std::move(files.error()));
   desk->set_status(rpc::StatusRecording{.by_server = true, .pseudonyms = pseudonyms});
   const std::string part = (*files)->part();
   std::unique_ptr<LiveRecording> made{
-      new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk), inputs)};
+      new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk), std::move(inputs))};
   made->say(false, "recording", "recording to " + part);
   return made;
 }
 
 LiveRecording::LiveRecording(std::unique_ptr<RecordingFiles> files, const LiveSession& session, bool pseudonyms,
-                             std::shared_ptr<RecordingDesk> desk, InputJournal* inputs)
+                             std::shared_ptr<RecordingDesk> desk, std::unique_ptr<KeptInputs::Reader> inputs)
     : session_(&session),
       pseudonyms_(pseudonyms),
       desk_(std::move(desk)),
-      inputs_(inputs),
-      piece_(kPiece),
+      inputs_(std::move(inputs)),
       ticks_(std::make_shared<TickFeed>(session.scene().seats.size(), session.scene().tools.size())),
       files_(std::move(files)),
       thread_([this] { run(); }) {}
@@ -63,10 +65,12 @@ void LiveRecording::run() {
   }
   const Time began = io::monotonic_now();
   step(began);
+  desk_->set_status(std::nullopt);
+  finish_inputs();
+  const Time ends = io::monotonic_now();
   if (files_->begun() && ticks_->newest() > tick_) files_->count_dropped(ticks_->newest() - tick_);
   files_->begin_close();
-  desk_->set_status(std::nullopt);
-  while (!files_->closed() && !abandon_.load(std::memory_order_acquire) && io::monotonic_now() - began < kEndLimit)
+  while (!files_->closed() && !abandon_.load(std::memory_order_acquire) && io::monotonic_now() - ends < kEndLimit)
     std::this_thread::sleep_for(kPause);
   files_->abandon();
   report();
@@ -112,9 +116,52 @@ void LiveRecording::add_ticks() {
 }
 
 void LiveRecording::add_inputs() {
-  if (inputs_ == nullptr) return;
-  while (const std::size_t size = inputs_->drain(piece_))
-    files_->add_inputs(std::span<const std::byte>(piece_).first(size));
+  // Inputs from before the recording have the time of its first row, not that of the session's begin.
+  if (inputs_ == nullptr || (inputs_->late() && files_->recorded() == 0)) return;
+  for (int blocks = inputs_->urgent() ? kUrgentBlocks : 1; blocks > 0; --blocks)
+    if ((inputs_->behind() && !files_->accepts()) || !add_next_inputs()) return;
+}
+
+void LiveRecording::finish_inputs() {
+  if (inputs_ == nullptr || !files_->begun() || files_->ended()) return;
+  const Time until = io::monotonic_now() + kCopyLimit;
+  for (Time now = io::monotonic_now(); inputs_ != nullptr && inputs_->behind() && files_->recorded() > 0;
+       now = io::monotonic_now()) {
+    if (now > until || abandon_.load(std::memory_order_acquire)) {
+      say(true, "recording_trouble", "the recording has ended before all earlier inputs of its session were in it");
+      return;
+    }
+    files_->step(now);
+    if (files_->ended()) return;
+    if (!files_->accepts()) {
+      std::this_thread::sleep_for(kPause);
+    } else {
+      static_cast<void>(add_next_inputs());
+    }
+  }
+  add_inputs();
+}
+
+/// @return whether more may follow at once
+bool LiveRecording::add_next_inputs() {
+  const KeptInputs::Reader::Item item = inputs_->next();
+  switch (item.kind) {
+    case KeptInputs::Reader::Kind::kNothing:
+      return false;
+    case KeptInputs::Reader::Kind::kBlock:
+      files_->add_input_block(item.bytes, item.stored);
+      return true;
+    case KeptInputs::Reader::Kind::kPiece:
+      files_->add_inputs(bytes_of(item.bytes));
+      return false;
+    case KeptInputs::Reader::Kind::kLost:
+      break;
+  }
+  const std::string why{item.bytes};
+  files_->writer().add_event({tick_, files_->time_ns(), "inputs-lost", "", why});
+  say(true, "recording_trouble", "the recording lost inputs, so that it cannot be replayed bit for bit: " + why);
+  inputs_.reset();
+  return false;
 }
 
 void LiveRecording::add_links() {

@@ -12,9 +12,9 @@
 #include "common/base/time.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/tick_feed.h"
+#include "server/app/recording/kept_inputs.h"
 #include "server/app/recording/recording_desk.h"
 #include "server/recording/io/recording_files.h"
-#include "server/session/input_journal.h"
 
 namespace tandem::server {
 
@@ -32,11 +32,11 @@ class LiveRecording {
 
   /// @param path  of the first file, NAME.mcap, which does not exist
   /// @param session  must outlive this
-  /// @param inputs   journal of the session from its start, which nothing else drains; must outlive this. Null: the
-  /// file has no inputs, so that it cannot be replayed bit for bit
+  /// @param inputs   of the session from its begin; those from before the recording are added little by little. Null:
+  /// the file has no inputs, so that it cannot be replayed bit for bit
   [[nodiscard]] static std::expected<std::unique_ptr<LiveRecording>, std::string> start(
       const std::string& path, const LiveSession& session, const RecordingInfo& info, const RecordingLimits& limits,
-      bool pseudonyms, std::shared_ptr<RecordingDesk> desk, InputJournal* inputs);
+      bool pseudonyms, std::shared_ptr<RecordingDesk> desk, std::unique_ptr<KeptInputs::Reader> inputs);
   /// Ends the recording; bytes that the disk has not accepted are lost.
   ~LiveRecording();
 
@@ -58,16 +58,21 @@ class LiveRecording {
   [[nodiscard]] Duration cpu() const noexcept { return Duration{cpu_ns_.load(std::memory_order_relaxed)}; }
 
   static constexpr Duration kEndLimit = std::chrono::seconds(5);
+  /// Time for the inputs from before the recording that are not in the files when it ends.
+  static constexpr Duration kCopyLimit = std::chrono::seconds(120);
 
  private:
   LiveRecording(std::unique_ptr<RecordingFiles> files, const LiveSession& session, bool pseudonyms,
-                std::shared_ptr<RecordingDesk> desk, InputJournal* inputs);
+                std::shared_ptr<RecordingDesk> desk, std::unique_ptr<KeptInputs::Reader> inputs);
   void run();
   void step(Time now);
+  /// Adds what precedes the end of the recording, as long as the disk takes it, at most kCopyLimit.
+  void finish_inputs();
   /// Begins the file at the first tick of the session.
   void begin(Time now);
   void add_ticks();
   void add_inputs();
+  [[nodiscard]] bool add_next_inputs();
   void add_links();
   void report();
   void say(bool warning, const char* event, std::string text);
@@ -75,8 +80,7 @@ class LiveRecording {
   const LiveSession* session_;
   bool pseudonyms_;
   std::shared_ptr<RecordingDesk> desk_;
-  InputJournal* inputs_;
-  std::vector<std::byte> piece_;
+  std::unique_ptr<KeptInputs::Reader> inputs_;
   std::shared_ptr<TickFeed> ticks_;
   std::unique_ptr<RecordingFiles> files_;
   Time next_links_{}, next_files_{};

@@ -13,6 +13,7 @@ struct RecordingOptions {
   bool pseudonyms = false;  ///< P1, P2 ... instead of names of participants and workstations
   bool from_start = true;   ///< starts with the session; false: by an order only
   RecordingLimits limits{};
+  std::uint64_t inputs_bytes = std::uint64_t{1} << 30U;  ///< kept per session for later recordings, at most; 0: none
 };
 
 /// Returns why nothing can be recorded there; empty: a folder that this user may write, or a file NAME.mcap in one.

@@ -137,11 +137,19 @@ void RecordingFiles::add_inputs(std::span<const std::byte> piece) {
   }
 }
 
+void RecordingFiles::add_input_block(std::string_view block, std::size_t stored) {
+  if (file_bytes_ >= limits_.file_bytes) change_file();
+  writer_->add_input_block(block);
+  exempt_ += stored;
+}
+
 bool RecordingFiles::pass_on() {
   std::string bytes = writer_->take();
   if (bytes.empty()) return false;
   file_bytes_ += bytes.size();
-  budget_ -= static_cast<double>(bytes.size());
+  const std::uint64_t exempt = std::min<std::uint64_t>(exempt_, bytes.size());
+  exempt_ -= exempt;
+  budget_ -= static_cast<double>(bytes.size() - exempt);
   file_->append(std::move(bytes));
   return true;
 }

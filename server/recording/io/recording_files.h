@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/time.h"
@@ -48,6 +49,12 @@ class RecordingFiles {
   void count_dropped(std::uint64_t ticks) { writer_->count_dropped(ticks); }
   /// Adds a piece of the input journal; it is lost while the disk does not accept.
   void add_inputs(std::span<const std::byte> piece);
+  /// Adds inputs from before the recording, beside the rate. @pre accepts()
+  /// @param block   as RecordingWriter::add_input_block takes it
+  /// @param stored  size of the block in its spool, about that in the file [bytes]
+  void add_input_block(std::string_view block, std::size_t stored);
+  /// The disk takes more at present.
+  [[nodiscard]] bool accepts() const { return trouble_.empty() && !closing_ && file_ && file_->accepts(); }
   /// The writer of the present file, for events, marks, sheets and links. They are few: they are never left out.
   [[nodiscard]] RecordingWriter& writer() noexcept { return *writer_; }
   /// Participants by seat, from now on.
@@ -72,6 +79,8 @@ class RecordingFiles {
   [[nodiscard]] std::vector<std::string> take_removed();
   [[nodiscard]] std::vector<std::string> take_problems();
   [[nodiscard]] std::uint64_t recorded() const noexcept { return recorded_; }
+  /// TickRecord::time_ns of the last tick; 0: there is none.
+  [[nodiscard]] std::int64_t time_ns() const noexcept { return time_ns_; }
   /// Session ticks since the first one that are in no file.
   [[nodiscard]] std::uint64_t lost() const noexcept { return any_ ? last_tick_ - first_tick_ + 1 - recorded_ : 0; }
   [[nodiscard]] std::uint64_t lost_inputs() const noexcept { return lost_inputs_; }
@@ -111,6 +120,7 @@ class RecordingFiles {
   Time now_{}, passed_on_{}, budget_at_{}, retry_at_{};
   std::optional<Time> file_began_;  ///< first tick of the present file
   double budget_ = 0;               ///< [bytes] that the rate allows now
+  std::uint64_t exempt_ = 0;        ///< [bytes] that the rate does not count, of inputs from before the recording
   std::uint64_t total_bytes_ = 0, file_bytes_ = 0, recorded_ = 0, lost_inputs_ = 0;
   Duration disk_cpu_{};         ///< of files that are complete
   std::uint64_t unsynced_ = 0;  ///< failed syncs that were reported

@@ -90,10 +90,11 @@ TEST(ServerConfig, ReadsWhereAndHowSessionsAreRecorded) {
   EXPECT_EQ(none->sessions[0].record.text, "");
   EXPECT_FALSE(none->recording.pseudonyms);
   EXPECT_TRUE(none->recording.from_start);
+  EXPECT_EQ(none->recording.inputs_mib, 1024);
   const auto all = parse_server_config(
       "version: 1 listen: \"127.0.0.1:7000\" session { name: \"a\" scene: \"contact\" record: \"a.mcap\" }\n"
       "record: \"films\" recording { pseudonyms: true from_start: false file_mib: 1 file_minutes: 0.1 total_mib: 2 "
-      "mib_per_min: 0.5 }",
+      "mib_per_min: 0.5 inputs_mib: 0 }",
       "s.textproto");
   ASSERT_TRUE(all) << to_text(all.error());
   EXPECT_EQ(all->record.text, "films");
@@ -102,11 +103,13 @@ TEST(ServerConfig, ReadsWhereAndHowSessionsAreRecorded) {
   EXPECT_TRUE(all->recording.pseudonyms);
   EXPECT_FALSE(all->recording.from_start);
   EXPECT_EQ(all->recording.total_mib, 2);
+  EXPECT_EQ(all->recording.inputs_mib, 0);
   const std::string listing = effective_server_config_text(*all);
   for (const char* shown : {"record", "a.mcap", "recording.pseudonyms", "recording.mib_per_min", "MiB/min"})
     EXPECT_NE(listing.find(shown), std::string::npos) << shown << " is not in\n" << listing;
   for (const char* wrong : {"file_mib: 0.9", "file_mib: 4097", "file_minutes: 0.09", "file_minutes: 1441",
-                            "total_mib: 0", "mib_per_min: 0.09", "mib_per_min: 1001", "mib_per_min: nan", "names: 1"})
+                            "total_mib: 0", "mib_per_min: 0.09", "mib_per_min: 1001", "mib_per_min: nan",
+                            "inputs_mib: -1", "inputs_mib: 65537", "names: 1"})
     EXPECT_NE(mistakes_of(std::string(kSmall) + "recording { " + wrong + " }"), "") << wrong;
   EXPECT_NE(mistakes_of(std::string(kSmall) + "record: \"\"").find("record"), std::string::npos);
 }
