@@ -8,8 +8,9 @@
 namespace tandem::server {
 namespace {
 
-/// Longest time between two looks at the answers of the directory.
-constexpr auto kPause = std::chrono::milliseconds(5);
+/// Longest time between two looks at the answers of the directory: after an order, and without one.
+constexpr auto kPause = std::chrono::milliseconds(5), kQuietPause = std::chrono::milliseconds(20);
+constexpr Duration kBusy = std::chrono::milliseconds(300);  ///< after an order, until its last answer
 
 }  // namespace
 
@@ -43,6 +44,7 @@ void ServiceThread::wake() {
 }
 
 void ServiceThread::run() {
+  Time busy_until = now() + kBusy;
   while (true) {
     auto newest = snapshots_.take();
     std::vector<ServiceTickets::Result> results;
@@ -51,13 +53,14 @@ void ServiceThread::run() {
       for (auto& [session, bytes] : newest) member_.set_snapshot(session, std::move(bytes));
       member_.step(now());
       while (const auto result = member_.tickets().poll_result()) results.push_back(*result);
+      if (member_.has_event()) busy_until = now() + kBusy;
       if (member_.has_event() || std::exchange(acted_until_, member_.act_until()) != member_.act_until())
         changed_.signal();
     }
     for (const ServiceTickets::Result& result : results) on_ticket_(result);
     std::unique_lock lock(wake_mutex_);
-    wake_.wait_for(lock, kPause, [this] { return woken_ || stopping_; });
-    woken_ = false;
+    wake_.wait_for(lock, now() < busy_until ? kPause : kQuietPause, [this] { return woken_ || stopping_; });
+    if (std::exchange(woken_, false)) busy_until = now() + kBusy;
     if (stopping_) return;
   }
 }
@@ -78,7 +81,7 @@ bool ServiceThread::wait_for(Duration limit, const std::function<bool(const Serv
 bool ServiceThread::leave(Duration limit) {
   if (!thread_.joinable()) return false;
   // The thread has taken all mailboxes after one whole round.
-  std::this_thread::sleep_for(2 * kPause);
+  std::this_thread::sleep_for(2 * kQuietPause);
   static_cast<void>(wait_for(limit, [](const ServiceMember& member) { return member.snapshots_written(); }));
   with([](ServiceMember& member, Time) { member.leave(); });
   return wait_for(limit, [](const ServiceMember& member) { return member.left(); });
