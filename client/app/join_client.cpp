@@ -105,8 +105,12 @@ ResumeError to_resume_error(const rpc::ErrorReply& reply) {
     case rpc::ErrorCode::kSeatTaken:
     case rpc::ErrorCode::kDraining:
     case rpc::ErrorCode::kInternal:
-    case rpc::ErrorCode::kNotNow:  // the session has no server yet
       return retry_error(reply.text);
+    case rpc::ErrorCode::kNotNow:
+      return {.kind = ResumeError::Kind::kAgain,
+              .reason = reply.text,
+              .wait = std::chrono::milliseconds(kOwnerRetryMs),
+              .coming = true};
     case rpc::ErrorCode::kFull:
     case rpc::ErrorCode::kBlocked:
     case rpc::ErrorCode::kTooFast:
@@ -254,11 +258,13 @@ std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, c
     ResumeError& failed = given.error();
     if (!all) {
       all = std::move(failed);
-      continue;
+    } else {
+      all->reason += "; " + failed.reason;
+      all->wait = failed.coming ? failed.wait : std::min(all->wait, failed.wait);
+      if (failed.coming || !all->answered) all->answered = failed.answered;
+      all->coming = failed.coming;
     }
-    all->reason += "; " + failed.reason;
-    all->wait = std::min(all->wait, failed.wait);
-    if (failed.answered && !all->answered) all->answered = failed.answered;
+    if (all->coming) break;
   }
   return std::unexpected(std::move(*all));
 }

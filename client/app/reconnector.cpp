@@ -15,6 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kBefore = 1s, kBeforeSpread = 500ms;
+constexpr Duration kHastened = 300ms, kHastenedSpread = 200ms;
 constexpr Duration kAgain = 100ms, kAgainSpread = 150ms;  // pause between two attempts
 // Timeout of the first attempt, doubled after each timeout up to the largest. Short first attempts detect a recovered
 // network sooner.
@@ -35,6 +36,7 @@ bool same_host(const io::SocketAddress& a, const io::SocketAddress& b) {
 }  // namespace
 
 Duration initial_backoff() { return draw(kBefore, kBeforeSpread); }
+Duration hastened_backoff() { return draw(kHastened, kHastenedSpread); }
 
 Reconnector::Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& runner,
                          const io::UdpSocket& kept)

@@ -58,5 +58,7 @@ class Reconnector {
 /// Returns the randomised silence of the server before a client reconnects, 1 s to 1.5 s. Short outages then need no
 /// reconnect, and many clients do not reconnect at the same time.
 [[nodiscard]] Duration initial_backoff();
+/// The same after a server of a service has ended its part in the session, 0.3 s to 0.5 s.
+[[nodiscard]] Duration hastened_backoff();
 
 }  // namespace tandem::client

@@ -148,6 +148,8 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
     return status.silence_s > kServerLost ? std::optional(ExitReason::kServerLost) : std::nullopt;
   if (reconnector_ && reconnector_->done()) return finish_reconnect();
   if (server_.absence(now) > o_.options.reconnect_timeout_s) return ExitReason::kServerLost;
+  // The session goes on at another server of the service, perhaps at once.
+  if (server_restarts(status) && resume_state_.service) server_.hasten(hastened_backoff());
   // The force gate already released the force after the silence limit.
   if (reconnector_ || !server_.reconnect_due(now)) return std::nullopt;
   if (server_.on_reconnect(initial_backoff()))

@@ -36,6 +36,8 @@ class ServerWatch {
   [[nodiscard]] bool reconnect_due(Time now) const noexcept {
     return !present_ && now - std::max(present_at_, connected_at_) >= backoff_;
   }
+  /// Shortens the silence before the next reconnect, for a server that has announced its end.
+  void hasten(Duration backoff) noexcept { backoff_ = std::min(backoff_, backoff); }
   /// The client starts to reconnect. @param backoff  silence before the next reconnect  @return true if an outage
   /// begins
   bool on_reconnect(Duration backoff) noexcept {

@@ -61,7 +61,7 @@ std::optional<KeyChangeContent> decode_key_change_content(std::span<const std::b
     return std::nullopt;
   out.at = in.at();
   out.old_until = in.old_until();
-  return if_canonical(std::move(out), bytes);
+  return if_canonical(out, bytes);
 }
 
 std::optional<ServiceStatement> decode_service_statement(std::span<const std::byte> bytes) {

@@ -44,9 +44,9 @@ struct ServerRow {
 
   std::string address;  ///< HOST:PORT as dialled
   Sha256 spki{};
-  std::string name;                      ///< name of this workstation at the server
-  std::optional<ServicePin> service{};   ///< the server's service; nullopt: it belongs to none
-  std::vector<std::string> members{};    ///< HOST:PORT of the servers of that service, at most kMembersMax
+  std::string name;                     ///< name of this workstation at the server
+  std::optional<ServicePin> service{};  ///< the server's service; nullopt: it belongs to none
+  std::vector<std::string> members{};   ///< HOST:PORT of the servers of that service, at most kMembersMax
   friend bool operator==(const ServerRow&, const ServerRow&) = default;
 };
 

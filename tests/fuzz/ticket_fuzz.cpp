@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const ServicePin pin{key.verifier().key, {}, 0};
   FUZZ_EXPECT(!auth::check_voucher(in, pin, {}, use.now));
   FUZZ_EXPECT(!auth::accept_member(in, pin, {}, use.now));
-  FUZZ_EXPECT(auth::follow_key_changes(pin, std::vector{std::vector<std::byte>(in.begin(), in.end())}) == pin);
+  const std::vector<std::vector<std::byte>> change{std::vector<std::byte>(in.begin(), in.end())};
+  FUZZ_EXPECT(auth::follow_key_changes(pin, change) == pin);
   if (const auto statement = rpc::decode_service_statement(in))
     FUZZ_EXPECT(std::ranges::equal(rpc::encode(*statement), in));
   if (const auto credential = rpc::decode_member_credential(in))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <asio/post.hpp>
 #include <chrono>
@@ -56,7 +57,9 @@ class MemberServer {
     }
     trust_.emplace(std::move(*auth::ServerKeystore::open(folder.path("server"))));
     EXPECT_EQ(trust_->begin_serving(now), "");
-    shard_ = std::make_unique<Shard>(std::move(*io::bind_udp(*io::parse_address(at, 0))), scene_.tick_hz);
+    io::UdpSocket socket = std::move(*io::bind_udp(*io::parse_address(at, 0)));
+    datagrams_ = socket.fd.get();
+    shard_ = std::make_unique<Shard>(std::move(socket), scene_.tick_hz);
     registry_.emplace(thread_.context());
     commands_.emplace(*registry_, *trust_);
     joins_.emplace(*registry_, *commands_, *trust_);
@@ -68,6 +71,11 @@ class MemberServer {
     address = *plane_->listen(shard_->address());  // datagrams and connections have one port
     thread_.start();
     ticking_ = std::thread([this] { shard_->run(); });
+  }
+  /// Makes the server mute and deaf to datagrams, as if its process were killed: its clients get no CLOSE.
+  void silence() const {
+    const io::UdpSocket other = std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0)));
+    ASSERT_GE(::dup2(other.fd.get(), datagrams_), 0);
   }
   ~MemberServer() {
     thread_.stop([this] {
@@ -149,6 +157,7 @@ class MemberServer {
 
  private:
   std::string name_;
+  int datagrams_ = -1;  ///< descriptor of the shard's socket
   SceneSpec scene_;
   TickQueue queue_{1024};
   io::EventFd checkpointed_;

@@ -206,12 +206,13 @@ TEST_F(ServiceJoin, ResumesAtTheNewOwnerInOneAttemptOnceItServes) {
                         .last = joined->udp};
   a.reset();
   const auto resume = [&] { return resume_seat(asking, own_state, [] { return true; }); };
-  point(*b, SessionLocator::Coming{});
-  point(*c, SessionLocator::Unknown{"the directory does not answer"});
+  point(*b, SessionLocator::Unknown{"the directory does not answer"});
+  point(*c, SessionLocator::Coming{});
   const auto early = resume();
   ASSERT_FALSE(early);
   EXPECT_EQ(early.error().kind, ResumeError::Kind::kAgain);
-  EXPECT_EQ(io::to_text(early.error().answered.value()), b->at());
+  EXPECT_TRUE(early.error().coming);
+  EXPECT_EQ(io::to_text(early.error().answered.value()), c->at());
   EXPECT_NE(early.error().reason.find("the directory does not answer"), std::string::npos);
   // An old copy of the directory: it names a revision below the one that the seat had.
   c->serve(9, server::resume_hash(joined->welcome.resume_secret.bytes, own().identity().fingerprint().sha256));
@@ -239,11 +240,12 @@ TEST_F(ServiceJoin, BringsTheSeatOfARunningClientToTheNewOwner) {
   SeatOptions plan;
   plan.join = options({a.get()}, 5s);
   plan.device = "sim";
-  plan.duration_s = 20;
+  plan.duration_s = 10;
   plan.quiet = true;
   std::thread person([&] { static_cast<void>(run_seat(plan)); });
   const server::SeatReservation::Hash secret = a->resume_hash_of_trainee();
   while (!a->hears_trainee()) std::this_thread::sleep_for(20ms);
+  a->silence();
   a.reset();
   const Time died = io::monotonic_now();
   std::this_thread::sleep_for(3300ms);
@@ -262,6 +264,7 @@ TEST_F(ServiceJoin, ResumesNowhereElseWithoutService) {
   auto a = member("desk-a");
   const auto foreign = member("desk-x", "other");
   know(*a);
+  know(*foreign);  // an enrolment there is no right to a seat of this service
   a->serve(5);
   const JoinOptions asking = options({a.get(), foreign.get()}, 3s);
   const auto joined = join_seat(asking);

@@ -114,7 +114,8 @@ int join_service(const ServiceArguments& arguments) {
   if (!membership) return service_trouble(membership.error());
   std::printf("state folder %s\n", path->c_str());
   print_membership(*membership);
-  io::print_formatted(stderr, "tickets that this server signed with another key are void; delete %s\n", arguments.folder.c_str());
+  io::print_formatted(stderr, "tickets that this server signed with another key are void; delete %s\n",
+                      arguments.folder.c_str());
   return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
 }
 

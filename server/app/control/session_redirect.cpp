@@ -16,8 +16,6 @@ constexpr std::uint32_t kOthersBegin = 0x8000'0000U;
 constexpr std::size_t kChoicesNamed = 8;  // in the text of a rejection
 constexpr std::uint32_t kAskAgainS = 1;
 
-ErrorReply ask_again(const std::string& why) { return {ErrorCode::kNotNow, why, kAskAgainS}; }
-
 std::string bounded_text(std::string text) {
   if (text.size() > rpc::kTextMax) text.resize(rpc::kTextMax);
   return text;
@@ -61,10 +59,13 @@ std::optional<SessionRedirect::Reply> SessionRedirect::located(const rpc::Sessio
   const SessionLocator::Found found = locator_->locate(choice);
   if (std::holds_alternative<SessionLocator::None>(found)) return std::nullopt;
   if (std::holds_alternative<SessionLocator::Here>(found) || std::holds_alternative<SessionLocator::Coming>(found))
-    return ask_again("a server of this service is about to serve the session; try again in a moment");
+    return ErrorReply{ErrorCode::kNotNow,
+                      "a server of this service is about to serve the session; try again in a moment", kAskAgainS};
   if (const auto* const unknown = std::get_if<SessionLocator::Unknown>(&found))
-    return ask_again(bounded_text("this server cannot tell which server of the service has the session: " +
-                                  unknown->why + "; try again, or use the address of another server"));
+    return ErrorReply{ErrorCode::kInternal,
+                      bounded_text("this server cannot tell which server of the service has the session: " +
+                                   unknown->why + "; try again, or use the address of another server"),
+                      kAskAgainS};
   const auto& at = std::get<ServerLocation>(found);
   if (understands) return elsewhere_of(at, choice);
   return ErrorReply{ErrorCode::kNoSession,

@@ -32,6 +32,20 @@ TEST(ServerWatch, RequestsAReconnectAfterTheBackoffOfSilence) {
   EXPECT_DOUBLE_EQ(w.absence(w.now), 1);
 }
 
+TEST(ServerWatch, WaitsLessForAServerThatAnnouncedItsEnd) {
+  Watch w;
+  w.run(300ms, false);
+  w.hasten(400ms);
+  EXPECT_FALSE(w.reconnect_due(w.now));
+  w.hasten(900ms);
+  w.run(100ms, false);
+  EXPECT_TRUE(w.reconnect_due(w.now));
+  w.on_reconnect(1s);
+  w.on_connected(w.now);
+  w.run(900ms, false);
+  EXPECT_FALSE(w.reconnect_due(w.now)) << "the next reconnect waits as always";
+}
+
 TEST(ServerWatch, ReportsAnOutageOnlyAfterAReconnectBegan) {
   Watch w;
   w.run(500ms, false);

@@ -120,6 +120,10 @@ TEST(ServicePin, FollowsNoStatementThatItsKeyHasNotSigned) {
   EXPECT_EQ(follow_key_changes(pin, forged), pin);
   const std::vector<Bytes> of_another{change_of(evil, service_key(91))};
   EXPECT_EQ(follow_key_changes(pin, of_another), pin);
+  // The pinned key has signed it, and it names another key.
+  const KeyChange unrelated{service_key(91).verifier().key, evil.verifier().key, kNow, kNow + kDay};
+  const std::vector<Bytes> misnamed{sign_key_change(unrelated, first).value()};
+  EXPECT_EQ(follow_key_changes(pin, misnamed), pin);
   const std::vector<Bytes> voucher{signed_voucher(first)};
   EXPECT_EQ(follow_key_changes(pin, voucher), pin);
   Bytes flipped = change_of(first, evil);

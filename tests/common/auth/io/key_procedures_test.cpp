@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <utility>
 
+#include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
 #include "tests/common/auth/io/control_server_fixture.h"
 #include "tests/support/process.h"
@@ -103,6 +106,76 @@ TEST(KeyProcedures, VoidTicketsAndKeepWorkstationsWithANewTicketKey) {
   const auto message = std::as_bytes(std::span(std::string_view("a ticket")));
   EXPECT_TRUE(old_key->verifier().verifies(message, old_key->sign(message)));
   EXPECT_FALSE(opened->ticket_key().verifier().verifies(message, old_key->sign(message)));
+}
+
+/// Two servers as members of one service, whose key is then changed, and a workstation that is enrolled at one of them.
+TEST(KeyProcedures, MakeTwoServersOneServiceAndChangeItsKey) {
+  const Folder folder;
+  const std::string service = folder.path("service"), client = folder.path("client");
+  const auto ok = [](const Ran& ran) {
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.out;
+  };
+  const auto word_after = [](const std::string& text, const std::string& label) {
+    const auto at = text.find(label);
+    return at == std::string::npos ? std::string() : line(text.substr(text.find_first_not_of(' ', at + label.size())));
+  };
+  ok(run(TANDEM_SERVER, {"service", "init", service}));
+  int files = 0;
+  const auto make_member = [&](const std::string& name, const std::string& key) {
+    const std::string file = folder.path("member-" + std::to_string(++files));
+    ok(run(TANDEM_SERVER, {"service", "vouch", service, "--name", name, "--key", key, "--out", file}));
+    EXPECT_EQ(std::filesystem::status(file).permissions(), std::filesystem::perms(0600));
+    ok(run(TANDEM_SERVER, {"service", "join", file, "--state", folder.path(name)}));
+  };
+  std::map<std::string, std::string> keys;
+  for (const std::string name : {"a", "b"}) {
+    keys[name] = word_after(ok(run(TANDEM_SERVER, {"init", "--state", folder.path(name)})), "server key");
+    make_member(name, keys[name]);
+  }
+  const std::string enrolment =
+      line(ok(run(TANDEM_SERVER, {"enroll", "touch-07", "--address", "127.0.0.1:1", "--state", folder.path("a")})));
+  const auto start = [&](const std::string& name) {
+    auto server = std::make_unique<Process>(
+        Words{TANDEM_SERVER, "run", "free_motion", "--listen", "127.0.0.1:0", "--state", folder.path(name)});
+    EXPECT_TRUE(server->wait_for("listening on ")) << server->err();
+    return server;
+  };
+  const auto sessions = [&](Process& server) {
+    return run(TANDEM_CLIENT, {"sessions", "--server", server.after("listening on "), "--state", client});
+  };
+  {
+    auto given = auth::EnrolmentString::from_text(enrolment).value();
+    auto a = start("a");
+    given.address = a->after("listening on ");
+    ok(run(TANDEM_CLIENT, {"enroll", given.to_text(), "--state", client}));
+    const Ran running = run(TANDEM_SERVER, {"service", "join", folder.path("member-1"), "--state", folder.path("a")});
+    EXPECT_EQ(running.code, 1);
+    EXPECT_NE(running.err.find("another server runs"), std::string::npos) << running.err;
+  }
+  const std::string first = word_after(ok(run(TANDEM_SERVER, {"service", "show", service})), "service key");
+  EXPECT_NE(folder.read("client/servers.textproto").find(first), std::string::npos);
+  // Both servers have the same registry, as members with one directory do.
+  std::filesystem::copy_file(folder.path("a") + "/workstations.textproto", folder.path("b") + "/workstations.textproto",
+                             std::filesystem::copy_options::overwrite_existing);
+  {
+    auto b = start("b");
+    EXPECT_NE(ok(sessions(*b)).find("free_motion"), std::string::npos);
+  }
+  ok(run(TANDEM_SERVER, {"service", "rotate", service}));
+  make_member("b", keys["b"]);
+  const std::string second = word_after(ok(run(TANDEM_SERVER, {"service", "show", service})), "service key");
+  EXPECT_NE(second, first);
+  {
+    auto b = start("b");
+    EXPECT_NE(ok(sessions(*b)).find("free_motion"), std::string::npos);
+  }
+  EXPECT_NE(folder.read("client/servers.textproto").find("service_key: \"" + second), std::string::npos);
+  const Ran refused = run(TANDEM_SERVER, {"service", "vouch", service, "--name", "a b", "--key", "00"});
+  EXPECT_EQ(refused.code, 2);
+  for (const char* word : {"--name", "--key", "--out"}) EXPECT_NE(refused.err.find(word), std::string::npos);
+  EXPECT_EQ(run(TANDEM_SERVER, {"service", "init", service}).code, 1);
+  EXPECT_EQ(run(TANDEM_SERVER, {"service", "grow"}).code, 2);
 }
 
 TEST(KeyProcedures, RequireAnInitialisedFolderForANewTicketKey) {

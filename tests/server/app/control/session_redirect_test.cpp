@@ -80,7 +80,7 @@ TEST(SessionRedirect, LetsClientsAskAgainWhileASessionComesOrTheDirectoryIsSilen
     EXPECT_EQ(r.error(id_of(2)).retry_after_s, 1U);
   }
   r.locator.found = SessionLocator::Unknown{"etcd does not answer"};
-  EXPECT_EQ(r.error(id_of(2)).code, ErrorCode::kNotNow);
+  EXPECT_EQ(r.error(id_of(2)).code, ErrorCode::kInternal);
   EXPECT_NE(r.error(id_of(2)).text.find("etcd does not answer"), std::string::npos);
   r.locator.found = SessionLocator::Unknown{std::string(1000, 'x')};
   EXPECT_EQ(r.error(id_of(2)).text.size(), rpc::kTextMax);
