@@ -57,7 +57,7 @@ std::string RegistryMirror::compare() {
   }
   std::optional<RegistryEntries> wanted;
   RegistryAgreement agreed;
-  service_.with([&](ServiceMember& member, Time) {
+  service_.quietly([&](ServiceMember& member, Time) {
     if (fresh) member.registry().set_local(entries_of(*lists_));
     wanted = member.registry().wanted();
     agreed = member.registry().agreed();
@@ -67,7 +67,7 @@ std::string RegistryMirror::compare() {
     if (!replaced) return replaced.error();
     // At once, so that a change of the files from now on counts as a change of what both sides had.
     if (*replaced)
-      service_.with([&](ServiceMember& member, Time) { member.registry().set_local(std::move(*wanted)); });
+      service_.quietly([&](ServiceMember& member, Time) { member.registry().set_local(std::move(*wanted)); });
     return {};
   }
   if (agreed == stored_ || agreed.mark.empty()) return {};

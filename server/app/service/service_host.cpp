@@ -105,7 +105,7 @@ void ServiceHost::step(Time now) {
       open_failed(next.event, "its former run on this server does not end");
   }
   set_act_until();
-  report(thread_->with([this](const ServiceMember& member, Time t) { return news_.update(t, member.status(t)); }));
+  report(thread_->quietly([this](const ServiceMember& member, Time t) { return news_.update(t, member.status(t)); }));
   if (published_ && now - *published_ < kPublishInterval) return;
   published_ = now;
   publish_load();
@@ -252,7 +252,7 @@ bool ServiceHost::take(SessionOrder& order) {
 }
 
 void ServiceHost::set_act_until() {
-  const Time until = thread_->with([](const ServiceMember& member, Time) { return member.act_until(); });
+  const Time until = thread_->quietly([](const ServiceMember& member, Time) { return member.act_until(); });
   for (const auto& session : parts_.sessions.all())
     if (session->on_over() && session->end != EndReason::kGivenUp) session->live_session().set_act_until(until);
 }
@@ -263,7 +263,7 @@ void ServiceHost::publish_load() {
   record_.used = kLoadStep * std::round(used / kLoadStep);
   record_.capacity = parts_.options.control.load_limits.core * io::available_processors();
   record_.drains = parts_.control.registry().drain().due().has_value();
-  thread_->with([&](ServiceMember& member, Time) { member.describe(record_); });
+  thread_->quietly([&](ServiceMember& member, Time) { member.describe(record_); });
 }
 
 void ServiceHost::publish_lists() {
@@ -273,7 +273,7 @@ void ServiceHost::publish_lists() {
       if (entry.open()) lists.emplace_back(entry.registration.name, listed_text(SessionRegistry::listed(entry)));
     done();
   });
-  thread_->with([&](ServiceMember& member, Time) {
+  thread_->quietly([&](ServiceMember& member, Time) {
     for (auto& [session, text] : lists)
       if (std::string& before = listed_[session]; before != text) member.set_listed(session, before = std::move(text));
   });

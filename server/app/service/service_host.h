@@ -50,7 +50,7 @@ class ServiceHost {
   [[nodiscard]] SessionLocator& locator() noexcept { return *locator_; }
   [[nodiscard]] TicketUses& ticket_uses() noexcept { return *ticket_uses_; }
   [[nodiscard]] ServiceStatus status() {
-    return thread_->with([](const ServiceMember& member, Time now) { return member.status(now); });
+    return thread_->quietly([](const ServiceMember& member, Time now) { return member.status(now); });
   }
 
  private:

@@ -50,7 +50,7 @@ SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
 }
 
 std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
-  return thread_.with([&](ServiceMember& member, Time) {
+  return thread_.quietly([&](ServiceMember& member, Time) {
     std::vector<Elsewhere> list;
     for (const auto& [name, entry] : member.catalogue().entries()) {
       std::string owner = member.owner_of(name);
@@ -64,14 +64,14 @@ std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
 }
 
 void ServiceLocator::remember_members() {
-  const auto records = thread_.with([](const ServiceMember& member, Time) { return member.members(); });
+  const auto records = thread_.quietly([](const ServiceMember& member, Time) { return member.members(); });
   const std::lock_guard lock(lock_);
   for (const auto& [name, record] : records)
     if (addresses_.size() < kMembersMax || addresses_.contains(name)) addresses_[name] = record.address;
 }
 
 std::vector<std::string> ServiceLocator::members() const {
-  const auto records = thread_.with([](const ServiceMember& member, Time) { return member.members(); });
+  const auto records = thread_.quietly([](const ServiceMember& member, Time) { return member.members(); });
   std::vector<std::string> addresses;
   const auto add = [&](const std::string& address) {
     if (addresses.size() < kMembersMax && std::ranges::find(addresses, address) == addresses.end())
@@ -85,7 +85,7 @@ std::vector<std::string> ServiceLocator::members() const {
 }
 
 bool ServiceLocator::fresh() const noexcept {
-  return thread_.with([](ServiceMember& member, Time now) { return member.status(now).follows; });
+  return thread_.quietly([](ServiceMember& member, Time now) { return member.status(now).follows; });
 }
 
 }  // namespace tandem::server

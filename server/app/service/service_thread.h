@@ -34,6 +34,12 @@ class ServiceThread {
     const std::lock_guard lock(mutex_);
     return std::forward<Act>(act)(member_, now());
   }
+  /// The same for reading, and for changes that may wait: no operation begins earlier because of it.
+  template <class Act>
+  auto quietly(Act&& act) {
+    const std::lock_guard lock(mutex_);
+    return std::forward<Act>(act)(member_, now());
+  }
   /// Next order of the member. From the main loop's thread.
   [[nodiscard]] std::optional<ServiceEvent> take_event();
   /// Descriptor that is readable while an order waits, or the time `act_until` has changed.
