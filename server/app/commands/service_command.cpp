@@ -21,8 +21,8 @@
 namespace tandem::server {
 namespace {
 
-constexpr double kVoucherDaysMax = static_cast<double>(auth::Voucher::kLifeMax / auth::Voucher::kDay);
-constexpr double kGraceDaysMax = static_cast<double>(auth::KeyChange::kGraceMax / auth::Voucher::kDay);
+constexpr std::int64_t kVoucherDaysMax = auth::Voucher::kLifeMax / auth::Voucher::kDay;
+constexpr std::int64_t kGraceDaysMax = auth::KeyChange::kGraceMax / auth::Voucher::kDay;
 constexpr std::uintmax_t kMemberFileMax = 64U << 10U;
 
 struct ServiceArguments {
@@ -77,7 +77,7 @@ int vouch_for_server(const ServiceArguments& arguments) {
   if (!server)
     errors.add("--key", "\"" + arguments.key + "\" must be the 64 hex digits that `tandem-server init` printed");
   std::string days = arguments.days;
-  errors.add("--days", io::number_in(1, kVoucherDaysMax, "days")(days));
+  errors.add("--days", io::number_in(1, static_cast<double>(kVoucherDaysMax), "days")(days));
   if (arguments.out.empty()) errors.add("--out is required: the member file to write");
   if (!errors.empty()) return print_usage_errors("service", errors);
   const auto service = auth::ServiceKeystore::open(arguments.folder);
@@ -121,7 +121,7 @@ int join_service(const ServiceArguments& arguments) {
 
 int rotate_service(const ServiceArguments& arguments) {
   std::string grace = arguments.grace;
-  if (const std::string problem = io::number_in(0, kGraceDaysMax, "days")(grace); !problem.empty())
+  if (const std::string problem = io::number_in(0, static_cast<double>(kGraceDaysMax), "days")(grace); !problem.empty())
     return print_usage_error("service", "--grace-days: " + problem);
   const auto key = auth::ServiceKeystore::rotate(arguments.folder, auth::wall_seconds(), seconds_of(grace),
                                                  arguments.new_ticket_key);
