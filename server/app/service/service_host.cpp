@@ -51,7 +51,7 @@ std::expected<std::unique_ptr<ServiceHost>, std::string> ServiceHost::open(const
   auto keys = auth::ServerKeystore::open(parts.control.folder());
   if (!keys) return std::unexpected(keys.error());
   directory::ServerRecord record;
-  record.voucher = to_hex(membership->voucher);
+  record.voucher = to_hex(membership->credential());
   record.address = in.address.empty() ? io::to_text(parts.control.address()) : in.address;
   record.key = to_hex(parts.control.trust().identity().fingerprint().sha256);
   record.version = parts.options.version;

@@ -21,7 +21,7 @@ struct ServerRecord {
 };
 
 /// Longest text that is read.
-inline constexpr std::size_t kServerRecordMax = 4096;
+inline constexpr std::size_t kServerRecordMax = 8192;
 
 /// @pre no text of the record has a line break
 [[nodiscard]] std::string to_text(const ServerRecord& record);
