@@ -28,7 +28,8 @@ std::string voucher_end(const std::string& hex) {
   std::vector<std::byte> bytes;
   for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
     bytes.push_back(static_cast<std::byte>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  const auto statement = rpc::decode_service_statement(bytes);
+  const auto credential = rpc::decode_member_credential(bytes);
+  const auto statement = rpc::decode_service_statement(credential ? credential->voucher : bytes);
   const auto content = statement ? rpc::decode_voucher_content(statement->content) : std::nullopt;
   return content ? date_text(content->not_after) : "?";
 }
