@@ -8,8 +8,8 @@
 
 namespace tandem::server {
 
-/// Workstations and codes of a server as one text per name of a workstation: its key, or a code for it, or both. Equal rows have equal
-/// texts.
+/// Workstations and codes of a server as one text per name of a workstation: its key, or a code for it, or both. Equal
+/// rows have equal texts.
 using RegistryEntries = std::map<std::string, std::string, std::less<>>;
 
 inline constexpr std::size_t kRegistryEntryMax = 1024;  ///< [bytes] of a text that is read

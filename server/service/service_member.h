@@ -26,7 +26,7 @@ struct ServiceMemberOptions {
   RandomKey key{0};  ///< for the draws of placement
   /// Sessions of the configuration, with the id and code that they get if this server begins them.
   std::map<std::string, ServiceSession> configured{};
-  RegistryAgreement agreed{};    ///< of the registry, from before a restart
+  RegistryAgreement agreed{};   ///< of the registry, from before a restart
   std::string registry_mark{};  ///< random, for a directory without one
 };
 

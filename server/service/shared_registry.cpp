@@ -68,10 +68,10 @@ directory::Request SharedRegistry::change(const std::string& name, std::string t
   changing_ = name;
   change_ = std::move(text);
   const auto known = stored_.find(name);
-  directory::Transaction change{{{prefix_ + name, directory::Condition::Of::kModified,
-                                  known == stored_.end() ? 0 : known->second.modified}},
-                                {},
-                                {}};
+  directory::Transaction change{
+      {{prefix_ + name, directory::Condition::Of::kModified, known == stored_.end() ? 0 : known->second.modified}},
+      {},
+      {}};
   if (change_.empty()) {
     change.then.push_back(directory::Erase{prefix_ + name});
   } else {

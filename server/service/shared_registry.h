@@ -11,7 +11,7 @@
 
 namespace tandem::server {
 
-/// What files and directory had in common.
+/// Last agreement of files and directory.
 struct RegistryAgreement {
   std::string mark;  ///< of that directory
   RegistryEntries entries;
@@ -21,14 +21,14 @@ struct RegistryAgreement {
 [[nodiscard]] std::string to_text(const RegistryAgreement& agreed);
 [[nodiscard]] std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text);
 
-/// Keeps the workstations and codes of a server equal to those of its service: what was enrolled, issued or revoked at
-/// one server holds at all. Each server has its own files, which its commands change; this class compares three states
-/// of each name: as of the last agreement, in the files, in the directory. A change on one side goes to the other. If
-/// both sides changed, a revocation wins, else the directory.
+/// Keeps the workstations and codes of a server equal to those of its service: an enrolment, code or revocation
+/// of one server holds at all. Each server has its own files, which its commands change; this class compares three
+/// states of each name: as of the last agreement, in the files, in the directory. A change on one side goes to the
+/// other. If both sides changed, a revocation wins, else the directory.
 ///
-/// While the directory does not answer, the files hold as they are. A directory that was begun from nothing gets what
-/// the files have: a mark in it, drawn at random, tells it from the one of the last agreement. Pure: no clock, file,
-/// socket or thread.
+/// While the directory does not answer, the files hold as they are. A directory that was begun from nothing gets the
+/// content of the files: a mark in it, drawn at random, tells it from the one of the last agreement. Pure: no clock,
+/// file, socket or thread.
 class SharedRegistry {
  public:
   static constexpr Duration kPause = std::chrono::milliseconds(50);  ///< after a change that was not written

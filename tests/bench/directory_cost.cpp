@@ -2,6 +2,7 @@
 // How many sessions one cluster of etcd carries, how old a snapshot is when it is safe, and the processor time of each
 // write. The reference of the same run is the disk: writes of one snapshot with fdatasync, one after the other.
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -14,7 +15,6 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/base/format.h"
@@ -103,7 +103,7 @@ struct Writer {
     directory.begin(++operation, transaction);
     for (const Time start = io::monotonic_now(); io::monotonic_now() - start < 10s;) {
       const auto reply = directory.poll();
-      if (!reply) std::this_thread::sleep_for(1ms);
+      if (!reply) ::poll(nullptr, 0, 1);
       if (!reply || reply->operation != operation) continue;
       revision = reply->revision;
       return reply->outcome == directory::Outcome::kDone && reply->held;
@@ -114,7 +114,7 @@ struct Writer {
   bool own_sessions() {
     for (int tries = 0; !run({}); ++tries) {
       if (tries == 50) return false;
-      std::this_thread::sleep_for(100ms);
+      ::poll(nullptr, 0, 100);
     }
     for (const std::string& name : names) {
       if (!run({{}, {directory::Put{keys.owner(name), "server", 0}}, {}})) return false;
@@ -172,7 +172,7 @@ bool print_row(std::size_t members, std::size_t sessions, const std::string& val
   const double etcd_before = cpu(), own_before = own_cpu();
   while (io::monotonic_now() - began < kLength) {
     for (const auto& writer : writers) writer->step(io::monotonic_now(), value);
-    std::this_thread::sleep_for(1ms);
+    ::poll(nullptr, 0, 1);
   }
   const double took = seconds(io::monotonic_now() - began), etcd = cpu() - etcd_before, own = own_cpu() - own_before;
   std::uint64_t written = 0, wanted = 0, batches = 0;

@@ -1,5 +1,6 @@
-// What a directory costs a server while its sessions run: processor time of a member of a service over that of the same
-// server alone, with the same sessions and clients at the same time.
+// Cost of a directory for a server while its sessions run: processor time of a member of a service over that of the
+// same server alone, with the same sessions and clients at the same time.
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace tandem::bench {
 namespace {
 
 constexpr std::size_t kSessions = 4, kRounds = 5;
-constexpr auto kRound = 6s;
+constexpr int kRoundMs = 6000;
 
 /// Processor time of a process so far [s].
 double cpu_of(pid_t process) {
@@ -49,7 +50,7 @@ class Played {
       }
     for (std::size_t m = 0; m < kSessions; ++m)
       if (!host.process->wait_for("the session runs")) fail(host.process->out() + host.process->err());
-    std::this_thread::sleep_for(3s);
+    ::poll(nullptr, 0, 3000);
   }
   [[nodiscard]] double cpu() const { return cpu_of(hosts_[0].process->id()); }
 
@@ -60,7 +61,8 @@ class Played {
     made.session_id = host.sessions[session];
     made.seat = seat;
     made.role = std::string_view(seat) == "trainer" ? AccessRole::kInstructor : AccessRole::kTrainee;
-    made.workstation = auth::KeyFingerprint{auth::find_workstation(*host.keys->registry().workstations(), kWorkstation)->spki};
+    made.workstation =
+        auth::KeyFingerprint{auth::find_workstation(*host.keys->registry().workstations(), kWorkstation)->spki};
     made.not_before = auth::wall_seconds() - 60;
     made.not_after = auth::wall_seconds() + 600;
     const auto bytes = auth::sign_ticket(made, host.keys->ticket_key());
@@ -88,7 +90,7 @@ int run() {
     for (std::size_t n = 0; n < kRounds; ++n) {
       const std::array before{alone.cpu(), member.cpu()};
       const Time began = io::monotonic_now();
-      std::this_thread::sleep_for(kRound);
+      ::poll(nullptr, 0, kRoundMs);
       const double took = seconds(io::monotonic_now() - began);
       const double a = (alone.cpu() - before[0]) / took, m = (member.cpu() - before[1]) / took;
       ratios.push_back(m / a);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <poll.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -7,7 +9,6 @@
 #include <fstream>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/auth/io/control_client.h"
@@ -88,8 +89,8 @@ class Hosts {
       std::string sessions;
       for (std::size_t m = 0; m < wanted.sessions; ++m)
         sessions += "session { name: \"" + name_of(n, m) + "\" scene: \"free_motion\" duration_s: 3e6 }\n";
-      std::ofstream(config) << "version: 1\nlisten: \"" << address << "\"\nstate: \"" << host.state
-                            << "\"\n" << sessions << directory;
+      std::ofstream(config) << "version: 1\nlisten: \"" << address << "\"\nstate: \"" << host.state << "\"\n"
+                            << sessions << directory;
       host.process = std::make_unique<test::Process>(std::vector<std::string>{TANDEM_SERVER, "serve", config});
       if (!host.process->wait_for("Ctrl-C ends")) fail(host.process->out() + host.process->err());
     }
@@ -104,8 +105,8 @@ class Hosts {
  private:
   static void find_session(Host& host, const std::string& name, const auth::Identity& workstation) {
     for (int tries = 0; tries < 200; ++tries) {
-      auto client = auth::ControlClient::connect(
-          host.address, [&](const auth::KeyFingerprint&) { return &workstation; }, 5s, -1);
+      auto client =
+          auth::ControlClient::connect(host.address, [&](const auth::KeyFingerprint&) { return &workstation; }, 5s, -1);
       if (client)
         if (const auto reply = client->ask(rpc::SessionListRequest{}, 5s))
           if (const auto* const list = std::get_if<rpc::SessionList>(&*reply))
@@ -114,7 +115,7 @@ class Hosts {
                 host.sessions.push_back(session.id);
                 return;
               }
-      std::this_thread::sleep_for(50ms);
+      ::poll(nullptr, 0, 50);
     }
     fail("no session " + name);
   }

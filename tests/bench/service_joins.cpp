@@ -1,6 +1,6 @@
-// Joins a second over three servers, each by a ticket of its own, from 40 addresses: TLS handshake, ticket, reply, close.
-// Servers, clients and etcd share this machine. The reference of the same run are the same servers without a directory,
-// which use the tickets up in their own files.
+// Joins a second over three servers, each by a ticket of its own, from 40 addresses: TLS handshake, ticket, reply,
+// close. Servers, clients and etcd share this machine. The reference of the same run are the same servers without a
+// directory, which use the tickets up in their own files.
 #include <asio.hpp>
 #include <chrono>
 #include <cstdio>
@@ -28,9 +28,7 @@ constexpr Duration kLength = 8s;
 class Crowd {
  public:
   Crowd(const Hosts& hosts, const auth::Identity& workstation)
-      : hosts_(hosts),
-        workstation_(workstation),
-        tls_([this](const auth::KeyFingerprint&) { return &workstation_; }) {}
+      : hosts_(hosts), workstation_(workstation), tls_([this](const auth::KeyFingerprint&) { return &workstation_; }) {}
 
   void run() {
     began_ = io::monotonic_now();
@@ -57,7 +55,8 @@ class Crowd {
     socket.connect({asio::ip::make_address_v4("127.0.0.1"), static_cast<std::uint16_t>(host.address.port())}, failed);
     if (failed) return refuse(place, failed.message());
     socket.set_option(asio::ip::tcp::no_delay(true));
-    const auto stream = auth::ControlStream::make(std::move(socket), tls_.context(), auth::ControlStream::Side::kClient);
+    const auto stream =
+        auth::ControlStream::make(std::move(socket), tls_.context(), auth::ControlStream::Side::kClient);
     stream->set_deadline(10s);
     stream->handshake([this, place, stream, &host](auth::ControlStream::Peer peer) {
       if (!peer) return refuse(place, peer.error().text);

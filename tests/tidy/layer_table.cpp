@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Layer, 56> kLayers{{
+const std::array<Layer, 57> kLayers{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -166,7 +166,7 @@ const std::array<Layer, 56> kLayers{{
      {"grpc"},
      "server/directory/io has the connection to etcd: gRPC and its generated code, no session"},
     {"server/service",
-     {"common/base", "proto/rpc", "proto/spec", "server/directory", "server/service"},
+     {"common/auth", "common/base", "proto/rpc", "proto/spec", "server/directory", "server/service"},
      {"json"},
      "server/service decides which sessions of a service a server serves: ownership, plain texts and times; no session "
      "core, no clock, no thread; those belong to server/app/service"},

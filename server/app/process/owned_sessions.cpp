@@ -21,12 +21,13 @@ std::string SessionTable::open_owned(OwnedSession owned) {
     found.incompatibility = incompatibility(*owned.snapshot, name, owned.options->scene, owned.snapshot->written_s);
     if (found.incompatibility.empty()) found.snapshot = std::move(owned.snapshot);
   }
-  auto opened = SessionInstance::open(*owned.options, {.slot = static_cast<std::uint8_t>(place->slot),
-                                                       .epoch = owned.revision,
-                                                       .with_code = !owned.code.empty(),
-                                                       .kept = found.snapshot ? &*found.snapshot : nullptr,
-                                                       .id = owned.id,
-                                                       .code = owned.code},
+  auto opened = SessionInstance::open(*owned.options,
+                                      {.slot = static_cast<std::uint8_t>(place->slot),
+                                       .epoch = owned.revision,
+                                       .with_code = !owned.code.empty(),
+                                       .kept = found.snapshot ? &*found.snapshot : nullptr,
+                                       .id = owned.id,
+                                       .code = owned.code},
                                       inputs_);
   if (!opened) return opened.error().texts.front();
   SessionInstance& session = **opened;

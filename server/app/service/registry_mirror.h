@@ -19,7 +19,7 @@ namespace tandem::server {
 /// renewal of the lease. Commands in the same folder, such as `tandem-server enroll`, change the files as ever.
 class RegistryMirror {
  public:
-  static constexpr const char* kFile = "service_registry";  ///< what files and directory had in common
+  static constexpr const char* kFile = "service_registry";  ///< the last agreement of files and directory
 
   /// Reads the agreement of an earlier run. A damaged file counts as none: the lists of both sides are then joined.
   [[nodiscard]] static RegistryAgreement read_agreement(const auth::StateDirectory& folder);

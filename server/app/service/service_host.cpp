@@ -66,10 +66,13 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
       record_(std::move(record)),
       news_(server_, joined_endpoints(parts.options.directory->etcd), parts.options.directory->times) {
   const ServiceOptions& in = *parts.options.directory;
-  ServiceMemberOptions options{
-      .server = server_, .prefix = in.prefix, .times = in.times, .key = RandomKey{drawn_seed()}, .configured = {},
-      .agreed = RegistryMirror::read_agreement(*keys.folder()),
-      .registry_mark = to_hex(auth::random_bytes<auth::Id16>())};
+  ServiceMemberOptions options{.server = server_,
+                               .prefix = in.prefix,
+                               .times = in.times,
+                               .key = RandomKey{drawn_seed()},
+                               .configured = {},
+                               .agreed = RegistryMirror::read_agreement(*keys.folder()),
+                               .registry_mark = to_hex(auth::random_bytes<auth::Id16>())};
   for (const SessionOptions& session : parts.options.sessions)
     options.configured.emplace(session.name, spec_of(session));
   thread_ = std::make_unique<ServiceThread>(std::move(options), std::make_unique<directory::EtcdDirectory>(in.etcd),

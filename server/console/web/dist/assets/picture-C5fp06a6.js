@@ -1,8 +1,4 @@
-<<<<<<<< HEAD:server/console/web/dist/assets/picture-wUx0OH4t.js
-import{R as bl,s as mr,i as Al,t as wl}from"./page-DlR0DKYc.js";/**
-========
-import{R as bl,s as mr,i as Al,t as wl}from"./page-BkkZ0wxF.js";/**
->>>>>>>> 93b086db09043fb6617ab2ff6e4a80f476d9edb5:server/console/web/dist/assets/picture-BhreoLxG.js
+import{R as bl,s as mr,i as Al,t as wl}from"./page-YCydD-k1.js";/**
  * @license
  * Copyright 2010-2024 Three.js Authors
  * SPDX-License-Identifier: MIT
