@@ -24,7 +24,7 @@
 #include "server/service/fenced_writer.h"
 #include "server/service/service_keys.h"
 #include "server/session/session_snapshot.h"
-#include "tests/support/etcd_cluster.h"
+#include "tests/io/etcd_process.h"
 
 namespace tandem::bench {
 namespace {
@@ -166,7 +166,7 @@ bool print_row(std::size_t members, std::size_t sessions, const std::string& val
       writer->due[i] = began + kInterval * static_cast<std::int64_t>(i) / static_cast<std::int64_t>(writer->due.size());
   const auto cpu = [&] {
     double sum = 0;
-    for (std::size_t i = 0; i < members; ++i) sum += cpu_of(cluster.member(i).id());
+    for (std::size_t i = 0; i < members; ++i) sum += cpu_of(cluster.member(i).process().id());
     return sum;
   };
   const double etcd_before = cpu(), own_before = own_cpu();
@@ -199,7 +199,7 @@ bool print_row(std::size_t members, std::size_t sessions, const std::string& val
 
 int main(int argc, char** argv) {
   using namespace tandem::bench;
-  if (tandem::test::EtcdCluster::program().empty()) {
+  if (tandem::test::etcd_program("etcd").empty()) {
     std::printf("[ NOT RUN ] etcd is not installed (Debian: etcd-server)\n");
     return 0;
   }

@@ -76,7 +76,7 @@ class Played {
 };
 
 int run() {
-  if (test::EtcdCluster::program().empty()) {
+  if (test::etcd_program("etcd").empty()) {
     std::printf("[ NOT RUN ] etcd is not installed (Debian: etcd-server)\n");
     return 0;
   }

@@ -16,10 +16,8 @@
 #include "common/auth/io/service_keystore.h"
 #include "common/base/format.h"
 #include "common/io/socket_address.h"
-#include "common/io/tcp_listener.h"
 #include "proto/rpc/rpc_messages.h"
-#include "tests/support/etcd_cluster.h"
-#include "tests/support/process.h"
+#include "tests/io/etcd_process.h"
 
 namespace tandem::bench {
 
@@ -28,11 +26,6 @@ using namespace std::chrono_literals;
 [[noreturn]] inline void fail(const std::string& what) {
   std::fprintf(stderr, "%s\n", what.c_str());
   std::exit(1);
-}
-
-inline int free_port() {
-  const auto listener = io::listen_tcp(*io::parse_address("127.0.0.1:0", 0));
-  return listener ? listener->local.port() : 0;
 }
 
 inline constexpr const char* kWorkstation = "bench";
@@ -84,7 +77,7 @@ class Hosts {
       host.keys = std::make_unique<auth::ServerKeystore>(std::move(*keys));
       static_cast<void>(
           host.keys->registry().enroll_without_code({kWorkstation, workstation.fingerprint().sha256, now}));
-      const std::string address = format("127.0.0.1:%d", free_port()), config = host.state + ".textproto";
+      const std::string address = format("127.0.0.1:%d", test::free_port()), config = host.state + ".textproto";
       host.address = *io::parse_address(address, 1);
       std::string sessions;
       for (std::size_t m = 0; m < wanted.sessions; ++m)

@@ -15,7 +15,6 @@
 #include "common/io/socket_address.h"
 #include "proto/rpc/rpc_codec.h"
 #include "tests/bench/service_hosts.h"
-#include "tests/support/etcd_cluster.h"
 
 namespace tandem::bench {
 namespace {
@@ -120,7 +119,7 @@ double measure(const char* what, const std::string& folder, const auth::Identity
 }
 
 int run() {
-  if (test::EtcdCluster::program().empty()) {
+  if (test::etcd_program("etcd").empty()) {
     std::printf("[ NOT RUN ] etcd is not installed (Debian: etcd-server)\n");
     return 0;
   }

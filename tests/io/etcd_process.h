@@ -4,9 +4,11 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "common/base/format.h"
 #include "common/io/tcp_listener.h"
@@ -107,6 +109,32 @@ class Etcd {
   int client_ = 0;
   Words command_;
   std::optional<Process> process_;
+};
+
+/// Members of one etcd cluster on loopback.
+class EtcdCluster {
+ public:
+  /// @param members  1 to 9
+  explicit EtcdCluster(std::size_t members) {
+    std::vector<int> peers;
+    std::string all;
+    for (std::size_t n = 0; n < members; ++n) {
+      peers.push_back(free_port());
+      all += (n == 0 ? "" : ",") + format("m%zu=http://127.0.0.1:%d", n, peers.back());
+    }
+    for (std::size_t n = 0; n < members; ++n)
+      members_.push_back(std::make_unique<Etcd>(format("m%zu", n), peers[n], members == 1 ? "" : all));
+  }
+  [[nodiscard]] Etcd& member(std::size_t n) const { return *members_.at(n); }
+  [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
+  [[nodiscard]] std::vector<std::string> endpoints() const {
+    std::vector<std::string> all;
+    for (const auto& member : members_) all.push_back(member->endpoint());
+    return all;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Etcd>> members_;
 };
 
 }  // namespace tandem::test

@@ -19,15 +19,7 @@ class LiveService {
  public:
   /// @param sessions  of the configuration of all servers  @param etcds  1 or 3
   explicit LiveService(std::string sessions, std::size_t etcds = 1, int ttl_s = 3)
-      : sessions_(std::move(sessions)), ttl_s_(ttl_s) {
-    std::vector<int> peers;
-    std::string cluster;
-    for (std::size_t n = 0; n < etcds; ++n) {
-      peers.push_back(free_port());
-      cluster += (n == 0 ? "" : ",") + format("m%zu=http://127.0.0.1:%d", n, peers.back());
-    }
-    for (std::size_t n = 0; n < etcds; ++n)
-      etcd_.push_back(std::make_unique<Etcd>(format("m%zu", n), peers[n], etcds == 1 ? "" : cluster));
+      : sessions_(std::move(sessions)), ttl_s_(ttl_s), etcd_(etcds) {
     run({"service", "init", folder_.file("service")});
   }
 
@@ -41,7 +33,7 @@ class LiveService {
     }
     if (addresses_[name].empty()) addresses_[name] = free_address();  // clients know it, so a restart has the same
     std::string endpoints;
-    for (const auto& etcd : etcd_) endpoints += "endpoint: \"" + etcd->endpoint() + "\" ";
+    for (const std::string& endpoint : etcd_.endpoints()) endpoints += "endpoint: \"" + endpoint + "\" ";
     const std::string config =
         folder_.write(name + ".textproto", "version: 1 listen: \"" + addresses_[name] +
                                                "\" metrics: \"127.0.0.1:0\" state: \"" + name + "\" " + sessions_ +
@@ -51,7 +43,7 @@ class LiveService {
     return *servers_[name];
   }
   [[nodiscard]] Process& of(const std::string& name) const { return *servers_.at(name); }
-  [[nodiscard]] Etcd& etcd(std::size_t n = 0) { return *etcd_.at(n); }
+  [[nodiscard]] Etcd& etcd(std::size_t n = 0) { return etcd_.member(n); }
   [[nodiscard]] const Folder& folder() const { return folder_; }
 
   /// Sessions that a server serves, as JSON.
@@ -105,7 +97,7 @@ class LiveService {
   std::string sessions_;
   int ttl_s_;
   Folder folder_;
-  std::vector<std::unique_ptr<Etcd>> etcd_;
+  EtcdCluster etcd_;
   std::map<std::string, std::string> addresses_;
   std::map<std::string, std::unique_ptr<Process>> servers_;
 };
