@@ -98,6 +98,7 @@ constexpr std::array<KindRow, rpc::kKinds> kFrames{{
     {Kind::kNotesRequest, "-x-x-x-"},
     {Kind::kNoteList, "-------"},
     {Kind::kRecordSession, "-x---x-"},
+    {Kind::kElsewhere, "-------"},
 }};
 
 TEST(Roles, MatchTheDesignTableForEveryFrame) {
@@ -119,7 +120,7 @@ TEST(Roles, MatchTheDesignTableForEveryFrame) {
 }
 
 TEST(Roles, AllowNoFrameOutsideTheTable) {
-  for (const int number : {0, 1, 2, 31, 255}) {
+  for (const int number : {0, 1, 2, 32, 255}) {
     const auto kind = static_cast<Kind>(number);
     EXPECT_FALSE(is_client_message(kind));
     EXPECT_FALSE(allowed(std::nullopt, kind));
