@@ -117,7 +117,7 @@ class Directory {
   [[nodiscard]] virtual std::optional<Reply> poll() = 0;
   /// Sets what is called when a reply was added, from any thread; it must not call this object. Without effect if
   /// replies are added by calls of this object only.
-  virtual void notify_by([[maybe_unused]] std::function<void()> told) {}
+  virtual void notify_by([[maybe_unused]] const std::function<void()>& told) {}
 };
 
 }  // namespace tandem::directory

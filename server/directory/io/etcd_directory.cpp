@@ -107,9 +107,9 @@ class EtcdDirectory::Core {
     replies_.pop_front();
     return reply;
   }
-  void notify_by(std::function<void()> told) {
+  void notify_by(const std::function<void()>& told) {
     const std::lock_guard lock(mutex_);
-    told_ = std::move(told);
+    told_ = told;
   }
   Counters counters() const {
     const std::lock_guard lock(mutex_);
@@ -392,7 +392,7 @@ EtcdDirectory::EtcdDirectory(EtcdOptions options) : core_(std::make_unique<Core>
 EtcdDirectory::~EtcdDirectory() { core_->stop(); }
 void EtcdDirectory::begin(OperationId operation, const Request& request) { core_->begin(operation, request); }
 std::optional<Reply> EtcdDirectory::poll() { return core_->poll(); }
-void EtcdDirectory::notify_by(std::function<void()> told) { core_->notify_by(std::move(told)); }
+void EtcdDirectory::notify_by(const std::function<void()>& told) { core_->notify_by(told); }
 EtcdDirectory::Counters EtcdDirectory::counters() const { return core_->counters(); }
 
 }  // namespace tandem::directory

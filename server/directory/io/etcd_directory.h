@@ -30,7 +30,7 @@ class EtcdDirectory final : public Directory {
 
   void begin(OperationId operation, const Request& request) override;
   [[nodiscard]] std::optional<Reply> poll() override;
-  void notify_by(std::function<void()> told) override;
+  void notify_by(const std::function<void()>& told) override;
   [[nodiscard]] Counters counters() const;
 
   class Core;  ///< state that the threads share
