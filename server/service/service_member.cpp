@@ -20,7 +20,7 @@ namespace {
 /// First number of this class's own operations; those of Ownership count from 1.
 constexpr OperationId kOwnOperations = OperationId{1} << 62;
 constexpr Duration kAgain = std::chrono::milliseconds(50);
-constexpr Duration kWritePause = std::chrono::milliseconds(100);
+constexpr Duration kWritePause = std::chrono::milliseconds(50);  // 32 values each: 256 sessions, twice a second
 constexpr Duration kStandbyPause = std::chrono::seconds(2);  // between two attempts to name a standby
 
 const std::string* found_text(const Reply& reply, std::size_t n) {
