@@ -21,7 +21,7 @@ namespace {
 constexpr OperationId kOwnOperations = OperationId{1} << 62;
 constexpr Duration kAgain = std::chrono::milliseconds(50);
 constexpr Duration kWritePause = std::chrono::milliseconds(50);  // 32 values each: 256 sessions, twice a second
-constexpr Duration kStandbyPause = std::chrono::seconds(2);  // between two attempts to name a standby
+constexpr Duration kStandbyPause = std::chrono::seconds(2);      // between two attempts to name a standby
 
 const std::string* found_text(const Reply& reply, std::size_t n) {
   return n < reply.found.size() && !reply.found[n].empty() ? &reply.found[n][0].value : nullptr;
