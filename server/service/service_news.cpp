@@ -49,7 +49,8 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
     if (next == State::kNameTaken)
       lines.push_back({true, "service_name_taken",
                        "another server is registered in the service as " + server_ +
-                           "; end it, or give this server a name of its own in directory { server }. This server goes "
+                           "; end it, or give this server a member file with another name (`tandem-server service "
+                           "vouch`). This server goes "
                            "on trying"});
   }
   const bool held = status.holding && status.owned > 0;
