@@ -25,6 +25,10 @@ int revoke_command(const RevokeArguments& arguments) {
   std::printf("%s: %s%s\n", arguments.name.c_str(),
               gone->workstations > 0 ? "the server rejects its key from now on" : "was not enrolled",
               gone->codes > 0 ? "; its enrolment string is void" : "");
+  if (state->membership() != nullptr)
+    std::printf(
+        "the other servers of the service learn of it within a second, if this server runs and the directory "
+        "answers; otherwise as soon as both do\n");
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 

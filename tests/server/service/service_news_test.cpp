@@ -54,7 +54,7 @@ TEST_F(ServiceNewsTest, ReportsANameThatAnotherServerHas) {
   start("a");
   Server& second = start("a");
   EXPECT_EQ(events(second, 10s), Events{"service_name_taken"});
-  EXPECT_NE(told_.find("directory { server }"), std::string::npos) << told_;
+  EXPECT_NE(told_.find("tandem-server service vouch"), std::string::npos) << told_;
 }
 
 TEST_F(ServiceNewsTest, TableHasEveryServerAndSessionsWithoutOne) {

@@ -176,6 +176,8 @@ TEST(KeyProcedures, MakeTwoServersOneServiceAndChangeItsKey) {
   for (const char* word : {"--name", "--key", "--out"}) EXPECT_NE(refused.err.find(word), std::string::npos);
   EXPECT_EQ(run(TANDEM_SERVER, {"service", "init", service}).code, 1);
   EXPECT_EQ(run(TANDEM_SERVER, {"service", "grow"}).code, 2);
+  const std::string revoked = ok(run(TANDEM_SERVER, {"revoke", "touch-07", "--state", folder.path("a")}));
+  EXPECT_NE(revoked.find("other servers of the service learn of it"), std::string::npos) << revoked;
 }
 
 TEST(KeyProcedures, RequireAnInitialisedFolderForANewTicketKey) {
