@@ -74,4 +74,15 @@ RecordingRow joined_row(const std::vector<RecordingRow>& rows, const RecordingGr
   return joined;
 }
 
+std::vector<std::size_t> files_beyond_limits(const std::vector<RecordingRow>& rows, const RetentionLimits& limits,
+                                             std::int64_t now_ns) {
+  const std::vector<RecordingGroup> groups = group_recordings(rows);
+  std::vector<RecordingRow> recordings;
+  for (const RecordingGroup& group : groups) recordings.push_back(joined_row(rows, group));
+  std::vector<std::size_t> files;
+  for (const std::size_t k : beyond_limits(recordings, limits, now_ns))
+    files.insert(files.end(), groups[k].rows.begin(), groups[k].rows.end());
+  return files;
+}
+
 }  // namespace tandem::server

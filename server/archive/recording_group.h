@@ -22,4 +22,9 @@ struct RecordingGroup {
 /// `modified_ns` that of the last one. It is complete if every file is and no part is missing.
 [[nodiscard]] RecordingRow joined_row(const std::vector<RecordingRow>& rows, const RecordingGroup& group);
 
+/// Returns the indices of all files of the recordings beyond the limits (`beyond_limits`), each recording whole: its
+/// age is that of its newest file, its size that of all files.
+[[nodiscard]] std::vector<std::size_t> files_beyond_limits(const std::vector<RecordingRow>& rows,
+                                                           const RetentionLimits& limits, std::int64_t now_ns);
+
 }  // namespace tandem::server

@@ -163,6 +163,29 @@ TEST(LongRecordings, NameTheMissingPartAndExportOneFileOnRequest) {
   EXPECT_NE(two.err().find("csv and hdf5 with --one-file take one file, not 2"), std::string::npos) << two.err();
 }
 
+TEST(LongRecordings, AreReplayedLiveWholeOrNotAtAll) {
+  const LongSession session;
+  double end_s = 0;  // of the last part
+  for (const std::string& part : session.parts) {
+    const auto lesson = read_lesson(bytes_of(session.folder.read(part)));
+    ASSERT_TRUE(lesson);
+    end_s = std::max(end_s, static_cast<double>(lesson->tick.back()) / lesson->scene.tick_hz);
+  }
+  Process replay = server({"replay-live", session.path(1)});
+  ASSERT_TRUE(replay.wait_for("listening on")) << replay.err();
+  ASSERT_TRUE(replay.wait_for("Ctrl-C ends")) << replay.err();
+  const std::string duration = replay.after("scene contact, ");
+  EXPECT_NEAR(std::atof(duration.c_str()), end_s, 0.01) << replay.out();
+  replay.signal(SIGTERM);
+  static_cast<void>(replay.wait());
+
+  fs::remove(session.path(1));
+  Process refused = server({"replay-live", session.path(0)});
+  EXPECT_EQ(refused.wait(), 2);
+  EXPECT_NE(refused.err().find("part 2 of the recording is missing, lesson-2.mcap"), std::string::npos)
+      << refused.err();
+}
+
 TEST(LongRecordings, OfTwoSessionsAreNoSingleTable) {
   const LongSession session;
   const std::string other = session.folder.file("one/other.mcap");

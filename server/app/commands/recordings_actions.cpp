@@ -176,7 +176,7 @@ int retain_recordings(const RecordingsTask& task) {
   auto open = open_index(task.folder);
   if (!open) return print_error(kCommand, open.error());
   const std::int64_t now = std::chrono::duration_cast<std::chrono::nanoseconds>(io::read_clock(CLOCK_REALTIME)).count();
-  return delete_chosen(task, *open, beyond_limits(open->rows, task.limits, now), "retention");
+  return delete_chosen(task, *open, files_beyond_limits(open->rows, task.limits, now), "retention");
 }
 
 int forget_person(const RecordingsTask& task) {

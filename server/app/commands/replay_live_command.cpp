@@ -1,12 +1,9 @@
 #include <stdlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,10 +13,11 @@
 #include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
-#include "proto/recording/lesson_reader.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/process/server_process.h"
 #include "server/app/recording/replayed_lesson.h"
+#include "server/archive/app/lesson_file.h"
+#include "server/archive/io/part_files.h"
 
 namespace tandem::server {
 namespace {
@@ -105,21 +103,25 @@ class ReplayedHands {
   std::vector<io::ChildProgram> children_;
 };
 
-std::expected<Lesson, std::string> read_file(const std::string& path) {
+/// Reads a recording with all its files. @return the lesson; or the error, with the name of the file of several
+std::expected<Lesson, std::string> read_recording(const std::string& path) {
   if (std::error_code error; std::filesystem::is_directory(path, error))
     return std::unexpected("is a folder; name a recording");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::unexpected(std::string("cannot be opened: ") + std::strerror(errno));
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) return std::unexpected("cannot be read");
-  return read_lesson(std::as_bytes(std::span(bytes)));
+  const auto lesson = load_lesson(path);  // first, for an error that names no other file
+  if (!lesson) return lesson;
+  const auto parts = find_parts({path});
+  if (!parts) return std::unexpected(parts.error());
+  if (parts->size() == 1) return lesson;
+  std::vector<std::string> files;
+  for (const RecordedPart& part : *parts) files.push_back(part.file);
+  return load_lesson(files);
 }
 
 int replay_live_command(const ReplayLiveArguments& arguments) {
   io::UsageErrors errors;
   ServerOptions plan{.command = "replay-live", .quiet = arguments.quiet, .no_restore = true};
   SessionOptions& session = plan.sessions.emplace_back(SessionOptions{.json = arguments.json});
-  const auto lesson = read_file(arguments.file);
+  const auto lesson = read_recording(arguments.file);
   auto replayed = lesson ? replayed_lesson(*lesson, arguments.seats, !arguments.no_wait)
                          : std::expected<ReplayedLesson, std::string>(std::unexpected(lesson.error()));
   if (!replayed) {

@@ -115,5 +115,17 @@ TEST(RecordingGroups, StandTogetherInTheTable) {
       << one;
 }
 
+TEST(RecordingGroups, AreRetainedWhole) {
+  std::vector<RecordingRow> rows = folder();  // six readable files of 1 MB or nothing
+  const std::int64_t end = kBegin + 40 * kMinute;
+  for (RecordingRow& row : rows) row.modified_ns = end;
+  rows[4].summary.start_unix_ns = kBegin + 60 * kMinute;  // other.mcap is newer than lab
+  rows[3].summary.start_unix_ns = kBegin + 61 * kMinute;
+  rows[5].summary.start_unix_ns = kBegin + 62 * kMinute;
+  EXPECT_EQ(files_beyond_limits(rows, {.days = 0, .bytes = 4'900'000}, end), (std::vector<std::size_t>{2, 0, 1}))
+      << "one byte too much costs the oldest recording with all of its three files";
+  EXPECT_TRUE(files_beyond_limits(rows, {.days = 0, .bytes = 5'000'000}, end).empty());
+}
+
 }  // namespace
 }  // namespace tandem::server
