@@ -59,7 +59,7 @@ class LiveService {
     const auto taken = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
     while (sessions(name).size() != count) {
       if (taken() > 30) {
-        ADD_FAILURE() << name << " does not serve " << count << " sessions";
+        ADD_FAILURE() << name << " does not serve " << count << " sessions: " << servers_.at(name)->err();
         break;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -111,6 +111,12 @@ TEST_F(Service, FrozenServerGivesItsSessionsUpWhenItWakes) {
 
 TEST_F(Service, ServerWithoutTheDirectorySaysSoAndWaitsForIt) {
   LiveService service(kTwoSessions);
+  {  // An etcd that is killed while it makes its data folder cannot use it any more.
+    directory::EtcdOptions options;
+    options.endpoints = {service.etcd().endpoint()};
+    directory::EtcdDirectory through(options);
+    service.etcd().wait_until_ready(through);
+  }
   service.etcd().process().signal(SIGKILL);
   ASSERT_TRUE(service.etcd().process().wait());
   Process& a = service.start("a");
