@@ -11,16 +11,10 @@ const candidates = [
 ];
 const chromium = candidates.find((path) => path !== undefined && existsSync(path));
 
-// Specs that measure times run alone; the others run two at a time. Without TANDEM_PAGES all run one at a time.
-const measuring = ['**/delay.spec.ts', '**/first_picture.spec.ts', '**/load.spec.ts'];
-const part = process.env.TANDEM_PAGES;
-
 export default defineConfig({
   testDir: 'tests/pages',
-  ...(part === 'together' ? { testIgnore: measuring } : {}),
-  ...(part === 'alone' ? { testMatch: measuring } : {}),
   outputDir: 'test-results',
-  workers: part === 'together' ? 2 : 1,
+  workers: 1,
   timeout: 60_000,
   expect: { timeout: 10_000 },
   reporter: [['list']],
