@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -22,6 +23,18 @@ void order_group(const std::vector<RecordingRow>& rows, RecordingGroup& group) {
     parts.back().file = rows[k].file;
   }
   group.problem = order_parts(parts);
+}
+
+/// Whether the part behind the last one is being written. The name of part N is that of part 1 with -N.
+bool grows(const std::vector<RecordingRow>& rows, const RecordingGroup& group,
+           const std::vector<std::string>& unfinished) {
+  const RecordingRow& last = rows[group.rows.back()];
+  constexpr std::string_view kEnding = ".mcap";
+  std::string name = last.file.substr(0, last.file.size() - std::min(last.file.size(), kEnding.size()));
+  const std::string number = "-" + std::to_string(last.summary.part.number);
+  if (last.summary.part.number > 1 && name.ends_with(number)) name.resize(name.size() - number.size());
+  const std::string next = name + "-" + std::to_string(last.summary.part.number + 1) + ".mcap.part";
+  return std::ranges::find(unfinished, next) != unfinished.end();
 }
 
 }  // namespace
@@ -74,15 +87,37 @@ RecordingRow joined_row(const std::vector<RecordingRow>& rows, const RecordingGr
   return joined;
 }
 
-std::vector<std::size_t> files_beyond_limits(const std::vector<RecordingRow>& rows, const RetentionLimits& limits,
+std::vector<std::size_t> files_beyond_limits(const std::vector<RecordingRow>& rows,
+                                             const std::vector<std::string>& unfinished, const RetentionLimits& limits,
                                              std::int64_t now_ns) {
   const std::vector<RecordingGroup> groups = group_recordings(rows);
   std::vector<RecordingRow> recordings;
-  for (const RecordingGroup& group : groups) recordings.push_back(joined_row(rows, group));
+  for (const RecordingGroup& group : groups) {
+    recordings.push_back(joined_row(rows, group));
+    if (grows(rows, group, unfinished)) recordings.back().problem = "it is being recorded";
+  }
   std::vector<std::size_t> files;
   for (const std::size_t k : beyond_limits(recordings, limits, now_ns))
     files.insert(files.end(), groups[k].rows.begin(), groups[k].rows.end());
   return files;
+}
+
+std::vector<std::vector<std::size_t>> deletion_order(const std::vector<RecordingRow>& rows,
+                                                     const std::vector<std::size_t>& chosen) {
+  const std::vector<RecordingGroup> groups = group_recordings(rows);
+  std::vector<std::vector<std::size_t>> order;
+  std::vector<bool> ordered(groups.size(), false);
+  for (const std::size_t k : chosen) {
+    const auto group = std::ranges::find_if(
+        groups, [k](const RecordingGroup& g) { return std::ranges::find(g.rows, k) != g.rows.end(); });
+    const auto place = static_cast<std::size_t>(group - groups.begin());
+    if (ordered[place]) continue;
+    ordered[place] = true;
+    order.emplace_back();
+    for (auto row = group->rows.rbegin(); row != group->rows.rend(); ++row)
+      if (std::ranges::find(chosen, *row) != chosen.end()) order.back().push_back(*row);
+  }
+  return order;
 }
 
 }  // namespace tandem::server

@@ -22,9 +22,16 @@ struct RecordingGroup {
 /// `modified_ns` that of the last one. It is complete if every file is and no part is missing.
 [[nodiscard]] RecordingRow joined_row(const std::vector<RecordingRow>& rows, const RecordingGroup& group);
 
-/// Returns the indices of all files of the recordings beyond the limits (`beyond_limits`), each recording whole: its
-/// age is that of its newest file, its size that of all files.
+/// Returns the indices of all files of the recordings beyond the limits (`beyond_limits`), each recording whole: it is
+/// as old as its begin and as large as all its files. A recording that still grows is neither counted nor chosen.
+/// @param unfinished  files NAME.mcap.part, with their folders as in `rows`
 [[nodiscard]] std::vector<std::size_t> files_beyond_limits(const std::vector<RecordingRow>& rows,
+                                                           const std::vector<std::string>& unfinished,
                                                            const RetentionLimits& limits, std::int64_t now_ns);
+
+/// Returns the chosen files, together those of one recording and the last part first. A deletion that stops within a
+/// recording then leaves its begin, which can be read and replayed.
+[[nodiscard]] std::vector<std::vector<std::size_t>> deletion_order(const std::vector<RecordingRow>& rows,
+                                                                   const std::vector<std::size_t>& chosen);
 
 }  // namespace tandem::server

@@ -119,9 +119,14 @@ std::string recording_text(const RecordingRow& row, const std::vector<std::strin
   text += format("duration  %.3f s\n", s.duration_s);
   text += format("ticks     %llu recorded, %llu not recorded\n", static_cast<unsigned long long>(s.rows),
                  static_cast<unsigned long long>(s.missing_ticks));
-  text += std::string("whole     ") + (s.complete ? "yes" : "no: the file was cut, damaged or repaired") + "\n";
-  if (files.size() > 1) {
-    text += format("part      %u of a recording of %zu files:", s.part.number, files.size());
+  text += std::string("whole     ") +
+          (!s.complete        ? "no: the file was cut, damaged or repaired"
+           : !problem.empty() ? "the file; not the recording"
+                              : "yes") +
+          "\n";
+  if (files.size() > 1 || !problem.empty()) {
+    text +=
+        format("part      %u of a recording of %zu file%s:", s.part.number, files.size(), files.size() == 1 ? "" : "s");
     for (const std::string& file : files) text += " " + sanitize(file);
     text += "\n";
   }

@@ -24,6 +24,7 @@ constexpr const char* kCommand = "recordings";
 struct OpenIndex {
   RecordingIndex index;
   std::vector<RecordingRow> rows;
+  std::vector<std::string> unfinished;  ///< files that are being written, or that a killed server left
 };
 
 /// Opens and scans; prints files that are being written. @return the index, or the error
@@ -43,7 +44,7 @@ std::expected<OpenIndex, std::string> open_index(const std::string& folder) {
                         sanitize(file).c_str());
   auto rows = index->rows();
   if (!rows) return std::unexpected(rows.error());
-  return OpenIndex{std::move(*index), std::move(*rows)};
+  return OpenIndex{std::move(*index), std::move(*rows), scan->unfinished};
 }
 
 int printed(const std::string& text) {
@@ -120,17 +121,20 @@ int delete_chosen(const RecordingsTask& task, OpenIndex& open, const std::vector
   };
   std::vector<RecordingRow> deleted;
   int code = io::kExitDone;
-  for (const std::size_t k : chosen) {
-    if (!io::pending_signal().empty()) {
-      code = print_error(kCommand, "interrupted; the recordings that are not listed are kept");
-      break;
-    }
-    const std::string problem = delete_recording(task.folder, open.index, open.rows[k], reason, audit);
-    if (problem.empty()) {
-      deleted.push_back(open.rows[k]);
-    } else {
+  bool interrupted = false;
+  for (const std::vector<std::size_t>& files : deletion_order(open.rows, chosen)) {
+    for (const std::size_t k : files) {
+      interrupted = !io::pending_signal().empty();
+      const std::string problem = interrupted ? "interrupted; the files that are not listed are kept"
+                                              : delete_recording(task.folder, open.index, open.rows[k], reason, audit);
+      if (problem.empty()) {
+        deleted.push_back(open.rows[k]);
+        continue;
+      }
       code = print_error(kCommand, problem);
+      break;  // the earlier files of this recording stay
     }
+    if (interrupted) break;
   }
   const int shown = print_chosen(deleted, true, task.json);
   return code == io::kExitDone ? shown : code;
@@ -176,7 +180,7 @@ int retain_recordings(const RecordingsTask& task) {
   auto open = open_index(task.folder);
   if (!open) return print_error(kCommand, open.error());
   const std::int64_t now = std::chrono::duration_cast<std::chrono::nanoseconds>(io::read_clock(CLOCK_REALTIME)).count();
-  return delete_chosen(task, *open, files_beyond_limits(open->rows, task.limits, now), "retention");
+  return delete_chosen(task, *open, files_beyond_limits(open->rows, open->unfinished, task.limits, now), "retention");
 }
 
 int forget_person(const RecordingsTask& task) {

@@ -122,9 +122,38 @@ TEST(RecordingGroups, AreRetainedWhole) {
   rows[4].summary.start_unix_ns = kBegin + 60 * kMinute;  // other.mcap is newer than lab
   rows[3].summary.start_unix_ns = kBegin + 61 * kMinute;
   rows[5].summary.start_unix_ns = kBegin + 62 * kMinute;
-  EXPECT_EQ(files_beyond_limits(rows, {.days = 0, .bytes = 4'900'000}, end), (std::vector<std::size_t>{2, 0, 1}))
+  EXPECT_EQ(files_beyond_limits(rows, {}, {.days = 0, .bytes = 4'900'000}, end), (std::vector<std::size_t>{2, 0, 1}))
       << "one byte too much costs the oldest recording with all of its three files";
-  EXPECT_TRUE(files_beyond_limits(rows, {.days = 0, .bytes = 5'000'000}, end).empty());
+  EXPECT_TRUE(files_beyond_limits(rows, {}, {.days = 0, .bytes = 5'000'000}, end).empty());
+}
+
+TEST(RecordingGroups, AreAsOldAsTheirBegin) {
+  const std::vector<RecordingRow> rows{part("lab.mcap", 1, false), part("lab-2.mcap", 2, true)};
+  const std::int64_t begin_too_old = kBegin + 24 * 60 * kMinute + kMinute;  // part 2 began ten minutes later
+  EXPECT_EQ(files_beyond_limits(rows, {}, {.days = 1, .bytes = 0}, begin_too_old), (std::vector<std::size_t>{0, 1}));
+  EXPECT_TRUE(files_beyond_limits(rows, {}, {.days = 1, .bytes = 0}, begin_too_old - 2 * kMinute).empty());
+}
+
+TEST(RecordingGroups, ThatStillGrowAreKept) {
+  std::vector<RecordingRow> rows{part("a/lab.mcap", 1, false), part("a/lab-2.mcap", 2, false),
+                                 part("a/other.mcap", 1, true, "other")};
+  const std::int64_t late = kBegin + 1000 * 24 * 60 * kMinute;
+  const auto chosen = [&](const std::vector<std::string>& unfinished) {
+    return files_beyond_limits(rows, unfinished, {.days = 1, .bytes = 0}, late);
+  };
+  EXPECT_EQ(chosen({"a/lab-3.mcap.part"}), (std::vector<std::size_t>{2}));
+  EXPECT_EQ(chosen({"b/lab-3.mcap.part", "a/lab-2.mcap.part"}), (std::vector<std::size_t>{0, 1, 2}))
+      << "neither of them is the next file of the recording";
+  rows.pop_back();
+  rows.pop_back();
+  EXPECT_TRUE(chosen({"a/lab-2.mcap.part"}).empty());
+}
+
+TEST(RecordingGroups, AreDeletedFromTheirEnd) {
+  const std::vector<RecordingRow> rows = folder();
+  EXPECT_EQ(deletion_order(rows, {4, 2, 0, 1}), (std::vector<std::vector<std::size_t>>{{4}, {1, 0, 2}}))
+      << "part 3, part 2, part 1";
+  EXPECT_EQ(deletion_order(rows, {0, 6}), (std::vector<std::vector<std::size_t>>{{0}, {6}}));
 }
 
 }  // namespace
