@@ -153,10 +153,11 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
   // The force gate already released the force after the silence limit.
   if (reconnector_ || !server_.reconnect_due(now)) return std::nullopt;
   if (server_.on_reconnect(initial_backoff()))
-    o_.line.note(format(
-        "%s; your hand is free. Reconnecting, for up to %.0f s (--reconnect-timeout); q or Ctrl-C ends it",
-        server_restarts(status) ? "the server ended and keeps your seat for its next start" : "the server fell silent",
-        o_.options.reconnect_timeout_s));
+    o_.line.note(
+        format("%s; your hand is free. Reconnecting, for up to %.0f s (--reconnect-timeout); q or Ctrl-C ends it",
+               server_restarts(status) ? "the server ended or gave the session away; your seat is kept"
+                                       : "the server fell silent",
+               o_.options.reconnect_timeout_s));
   reconnector_ = std::make_unique<Reconnector>(o_.join_options, resume_state_, o_.seat, o_.runner, socket_);
   return std::nullopt;
 }

@@ -50,8 +50,7 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
       lines.push_back({true, "service_name_taken",
                        "another server is registered in the service as " + server_ +
                            "; end it, or give this server a member file with another name (`tandem-server service "
-                           "vouch`). This server goes "
-                           "on trying"});
+                           "vouch --name NAME`, then `tandem-server service join`). This server goes on trying"});
   }
   const bool held = status.holding && status.owned > 0;
   if (held != std::exchange(held_, held))

@@ -342,17 +342,28 @@ TEST_F(Service, ServersAreListedFromTheDirectory) {
   EXPECT_NE(asked.err().find("does not answer"), std::string::npos) << asked.err();
 }
 
-TEST_F(Service, WrongNamesAndMissingMembershipAreReported) {
+TEST_F(Service, WrongNamesAndMissingMembershipAreReportedByTheCheckToo) {
   LiveService service("session { name: \"lab\" scene: \"free_motion\" } ");
+  service.start("a");
   LiveService::run({"init", "--state", service.folder().file("lone")});
-  const std::string config = service.folder().write(
-      "lone.textproto",
-      "version: 1 listen: \"127.0.0.1:0\" state: \"lone\" session { name: \"lab\" scene: \"free_motion\" }\n"
-      "directory { endpoint: \"" +
-          service.etcd().endpoint() + "\" }");
-  Process lone = server({"serve", config});
-  EXPECT_EQ(lone.wait(), 1);
-  EXPECT_NE(lone.err().find("tandem-server service join"), std::string::npos) << lone.err();
+  const auto expect_refused = [&](const std::string& state, const std::string& more, const std::string& words) {
+    SCOPED_TRACE(words);
+    const std::string config = service.folder().write(
+        "wrong.textproto", "version: 1 listen: \"127.0.0.1:0\" " + (state.empty() ? "" : "state: \"" + state + "\"") +
+                               " session { name: \"lab\" scene: \"free_motion\" }\n directory { " + more +
+                               " endpoint: \"" + service.etcd().endpoint() + "\" }");
+    for (const Words& command : {Words{"serve", config}, Words{"serve", config, "--check"}}) {
+      Process wrong = server(command);
+      EXPECT_EQ(wrong.wait(), 2) << wrong.out();
+      EXPECT_NE(wrong.err().find("wrong.textproto:2"), std::string::npos) << wrong.err();
+      EXPECT_NE(wrong.err().find(words), std::string::npos) << wrong.err();
+    }
+  };
+  expect_refused("lone", "", "tandem-server service join");
+  expect_refused("", "", "needs a state folder");
+  service.of("a").signal(SIGTERM);
+  service.of("a").wait();
+  expect_refused("a", "server: \"x\"", "the member file of this server has the name a");
 }
 
 }  // namespace

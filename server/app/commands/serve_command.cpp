@@ -133,6 +133,12 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
       config, config.listen.text.empty() ? std::nullopt : std::optional(control.listen),
       [&config](const std::string& named) { return path_beside_config(config, named); }, errors);
   plan.service = plan.directory.has_value();
+  if (plan.directory && errors.empty()) {
+    // The keys are known to be readable.
+    const auto keys = open_server_keys(control.listen, control.state);
+    if (const std::string problem = keys ? membership_error(*plan.directory, *keys) : keys.error(); !problem.empty())
+      errors.push_back(config.directory->whole.error(config.file, problem));
+  }
   plan.version = TANDEM_VERSION;
   for (const ConfiguredSessionSpec& session : config.sessions)
     plan.sessions.push_back(session_options_from(config, session, errors));

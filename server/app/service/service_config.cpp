@@ -44,4 +44,18 @@ std::optional<ServiceOptions> service_options_from(const ServerConfigSpec& confi
   return out;
 }
 
+std::string membership_error(const ServiceOptions& options, const auth::ServerKeystore& keys) {
+  if (!keys.on_disk())
+    return "a member of a service needs a state folder with keys that last: make one with `tandem-server init`, and "
+           "name it with `state` in the configuration";
+  const auth::ServiceMembership* const membership = keys.membership();
+  if (membership == nullptr)
+    return "this server belongs to no service, so no client would follow it: put its member file into the state folder "
+           "with `tandem-server service join FILE`, or remove directory { } from the configuration";
+  if (!options.server.empty() && options.server != membership->name)
+    return "directory { server: \"" + options.server + "\" }: the member file of this server has the name " +
+           membership->name + "; use that name, or ask for a member file with the other one";
+  return {};
+}
+
 }  // namespace tandem::server

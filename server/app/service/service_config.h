@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "common/auth/io/server_keystore.h"
 #include "common/io/socket_address.h"
 #include "proto/spec/server_config_spec.h"
 #include "server/app/service/service_options.h"
@@ -16,5 +17,8 @@ namespace tandem::server {
 [[nodiscard]] std::optional<ServiceOptions> service_options_from(
     const ServerConfigSpec& config, const std::optional<io::SocketAddress>& listen,
     const std::function<std::string(const std::string&)>& path, InputErrors& errors);
+
+/// Why a server with these keys cannot be the member that `options` state, with the remedy; empty: it can.
+[[nodiscard]] std::string membership_error(const ServiceOptions& options, const auth::ServerKeystore& keys);
 
 }  // namespace tandem::server

@@ -11,6 +11,7 @@
 #include "common/io/processors.h"
 #include "proto/text/scene_text.h"
 #include "server/app/control/session_registry.h"
+#include "server/app/service/service_config.h"
 #include "server/app/service/service_specs.h"
 #include "server/directory/io/etcd_directory.h"
 
@@ -33,20 +34,9 @@ std::uint64_t drawn_seed() {
 
 std::expected<std::unique_ptr<ServiceHost>, std::string> ServiceHost::open(const Parts& parts) {
   const ServiceOptions& in = *parts.options.directory;
-  if (parts.control.ephemeral_keys())
-    return std::unexpected(
-        "a member of a service needs a state folder with keys that last: make one with `tandem-server init`, and name "
-        "it "
-        "with `state` in the configuration");
+  if (std::string problem = membership_error(in, parts.control.trust()); !problem.empty())
+    return std::unexpected(std::move(problem));
   const auth::ServiceMembership* const membership = parts.control.trust().membership();
-  if (membership == nullptr)
-    return std::unexpected(
-        "this server belongs to no service, so no client would follow it: put its member file into the state folder "
-        "with "
-        "`tandem-server service join FILE`, or remove directory { } from the configuration");
-  if (!in.server.empty() && in.server != membership->name)
-    return std::unexpected("directory { server: \"" + in.server + "\" }: the member file of this server has the name " +
-                           membership->name + "; use that name, or ask for a member file with the other one");
   std::string server = membership->name;
   auto keys = auth::ServerKeystore::open(parts.control.folder());
   if (!keys) return std::unexpected(keys.error());
