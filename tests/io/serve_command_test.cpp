@@ -278,7 +278,8 @@ TEST(Monitoring, ShowsMetricsHealthAndNothingElse) {
 
 TEST(Monitoring, ReportsWhyABusyServerRejectsJoins) {
   const Folder folder;
-  std::string config = "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" limits { load_percent: 1 threads: 1 }";
+  std::string config =
+      "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" limits { load_percent: 1 threads: 1 }";
   for (int n = 0; n < 24; ++n) config += " session { name: \"s" + std::to_string(n) + "\" scene: \"eight_seats\" }";
   Process host = serving(folder.write("s.textproto", config));
   std::string metrics = host.after("metrics on http://");
