@@ -72,6 +72,7 @@ struct DirectorySpec {
   LocatedText address;                              ///< HOST:PORT for clients; absent: the address it listens at
   std::string zone;                                 ///< empty: none
   std::uint32_t ttl_s = 3;                          ///< [s] of the server's lease
+  bool balance = true;                              ///< sessions move to less used servers by themselves
   LocatedText whole;                                ///< location of the block
 };
 

@@ -103,6 +103,7 @@ DirectorySpec directory_from(const pb::DirectoryConfig& in, MessageValidator& va
                           "write HOST:PORT at which clients reach this server, or leave the key out");
   out.zone = in.zone();
   if (in.has_ttl_s()) out.ttl_s = in.ttl_s();
+  if (in.has_balance()) out.balance = in.balance();
   return out;
 }
 
@@ -134,6 +135,7 @@ void set_directory(const DirectorySpec& in, pb::DirectoryConfig& out) {
   if (!in.address.text.empty()) out.set_address(in.address.text);
   if (!in.zone.empty()) out.set_zone(in.zone);
   out.set_ttl_s(in.ttl_s);
+  out.set_balance(in.balance);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ void ServiceCatalogue::apply(const directory::Change& change) {
   const char* const kind = name.ends_with(ServiceKeys::kSpec)     ? ServiceKeys::kSpec
                            : name.ends_with(ServiceKeys::kListed) ? ServiceKeys::kListed
                            : name.ends_with(ServiceKeys::kMove)   ? ServiceKeys::kMove
+                           : name.ends_with(ServiceKeys::kHome)   ? ServiceKeys::kHome
                                                                   : nullptr;
   if (kind == nullptr) {
     ++rejected_;
@@ -44,12 +45,14 @@ void ServiceCatalogue::apply(const directory::Change& change) {
   const std::string text = change.erased ? std::string{} : change.entry.value;
   (kind == ServiceKeys::kSpec     ? entry.spec_text
    : kind == ServiceKeys::kListed ? entry.listed_text
-                                  : entry.move_to) = text;
+   : kind == ServiceKeys::kMove   ? entry.move_to
+                                  : entry.home) = text;
   if (kind == ServiceKeys::kSpec) {
     entry.spec = parse_service_session(text);
     if (!entry.spec && !text.empty()) ++rejected_;
   }
-  if (entry.spec_text.empty() && entry.listed_text.empty() && entry.move_to.empty()) entries_.erase(found);
+  if (entry.spec_text.empty() && entry.listed_text.empty() && entry.move_to.empty() && entry.home.empty())
+    entries_.erase(found);
 }
 
 const ServiceSession* ServiceCatalogue::find(std::string_view name) const {

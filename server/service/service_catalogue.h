@@ -22,6 +22,7 @@ class ServiceCatalogue {
     std::optional<ServiceSession> spec;
     std::string spec_text, listed_text;
     std::string move_to;  ///< name of a server; empty: no move is wanted
+    std::string home;     ///< server to which an operator has moved it; empty: any
   };
   using Entries = std::map<std::string, Entry, std::less<>>;
 

@@ -10,6 +10,7 @@ namespace tandem::server {
 ///     catalogue/SESSION/spec     text of the session (ServiceSession)
 ///     catalogue/SESSION/listed   its phase and seats
 ///     catalogue/SESSION/move     server to which an operator moves the session; empty: none
+///     catalogue/SESSION/home     server to which an operator has moved it, so that it stays there; empty: any
 ///     snapshots/SESSION          newest snapshot; apart from the catalogue, which all servers follow
 class ServiceKeys {
  public:
@@ -22,6 +23,7 @@ class ServiceKeys {
     return catalogue() + std::string(session) + kListed;
   }
   [[nodiscard]] std::string move(std::string_view session) const { return catalogue() + std::string(session) + kMove; }
+  [[nodiscard]] std::string home(std::string_view session) const { return catalogue() + std::string(session) + kHome; }
   [[nodiscard]] std::string snapshot(std::string_view session) const {
     return prefix_ + "snapshots/" + std::string(session);
   }
@@ -29,6 +31,7 @@ class ServiceKeys {
   static constexpr const char* kSpec = "/spec";
   static constexpr const char* kListed = "/listed";
   static constexpr const char* kMove = "/move";
+  static constexpr const char* kHome = "/home";
 
  private:
   std::string prefix_;

@@ -40,6 +40,7 @@ ServiceMember::ServiceMember(ServiceMemberOptions options, directory::Directory&
       writer_(names_, kWritePause),
       registry_(options_.prefix, options_.agreed, options_.registry_mark),
       placement_(options_.key),
+      planner_(options_.key),
       newest_(kOwnOperations) {}
 
 void ServiceMember::describe(const directory::ServerRecord& record) {
@@ -81,6 +82,7 @@ void ServiceMember::step(Time now) {
   take_notices(now);
   if (!configured_claimed_) claim_configured();
   begin_moves();
+  balance(now);
   advance_sessions(now);
   const Duration retry = 2 * options_.times.answer_limit;
   if (const auto request = catalogue_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
@@ -218,10 +220,10 @@ std::optional<Request> ServiceMember::request_of(const std::string& session, con
       return write;
     }
     case Phase::kEnding:
-      return Transaction{
-          {owned},
-          {Erase{spec}, Erase{keys_.listed(session)}, Erase{keys_.move(session)}, Erase{keys_.snapshot(session)}},
-          {}};
+      return Transaction{{owned},
+                         {Erase{spec}, Erase{keys_.listed(session)}, Erase{keys_.move(session)},
+                          Erase{keys_.home(session)}, Erase{keys_.snapshot(session)}},
+                         {}};
     default:
       return std::nullopt;
   }
@@ -329,7 +331,9 @@ void ServiceMember::open(const std::string& session, Entry& entry, ServiceSessio
 
 void ServiceMember::on_opened(const std::string& session) {
   const auto found = entries_.find(session);
-  if (found != entries_.end() && found->second.phase == Phase::kOpening) found->second.phase = Phase::kOpen;
+  if (found == entries_.end() || found->second.phase != Phase::kOpening) return;
+  found->second.phase = Phase::kOpen;
+  found->second.opened = now_;
 }
 
 void ServiceMember::on_open_failed(Time now, const std::string& session) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/directory/ownership.h"
+#include "server/directory/placement/move_planner.h"
 #include "server/directory/placement/placement.h"
 #include "server/directory/placement/server_record.h"
 #include "server/service/fenced_writer.h"
@@ -28,6 +29,7 @@ struct ServiceMemberOptions {
   std::map<std::string, ServiceSession> configured{};
   RegistryAgreement agreed{};   ///< of the registry, from before a restart
   std::string registry_mark{};  ///< random, for a directory without one
+  bool balance = true;          ///< sessions move to less used servers by themselves
 };
 
 /// An order of the member to its server; orders are carried out in sequence.
@@ -35,7 +37,7 @@ struct ServiceEvent {
   enum class Kind : std::uint8_t {
     kOpen,      ///< serve the session; answer with `on_opened` or `on_open_failed`
     kGiveUp,    ///< end it here, its state stays; answer with `on_given_up`
-    kHandOver,  ///< the same, because it moves; answer with `on_handed_over` when it is over
+    kHandOver,  ///< the same, because it moves, `text` says why; answer with `on_handed_over` when it is over
     kRefused,   ///< a creation is refused: `text` says why
   };
   Kind kind{};
@@ -45,6 +47,14 @@ struct ServiceEvent {
   directory::Revision revision = 0;  ///< kOpen: of the ownership
   std::uint64_t order = 0;           ///< kOpen, kRefused: number of the creation; 0: none
   std::string text{};
+};
+
+/// Load of a session of this server.
+struct SessionLoad {
+  std::string session;
+  double cost = 0;       ///< measured processor time [cores]
+  double expected = 0;   ///< when all its seats are taken [cores]
+  bool waiting = false;  ///< no seat is taken
 };
 
 /// Where a session is.
@@ -74,6 +84,7 @@ struct ServiceStatus {
   std::optional<double> lease_age_s{};
   std::size_t owned = 0, members = 0, sessions = 0;
   std::uint64_t unanswered = 0;  ///< requests without an answer
+  std::uint64_t moves = 0;       ///< sessions that this server has begun to move to others
   FencedWriter::Counters writes{};
 };
 
@@ -100,6 +111,8 @@ class ServiceMember {
 
   /// Sets what this server publishes about itself; its name is that of the options.
   void describe(const directory::ServerRecord& record);
+  /// Sets the loads of the sessions of this server. A session moves by itself only after its load was set.
+  void set_loads(const std::vector<SessionLoad>& loads);
   /// Asks for a session that no server owns. Without effect if this server cannot serve it now.
   void want(const std::string& session);
   /// Creates a session whose name is free in the service. kOpen or kRefused follows.
@@ -137,6 +150,8 @@ class ServiceMember {
   [[nodiscard]] SharedRegistry& registry() noexcept { return registry_; }
   [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }
   [[nodiscard]] ServiceStatus status(Time now) const;
+  /// This server has no session, not even one that moves or ends.
+  [[nodiscard]] bool empty() const noexcept { return entries_.empty(); }
   /// Time from which no hand of any session of this server may be engaged.
   [[nodiscard]] Time act_until() const noexcept { return ownership_.keeper().hold_at(); }
 
@@ -163,6 +178,8 @@ class ServiceMember {
     int steps_until_move = -1;             ///< kMoving: after the hand-over; -1: not handed over, or moving
     std::uint64_t order = 0;
     Time order_ends{}, next_attempt{}, next_standby{};
+    Time opened{};
+    std::optional<SessionLoad> load{};
     directory::OperationId operation = 0;  ///< under way; 0: none
     Time sent{};
   };
@@ -181,8 +198,12 @@ class ServiceMember {
   void claim_configured();
   void advance_sessions(Time now);
   void begin_moves();
+  void balance(Time now);
+  void begin_move(const std::string& session, Entry& entry, const std::string& server, std::string why);
   void advance_move(const std::string& session, Entry& entry);
   void choose_standby(Time now, const std::string& session, Entry& entry);
+  /// All servers as their records have them; this one as it is now.
+  [[nodiscard]] std::vector<directory::Candidate> candidates() const;
   void begin(directory::OperationId operation, const directory::Request& request);
   void note(const directory::Reply& reply, Time now);
 
@@ -196,6 +217,7 @@ class ServiceMember {
   FencedWriter writer_;
   SharedRegistry registry_;
   directory::Placement placement_;
+  directory::MovePlanner planner_;
   directory::ServerRecord record_;
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::string, Time> refused_until_;  ///< sessions that this server could not open
@@ -206,7 +228,8 @@ class ServiceMember {
   Time now_{};  ///< of the newest step
   std::optional<Time> answered_;
   std::string trouble_;
-  std::uint64_t unanswered_ = 0, moves_seen_ = 0;
+  std::uint64_t unanswered_ = 0, moves_seen_ = 0, moves_ = 0;
+  Time next_balance_{};
 };
 
 }  // namespace tandem::server

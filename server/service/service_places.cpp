@@ -65,18 +65,24 @@ SessionPlace ServiceMember::locate(const rpc::SessionChoice& choice) {
   return place;
 }
 
+std::vector<directory::Candidate> ServiceMember::candidates() const {
+  std::vector<directory::Candidate> candidates;
+  for (const auto& [name, published] : members()) {
+    const directory::ServerRecord& record = name == options_.server ? record_ : published;
+    candidates.push_back({name, record.zone, record.capacity, record.used, record.drains, record.expected});
+  }
+  return candidates;
+}
+
 void ServiceMember::choose_standby(Time now, const std::string& session, Entry& entry) {
   if (now < entry.next_standby) return;
   entry.next_standby = now + kStandbyCheck;
   const auto* const seen = ownership_.view().session(session);
   if (seen == nullptr || !seen->owner || seen->standby) return;
-  std::vector<directory::Candidate> candidates;
   std::size_t open = 0;
   for (const auto& [name, other] : entries_) open += other.phase == Phase::kOpen ? 1 : 0;
-  for (const auto& [name, record] : members())
-    candidates.push_back({name, record.zone, record.capacity, record.used, record.drains});
   const double cost = record_.used / static_cast<double>(std::max<std::size_t>(open, 1));
-  if (const auto chosen = placement_.place_standby(candidates, cost, options_.server))
+  if (const auto chosen = placement_.place_standby(candidates(), cost, options_.server))
     static_cast<void>(ownership_.set_standby(session, *chosen));
 }
 
@@ -113,6 +119,7 @@ ServiceStatus ServiceMember::status(Time now) const {
   status.members = ownership_.view().servers().size();
   status.sessions = catalogue_.entries().size();
   status.unanswered = unanswered_;
+  status.moves = moves_;
   status.writes = writer_.counters();
   return status;
 }

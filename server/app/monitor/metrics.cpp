@@ -99,6 +99,8 @@ void describe_service(Families& page, const ServiceStatus& service) {
              static_cast<double>(service.sessions));
   page.gauge("tandem_service_members", "Servers of the service, as far as this server knows", {},
              static_cast<double>(service.members));
+  page.count("tandem_service_moves_total", "Sessions that this server has begun to move to other servers", {},
+             static_cast<double>(service.moves));
   page.count("tandem_service_unanswered_total", "Requests to the directory without an answer", {},
              static_cast<double>(service.unanswered));
   page.count("tandem_service_written_total", "Snapshots and lists that were written to the directory", {},

@@ -39,7 +39,7 @@ std::string SessionTable::open_owned(OwnedSession owned) {
   return {};
 }
 
-void SessionTable::give_up(const std::string& name) {
+void SessionTable::give_up(const std::string& name, const std::string& why) {
   const auto found = std::ranges::find_if(
       sessions_, [&](const auto& s) { return s->options().name == name && s->on_over() != nullptr; });
   if (found == sessions_.end()) return;
@@ -47,8 +47,7 @@ void SessionTable::give_up(const std::string& name) {
   session.live_session().set_act_until(Time{});
   if (session.end == EndReason::kGivenUp) return;
   session.end = EndReason::kGivenUp;
-  report(session, session.live_session().status(),
-         {"given_up", "", "GIVEN UP: another server may own the session now; its clients join there", true});
+  report(session, session.live_session().status(), {"given_up", "", why, true});
   control_.change([&](SessionRegistry& registry, const auto& done) {
     registry.end(session.id(), wire::CloseReason::kServerReturns);
     done();

@@ -142,6 +142,8 @@ class ServerProcess {
     output_.print_posted();
     const auto due = control_->registry().drain().due();
     if (due && !drain_began_ && now >= *due) drain("ended by a drain command");
+    if (due && !drain_began_ && service_ && service_->left_by_all())
+      drain("ended by a drain command, after all sessions have moved to other servers");
     if (drain_began_ && now - *drain_began_ > kDrainMax) exit_now("the sessions did not end within 3 s");
     feed_watchdog();
     report_machine();

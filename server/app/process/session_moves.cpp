@@ -42,6 +42,22 @@ std::vector<ShardView> SessionTable::expected_loads() const {
   return loads;
 }
 
+std::vector<SessionUse> SessionTable::uses() const {
+  const std::vector<SessionView> views = session_views(shard_views());
+  std::vector<SessionUse> uses;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    SessionInstance& session = *sessions_[i];
+    if (session.live_session().over()) continue;
+    const SceneSpec& scene = session.options().scene;
+    const SessionStatus status = session.live_session().status();
+    uses.push_back({.name = session.options().name,
+                    .measured = views[i].cost,
+                    .expected = std::max(views[i].cost, expected_cost({scene.tick_hz, scene.seats.size()})),
+                    .waiting = std::ranges::none_of(status.seats, &SeatStatus::taken)});
+  }
+  return uses;
+}
+
 void SessionTable::balance(Time now) {
   if (draining_ || shards_.all().size() < 2) return;
   const std::vector<ShardView> shards = shard_views();

@@ -17,6 +17,14 @@
 
 namespace tandem::server {
 
+/// Use of the processors by a session.
+struct SessionUse {
+  std::string name;
+  double measured = 0;   ///< [cores]
+  double expected = 0;   ///< when all its seats are taken [cores]
+  bool waiting = false;  ///< no seat is taken
+};
+
 /// The sessions of a server process: opened or restored, announced, serviced while they run, then finished with a
 /// report and perhaps replaced. All members belong to the thread of the main loop.
 class SessionTable {
@@ -54,8 +62,10 @@ class SessionTable {
   /// Opens a session that this server owns in its service, and serves it. @return why it cannot; empty: it is served
   [[nodiscard]] std::string open_owned(OwnedSession owned);
   /// Ends a session of a service that another server may own by now: releases all hands at once and tells the clients
-  /// to join again; its snapshot stays. Nothing happens if this server does not serve it.
-  void give_up(const std::string& name);
+  /// to join again; its snapshot stays. Nothing happens if this server does not serve it. @param why  for the operator
+  void give_up(const std::string& name, const std::string& why);
+  /// Use of the processors by each session that is not over.
+  [[nodiscard]] std::vector<SessionUse> uses() const;
   /// Reports about recordings, also of sessions that are over, and forgets those that are complete.
   void service_recordings();
   /// Recordings of sessions that are over are not complete yet.

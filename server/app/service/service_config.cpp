@@ -30,6 +30,7 @@ std::optional<ServiceOptions> service_options_from(const ServerConfigSpec& confi
   out.etcd.answer_limit = out.times.answer_limit;
   out.server = in.server.text;
   out.zone = in.zone;
+  out.balance = in.balance;
   out.address = in.address.text;
   if (!in.address.text.empty()) {
     if (const auto address = io::parse_address(in.address.text, 1); !address)

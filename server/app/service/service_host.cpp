@@ -21,7 +21,8 @@ namespace {
 constexpr Duration kPublishInterval = std::chrono::seconds(1);
 constexpr Duration kFormerRunMax = std::chrono::seconds(5);  // to end here before the next one opens
 constexpr Duration kLeaveMax = std::chrono::milliseconds(800);
-constexpr double kLoadStep = 0.05;  // [cores] a smaller change of the load writes nothing
+constexpr double kLoadStep = 0.05;      // [cores] a smaller change of the load writes nothing
+constexpr double kExpectedStep = 0.01;  // [cores] of the expected load, which changes with the sessions only
 
 std::uint64_t drawn_seed() {
   std::uint64_t seed = 0;
@@ -62,7 +63,8 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
                                .key = RandomKey{drawn_seed()},
                                .configured = {},
                                .agreed = RegistryMirror::read_agreement(*keys.folder()),
-                               .registry_mark = to_hex(auth::random_bytes<auth::Id16>())};
+                               .registry_mark = to_hex(auth::random_bytes<auth::Id16>()),
+                               .balance = in.balance};
   for (const SessionOptions& session : parts.options.sessions)
     options.configured.emplace(session.name, spec_of(session));
   thread_ = std::make_unique<ServiceThread>(std::move(options), std::make_unique<directory::EtcdDirectory>(in.etcd),
@@ -115,12 +117,13 @@ void ServiceHost::execute(ServiceEvent event, Time now) {
     case ServiceEvent::Kind::kGiveUp:
       std::erase_if(waiting_, [&](const Waiting& w) { return w.event.session == event.session; });
       snapshots_.remove(event.session);
-      parts_.sessions.give_up(event.session);
+      parts_.sessions.give_up(event.session,
+                              "GIVEN UP: another server may own the session now; its clients join there");
       thread_->with([&](ServiceMember& member, Time) { member.on_given_up(event.session); });
       return;
     case ServiceEvent::Kind::kHandOver:
       handing_over_.insert(event.session);
-      parts_.sessions.give_up(event.session);
+      parts_.sessions.give_up(event.session, event.text + "; its clients join there");
       return;
     case ServiceEvent::Kind::kRefused:
       reply(event.order, rpc::ErrorReply{rpc::ErrorCode::kNotAllowed, event.text, 0});
@@ -254,9 +257,19 @@ void ServiceHost::publish_load() {
   double used = 0;
   for (const auto& shard : parts_.shards.all()) used += shard->load().cpu_share();
   record_.used = kLoadStep * std::round(used / kLoadStep);
+  std::vector<SessionLoad> loads;
+  double expected = 0;
+  for (SessionUse& use : parts_.sessions.uses()) {
+    expected += use.expected;
+    loads.push_back({std::move(use.name), use.measured, use.expected, use.waiting});
+  }
+  record_.expected = kExpectedStep * std::round(expected / kExpectedStep);
   record_.capacity = parts_.options.control.load_limits.core * io::available_processors();
   record_.drains = parts_.control.registry().drain().due().has_value();
-  thread_->quietly([&](ServiceMember& member, Time) { member.describe(record_); });
+  thread_->quietly([&](ServiceMember& member, Time) {
+    member.describe(record_);
+    member.set_loads(loads);
+  });
 }
 
 void ServiceHost::publish_lists() {
@@ -276,6 +289,11 @@ void ServiceHost::report(const std::vector<ServiceNews::Line>& lines) {
   for (const ServiceNews::Line& line : lines)
     parts_.output.report(line.warning ? io::Level::kWarn : io::Level::kInfo, {.event = line.event, .text = line.text},
                          line.text);
+}
+
+bool ServiceHost::left_by_all() const {
+  return record_.drains && parts_.sessions.all().empty() &&
+         thread_->quietly([](const ServiceMember& member, Time) { return member.empty(); });
 }
 
 void ServiceHost::leave() {

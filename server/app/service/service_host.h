@@ -44,6 +44,8 @@ class ServiceHost {
   void step(Time now);
   /// Takes an order to create a session. @return false: it is another order, and untouched
   [[nodiscard]] bool take(SessionOrder& order);
+  /// The server drains, and has no session any more.
+  [[nodiscard]] bool left_by_all() const;
   /// Hands all sessions over, after the last one is over and before the process ends.
   void leave();
   /// For the control plane's thread.

@@ -15,6 +15,7 @@ struct ServiceOptions {
   std::string server{};   ///< name in the service; empty: that of the membership
   std::string address{};  ///< HOST:PORT for clients; empty: the address at which it listens
   std::string zone{};     ///< empty: none
+  bool balance = true;    ///< sessions move to less used servers by themselves
 };
 
 /// Times of a lease: sessions are held after two thirds of it, and it is renewed six times in its duration.

@@ -23,8 +23,8 @@ double mean_use(std::span<const Candidate> candidates) noexcept {
   return capacity > 0 ? used / capacity : 0;
 }
 
-std::optional<std::size_t> Placement::choose(std::span<const Candidate> candidates,
-                                             const std::vector<std::size_t>& fitting, double cost) {
+std::optional<std::size_t> Placement::less_used_of_two(std::span<const Candidate> candidates,
+                                                       const std::vector<std::size_t>& fitting, double cost) {
   if (fitting.empty()) return std::nullopt;
   const std::size_t one = fitting[draws_.below(fitting.size())], two = fitting[draws_.below(fitting.size())];
   return use_with(candidates[one], cost) <= use_with(candidates[two], cost) ? one : two;
@@ -34,7 +34,7 @@ std::optional<std::string> Placement::place(std::span<const Candidate> candidate
   std::vector<std::size_t> fitting;
   for (std::size_t n = 0; n < candidates.size(); ++n)
     if (has_room(candidates[n], cost)) fitting.push_back(n);
-  const auto chosen = choose(candidates, fitting, cost);
+  const auto chosen = less_used_of_two(candidates, fitting, cost);
   if (!chosen) return std::nullopt;
   return candidates[*chosen].server;
 }
@@ -49,33 +49,9 @@ std::optional<std::string> Placement::place_standby(std::span<const Candidate> c
     fitting.push_back(n);
     if (zone.empty() || candidates[n].zone != zone) elsewhere.push_back(n);
   }
-  const auto chosen = choose(candidates, elsewhere.empty() ? fitting : elsewhere, cost);
+  const auto chosen = less_used_of_two(candidates, elsewhere.empty() ? fitting : elsewhere, cost);
   if (!chosen) return std::nullopt;
   return candidates[*chosen].server;
-}
-
-std::vector<PlannedMove> Placement::plan_moves(std::span<const Candidate> candidates, std::string_view own,
-                                               std::span<const PlacedSession> sessions, std::size_t most) {
-  std::vector<PlannedMove> moves;
-  std::vector<Candidate> planned(candidates.begin(), candidates.end());
-  const auto self = std::ranges::find(planned, own, &Candidate::server);
-  if (self == planned.end() || self->capacity <= 0) return moves;
-  const double mean = mean_use(candidates);
-  for (const PlacedSession& session : sessions) {
-    const bool above = self->drains || self->used / self->capacity > kMoveAbove * mean;
-    if (moves.size() >= most || !above) break;
-    std::vector<std::size_t> fitting;
-    for (std::size_t n = 0; n < planned.size(); ++n) {
-      const bool stays_below = self->drains || (planned[n].capacity > 0 && use_with(planned[n], session.cost) <= mean);
-      if (planned[n].server != own && has_room(planned[n], session.cost) && stays_below) fitting.push_back(n);
-    }
-    const auto chosen = choose(planned, fitting, session.cost);
-    if (!chosen) continue;
-    planned[*chosen].used += session.cost;
-    self->used -= session.cost;
-    moves.push_back({session.session, planned[*chosen].server});
-  }
-  return moves;
 }
 
 }  // namespace tandem::directory

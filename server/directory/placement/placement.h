@@ -15,16 +15,7 @@ struct Candidate {
   double capacity = 0;  ///< [cores]
   double used = 0;      ///< [cores]
   bool drains = false;
-};
-
-/// A session of the server that plans moves.
-struct PlacedSession {
-  std::string session;
-  double cost = 0;  ///< measured processor time of its ticks [cores]
-};
-
-struct PlannedMove {
-  std::string session, server;
+  double expected = 0;  ///< processor time when all seats of its sessions are taken [cores]
 };
 
 /// Places sessions by free capacity and the measured cost of their ticks. Pure.
@@ -41,17 +32,12 @@ class Placement {
   /// Returns the standby for a session: not its owner, and in another zone than the owner if any such has room.
   [[nodiscard]] std::optional<std::string> place_standby(std::span<const Candidate> candidates, double cost,
                                                          std::string_view owner);
-  /// Plans moves away from `own`, at most `most`, while its use is more than kMoveAbove times the mean of all servers,
-  /// or while it drains. No move makes the target's use higher than the mean.
-  [[nodiscard]] std::vector<PlannedMove> plan_moves(std::span<const Candidate> candidates, std::string_view own,
-                                                    std::span<const PlacedSession> sessions, std::size_t most);
-
-  /// Use, as a multiple of the mean, above which a server moves sessions away.
-  static constexpr double kMoveAbove = 1.08;
+  /// Of two candidates drawn at random from those in `fitting`, returns the one that is then used less.
+  /// @param fitting  indices of `candidates`  @return its index; nothing: none fits
+  [[nodiscard]] std::optional<std::size_t> less_used_of_two(std::span<const Candidate> candidates,
+                                                            const std::vector<std::size_t>& fitting, double cost);
 
  private:
-  [[nodiscard]] std::optional<std::size_t> choose(std::span<const Candidate> candidates,
-                                                  const std::vector<std::size_t>& fitting, double cost);
   RandomStream draws_;
 };
 

@@ -18,9 +18,10 @@ bool read_number(std::string_view text, double& into) {
 }  // namespace
 
 std::string to_text(const ServerRecord& record) {
-  return format("address %s\nkey %s\nvoucher %s\nversion %s\nzone %s\ncapacity %.4f\nused %.4f\ndrains %d\n",
-                record.address.c_str(), record.key.c_str(), record.voucher.c_str(), record.version.c_str(),
-                record.zone.c_str(), record.capacity, record.used, record.drains ? 1 : 0);
+  return format(
+      "address %s\nkey %s\nvoucher %s\nversion %s\nzone %s\ncapacity %.4f\nused %.4f\ndrains %d\nexpected %.4f\n",
+      record.address.c_str(), record.key.c_str(), record.voucher.c_str(), record.version.c_str(), record.zone.c_str(),
+      record.capacity, record.used, record.drains ? 1 : 0, record.expected);
 }
 
 std::optional<ServerRecord> parse_server_record(std::string_view text) {
@@ -42,10 +43,12 @@ std::optional<ServerRecord> parse_server_record(std::string_view text) {
     if (name == "zone") record.zone = value;
     if (name == "capacity" && !read_number(value, record.capacity)) return std::nullopt;
     if (name == "used" && !read_number(value, record.used)) return std::nullopt;
+    if (name == "expected" && !read_number(value, record.expected)) return std::nullopt;
     if (name == "drains") record.drains = value == "1";
   }
   for (const char* needed : {"address", "key", "version", "capacity", "used"})
     if (!seen.contains(needed)) return std::nullopt;
+  if (!seen.contains("expected")) record.expected = record.used;
   return record;
 }
 

@@ -9,13 +9,14 @@ namespace tandem::directory {
 
 /// Record that a server publishes about itself under its lease: lines "name value".
 struct ServerRecord {
-  std::string address;    ///< "host:port" of its control connection
-  std::string key;        ///< fingerprint of its key
-  std::string version;    ///< of the program
-  std::string zone;       ///< servers that fail together, such as a rack or a building; may be empty
-  double capacity = 0;    ///< processor time that ticks may use, in cores
-  double used = 0;        ///< of it, by the sessions that run
-  bool drains = false;    ///< takes no further sessions
+  std::string address;  ///< "host:port" of its control connection
+  std::string key;      ///< fingerprint of its key
+  std::string version;  ///< of the program
+  std::string zone;     ///< servers that fail together, such as a rack or a building; may be empty
+  double capacity = 0;  ///< processor time that ticks may use, in cores
+  double used = 0;      ///< of it, by the sessions that run
+  bool drains = false;  ///< takes no further sessions
+  double expected = 0;  ///< processor time when all seats of its sessions are taken [cores]; of older versions: `used`
   std::string voucher{};  ///< signed by the service's key, in hexadecimal digits; empty: none
   friend bool operator==(const ServerRecord&, const ServerRecord&) = default;
 };

@@ -11,6 +11,7 @@
 #include "common/base/format.h"
 #include "server/directory/model_store.h"
 #include "server/directory/ownership.h"
+#include "server/directory/placement/move_planner.h"
 #include "server/directory/placement/placement.h"
 #include "server/directory/placement/server_record.h"
 #include "tests/common/base/counts.h"
@@ -42,7 +43,7 @@ class Service {
 
   void crash(std::size_t n) {
     Server& server = *servers_[n];
-    for (const std::size_t s : server.owned) lose(s);
+    for (const auto& [s, since] : server.owned) lose(s);
     server.owned.clear();
     server.core.reset();
     server.directory.reset();
@@ -93,12 +94,13 @@ class Service {
 
  private:
   struct Server {
-    explicit Server(std::uint64_t seed) : placement(RandomKey{seed}) {}
+    explicit Server(std::uint64_t seed) : placement(RandomKey{seed}), planner(RandomKey{seed + 1'000'000}) {}
     std::unique_ptr<Ownership> core;
     std::unique_ptr<ModelDirectory> directory;
     std::deque<Reply> replies;  ///< on their way
     Placement placement;
-    std::set<std::size_t> owned;
+    MovePlanner planner;
+    std::map<std::size_t, Time> owned;  ///< since
     double used = 0, published = 0;
     Time next_publication{}, next_plan{};
   };
@@ -113,7 +115,8 @@ class Service {
 
   static std::string name(std::size_t n) { return format("server-%zu", n); }
   std::string text(std::size_t n) const {
-    return to_text({"10.0.0.1:7000", "key", "1", format("zone-%zu", n % kZones), 1.0, servers_[n]->used, false});
+    return to_text({"10.0.0.1:7000", "key", "1", format("zone-%zu", n % kZones), 1.0, servers_[n]->used, false,
+                    servers_[n]->used});
   }
   std::vector<Candidate> candidates(const Server& server) const {
     std::vector<Candidate> out;
@@ -146,7 +149,7 @@ class Service {
       if (session.began) longest_ = std::max(longest_, now_ - session.unowned_since);
       session.began = true;
       two_owners_ |= ++session.owners > 1;
-      server.owned.insert(s);
+      server.owned[s] = now_;
       server.used += session.cost;
       if (const auto standby = server.placement.place_standby(candidates(server), session.cost, name(n)))
         server.core->set_standby(session.name, *standby);
@@ -176,11 +179,15 @@ class Service {
   void plan(std::size_t n) {
     Server& server = *servers_[n];
     if (now_ < server.next_plan || now_ < Time{} + 25s) return;
-    server.next_plan = now_ + 1s + from_seconds(draws_.uniform(0, 1));
+    server.next_plan = now_ + 500ms;
     std::vector<PlacedSession> own;
-    for (const std::size_t s : server.owned) own.push_back({sessions_[s].name, sessions_[s].cost});
-    for (const PlannedMove& move : server.placement.plan_moves(candidates(server), name(n), own, 2))
-      if (server.core->move(move.session, move.server)) ++moves_;
+    for (const auto& [s, since] : server.owned)
+      own.push_back({sessions_[s].name, sessions_[s].cost, sessions_[s].cost, false, false, since});
+    std::vector<Candidate> servers = candidates(server);
+    for (Candidate& candidate : servers)
+      if (candidate.server == name(n)) candidate.used = candidate.expected = server.used;
+    const auto move = server.planner.step(now_, servers, name(n), own);
+    if (move && server.core->move(move->session, move->server)) ++moves_;
   }
   void ask(std::size_t s) {
     Session& session = sessions_[s];

@@ -77,10 +77,11 @@ class ServiceTest : public testing::Test {
     bool opens = true, runs = true;
   };
   Server& start(const std::string& name, std::map<std::string, ServiceSession> configured = {},
-                const std::string& zone = {}) {
-    servers_.push_back(std::make_unique<Server>(
-        store_,
-        ServiceMemberOptions{.server = name, .key = RandomKey{servers_.size()}, .configured = std::move(configured)}));
+                const std::string& zone = {}, bool balance = true) {
+    servers_.push_back(std::make_unique<Server>(store_, ServiceMemberOptions{.server = name,
+                                                                             .key = RandomKey{servers_.size()},
+                                                                             .configured = std::move(configured),
+                                                                             .balance = balance}));
     servers_.back()->member.describe(
         {.address = name + ":7000", .key = "k", .version = "1", .zone = zone, .capacity = 4});
     pass(1s);
