@@ -23,6 +23,9 @@ class LiveService {
     run({"service", "init", folder_.file("service")});
   }
 
+  /// From the next start of a server on, its sessions move to less used servers by themselves.
+  void let_balance() { balance_ = true; }
+
   /// Makes keys and member file of a server, and starts it.
   Process& start(const std::string& name) {
     if (!std::filesystem::exists(folder_.file(name))) {
@@ -34,10 +37,10 @@ class LiveService {
     if (addresses_[name].empty()) addresses_[name] = free_address();  // clients know it, so a restart has the same
     std::string endpoints;
     for (const std::string& endpoint : etcd_.endpoints()) endpoints += "endpoint: \"" + endpoint + "\" ";
-    const std::string config =
-        folder_.write(name + ".textproto", "version: 1 listen: \"" + addresses_[name] +
-                                               "\" metrics: \"127.0.0.1:0\" state: \"" + name + "\" " + sessions_ +
-                                               " directory { " + endpoints + format("ttl_s: %d }", ttl_s_));
+    const std::string config = folder_.write(
+        name + ".textproto", "version: 1 listen: \"" + addresses_[name] + "\" metrics: \"127.0.0.1:0\" state: \"" +
+                                 name + "\" " + sessions_ + " directory { " + endpoints + format("ttl_s: %d ", ttl_s_) +
+                                 (balance_ ? "}" : "balance: false }"));
     servers_[name] = std::make_unique<Process>(server({"serve", config}));
     EXPECT_TRUE(servers_[name]->wait_for("Ctrl-C ends")) << servers_[name]->err();
     return *servers_[name];
@@ -96,6 +99,7 @@ class LiveService {
 
   std::string sessions_;
   int ttl_s_;
+  bool balance_ = false;
   Folder folder_;
   EtcdCluster etcd_;
   std::map<std::string, std::string> addresses_;

@@ -19,6 +19,9 @@ class DrainSchedule {
     const std::int64_t wanted = due.time_since_epoch().count(), before = due_.load(std::memory_order_relaxed);
     if (before == 0 || wanted < before) due_.store(wanted, std::memory_order_relaxed);
   }
+  /// A drain moves sessions to other servers of the service.
+  void let_sessions_move() noexcept { sessions_move_ = true; }
+  [[nodiscard]] bool sessions_move() const noexcept { return sessions_move_; }
   [[nodiscard]] bool active() const noexcept { return active_; }
   /// Time at which all hands are to be released; nullopt without a request. Thread-safe.
   [[nodiscard]] std::optional<Time> due() const noexcept {
@@ -27,7 +30,7 @@ class DrainSchedule {
   }
 
  private:
-  bool active_ = false;
+  bool active_ = false, sessions_move_ = false;
   std::atomic<std::int64_t> due_{0};  ///< [ns] of the monotonic clock; 0: not requested
 };
 

@@ -204,12 +204,13 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
 
 void SessionCommands::drain(std::uint32_t grace_s, const std::string& who) {
   registry_.drain().schedule(io::monotonic_now() + std::chrono::seconds(grace_s));
-  for (SessionEntry& entry : registry_.entries())
-    entry.notices.add(format("the server DRAINS: all hands are released in %u s; requested by ", grace_s) + who);
+  const bool moves = registry_.drain().sessions_move();
+  const std::string when = format(" are released in %u s; requested by ", grace_s) + who;
+  const std::string release =
+      moves ? "its sessions move to other servers, and hands that are still here" + when : "all hands" + when;
+  for (SessionEntry& entry : registry_.entries()) entry.notices.add("the server DRAINS: " + release);
   const std::string detail = who + format(" in %u s", grace_s);
-  if (on_message_)
-    on_message_(format("DRAINING: new joins are rejected, and all hands are released in %u s; requested by ", grace_s) +
-                who);
+  if (on_message_) on_message_("DRAINING: new joins are rejected, " + std::string(moves ? "" : "and ") + release);
   io::log_event(io::Level::kInfo, {.event = "drain", .text = detail});
   audit_.audit(auth::wall_seconds(), "drain", "", detail);
 }

@@ -39,7 +39,15 @@ std::string SessionTable::open_owned(OwnedSession owned) {
   return {};
 }
 
-void SessionTable::give_up(const std::string& name, const std::string& why) {
+void SessionTable::give_up(const std::string& name) {
+  end_here(name, {"given_up", "", "GIVEN UP: another server may own the session now; its clients join there", true});
+}
+
+void SessionTable::hand_over(const std::string& name, std::string text) {
+  end_here(name, {"moves", "", std::move(text), false});
+}
+
+void SessionTable::end_here(const std::string& name, const PresenceTracker::Event& event) {
   const auto found = std::ranges::find_if(
       sessions_, [&](const auto& s) { return s->options().name == name && s->on_over() != nullptr; });
   if (found == sessions_.end()) return;
@@ -47,7 +55,7 @@ void SessionTable::give_up(const std::string& name, const std::string& why) {
   session.live_session().set_act_until(Time{});
   if (session.end == EndReason::kGivenUp) return;
   session.end = EndReason::kGivenUp;
-  report(session, session.live_session().status(), {"given_up", "", why, true});
+  report(session, session.live_session().status(), event);
   control_.change([&](SessionRegistry& registry, const auto& done) {
     registry.end(session.id(), wire::CloseReason::kServerReturns);
     done();

@@ -62,8 +62,10 @@ class SessionTable {
   /// Opens a session that this server owns in its service, and serves it. @return why it cannot; empty: it is served
   [[nodiscard]] std::string open_owned(OwnedSession owned);
   /// Ends a session of a service that another server may own by now: releases all hands at once and tells the clients
-  /// to join again; its snapshot stays. Nothing happens if this server does not serve it. @param why  for the operator
-  void give_up(const std::string& name, const std::string& why);
+  /// to join again; its snapshot stays. Nothing happens if this server does not serve it.
+  void give_up(const std::string& name);
+  /// The same, because the session moves to another server. @param text  says so to the operator
+  void hand_over(const std::string& name, std::string text);
   /// Use of the processors by each session that is not over.
   [[nodiscard]] std::vector<SessionUse> uses() const;
   /// Reports about recordings, also of sessions that are over, and forgets those that are complete.
@@ -86,6 +88,7 @@ class SessionTable {
   /// Registers a session that was opened at run time, and passes it to its running shard.
   /// @return the session as lists have it; nullopt: the shard does not serve it, and it is gone
   [[nodiscard]] std::optional<rpc::ListedSession> serve_opened(std::unique_ptr<SessionInstance> opened);
+  void end_here(const std::string& name, const PresenceTracker::Event& event);
   /// Why the server cannot record a session, and the remedy; empty: it can.
   [[nodiscard]] std::string no_recording(const SessionInstance& session) const;
   [[nodiscard]] rpc::Body record_session(const rpc::RecordSession& wanted);

@@ -75,6 +75,7 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
   locator_ = std::make_unique<ServiceLocator>(server_, *thread_);
   ticket_uses_ = std::make_unique<ServiceTicketUses>(*thread_, parts_.control);
   publish_load();
+  parts_.control.registry().drain().let_sessions_move();
   parts_.control.set_service_status([this] { return status(); });
   parts_.control.set_locator(*locator_);
   parts_.control.set_ticket_uses(*ticket_uses_);
@@ -117,13 +118,12 @@ void ServiceHost::execute(ServiceEvent event, Time now) {
     case ServiceEvent::Kind::kGiveUp:
       std::erase_if(waiting_, [&](const Waiting& w) { return w.event.session == event.session; });
       snapshots_.remove(event.session);
-      parts_.sessions.give_up(event.session,
-                              "GIVEN UP: another server may own the session now; its clients join there");
+      parts_.sessions.give_up(event.session);
       thread_->with([&](ServiceMember& member, Time) { member.on_given_up(event.session); });
       return;
     case ServiceEvent::Kind::kHandOver:
       handing_over_.insert(event.session);
-      parts_.sessions.give_up(event.session, event.text + "; its clients join there");
+      parts_.sessions.hand_over(event.session, event.text + "; its clients join there");
       return;
     case ServiceEvent::Kind::kRefused:
       reply(event.order, rpc::ErrorReply{rpc::ErrorCode::kNotAllowed, event.text, 0});

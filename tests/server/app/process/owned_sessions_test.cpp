@@ -91,7 +91,7 @@ TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
   snapshot.checkpoint.session_tick = 1234;
   snapshot.checkpoint.begun = true;
   snapshot.written_s = 1;  // by a machine whose clock is wrong by decades
-  m.rig.table->give_up("exam", "GIVEN UP");
+  m.rig.table->give_up("exam");
   m.service_until_over();
   OwnedSession again = m.owned(500);
   again.snapshot = snapshot;
@@ -103,7 +103,7 @@ TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
   EXPECT_FALSE(m.only().end) << "participants have the whole time to come back";
 
   // A snapshot of another scene is not used, and the epoch is the revision nevertheless.
-  m.rig.table->give_up("exam", "GIVEN UP");
+  m.rig.table->give_up("exam");
   m.service_until_over();
   snapshot.checkpoint.scene = {};
   again = m.owned(600);
@@ -117,10 +117,10 @@ TEST(OwnedSessions, KeepTheirSnapshotWhenTheyAreGivenUp) {
   Member m;
   m.rig.start();
   ASSERT_EQ(m.rig.table->open_owned(m.owned(3)), "");
-  m.rig.table->give_up("another", "GIVEN UP");
+  m.rig.table->give_up("another");
   EXPECT_FALSE(m.only().end);
-  m.rig.table->give_up("exam", "GIVEN UP");
-  m.rig.table->give_up("exam", "GIVEN UP");
+  m.rig.table->give_up("exam");
+  m.rig.table->give_up("exam");
   EXPECT_EQ(m.only().end, EndReason::kGivenUp);
   m.service_until_over();
   EXPECT_TRUE(m.rig.table->all().empty());
