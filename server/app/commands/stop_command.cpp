@@ -91,7 +91,8 @@ void add_stop_command(const io::Command& root) {
   command.add_flag("--no-wait", arguments.no_wait,
                    "returns at once; default: shows the progress until the server has ended");
   command.footer(
-      "Sessions of `serve` are kept: started again within 10 min, it resumes them. Ctrl-C ends this command; the "
+      "Sessions of `serve` are kept: started again within 10 min, it resumes them. A server of a service moves its "
+      "sessions to other servers during the grace, and ends when it has none left. Ctrl-C ends this command; the "
       "server still ends.\n"
       "To stop without a grace period: `kill -TERM PID`, Ctrl-C where it runs, or, as a service, `systemctl stop "
       "tandem-server`. From another\n"

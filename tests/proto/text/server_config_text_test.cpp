@@ -122,12 +122,13 @@ TEST(ServerConfig, ReadsTheDirectoryOfAService) {
   ASSERT_TRUE(small) << to_text(small.error());
   EXPECT_EQ(small->directory->prefix, "/tandem/v1/");
   EXPECT_EQ(small->directory->ttl_s, 3u);
+  EXPECT_TRUE(small->directory->balance);
   EXPECT_EQ(small->directory->server.text, "");
   const auto all = parse_server_config(
       std::string(kSmall) +
           "directory { endpoint: \"a:2379\" endpoint: \"b:65535\" prefix: \"/school/\" authority: \"ca.pem\"\n"
           "certificate: \"c.pem\" private_key: \"k.pem\" name_in_certificate: \"etcd\" server: \"desk-a.lab\"\n"
-          "address: \"10.0.0.7:7000\" zone: \"north\" ttl_s: 60 }",
+          "address: \"10.0.0.7:7000\" zone: \"north\" ttl_s: 60 balance: false }",
       "s.textproto");
   ASSERT_TRUE(all) << to_text(all.error());
   const DirectorySpec& got = *all->directory;
@@ -141,6 +142,7 @@ TEST(ServerConfig, ReadsTheDirectoryOfAService) {
   EXPECT_EQ(got.address.line, 6);
   EXPECT_EQ(got.zone, "north");
   EXPECT_EQ(got.ttl_s, 60u);
+  EXPECT_FALSE(got.balance);
   const std::string listing = effective_server_config_text(*all);
   for (const char* shown : {"directory.endpoint[1]", "b:65535", "directory.zone", "directory.ttl_s", "/school/"})
     EXPECT_NE(listing.find(shown), std::string::npos) << shown << " is not in\n" << listing;
