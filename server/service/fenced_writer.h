@@ -40,6 +40,8 @@ class FencedWriter {
   /// Returns the request to begin now, if there is one. The caller begins it with this operation's number.
   [[nodiscard]] std::optional<directory::Request> poll_request(Time now, directory::OperationId operation,
                                                                Duration retry_after);
+  /// Values wait for their write.
+  [[nodiscard]] bool waits() const noexcept { return !waiting_.empty(); }
   /// Takes a reply. Returns whether it belongs to this object.
   bool on_reply(const directory::Reply& reply);
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }

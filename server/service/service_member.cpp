@@ -93,6 +93,11 @@ void ServiceMember::step(Time now) {
   take_notices(now);
 }
 
+bool ServiceMember::calm() const noexcept {
+  const auto is_open = [](const auto& entry) { return entry.second.phase == Phase::kOpen; };
+  return !leaving_ && !writer_.waits() && std::ranges::all_of(entries_, is_open);
+}
+
 void ServiceMember::take_notices(Time now) {
   while (const auto notice = ownership_.poll_notice()) {
     switch (notice->kind) {

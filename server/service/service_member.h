@@ -104,8 +104,10 @@ class ServiceMember {
   /// @pre `options.times.problem()` is empty, and all names are valid
   ServiceMember(ServiceMemberOptions options, directory::Directory& store);
 
-  /// Takes replies, begins operations. Call it at least each 20 ms.
+  /// Takes replies, begins operations. Call it at least each 50 ms, and each 20 ms unless `calm`.
   void step(Time now);
+  /// No session begins, moves or ends, and no value waits for its write.
+  [[nodiscard]] bool calm() const noexcept;
   [[nodiscard]] std::optional<ServiceEvent> poll_event();
   [[nodiscard]] bool has_event() const noexcept { return !events_.empty(); }
 
