@@ -54,7 +54,7 @@ struct SessionLoad {
   std::string session;
   double cost = 0;       ///< measured processor time [cores]
   double expected = 0;   ///< when all its seats are taken [cores]
-  bool waiting = false;  ///< no seat is taken
+  bool waiting = false;  ///< no seat is taken, and no console is joined
 };
 
 /// Where a session is.

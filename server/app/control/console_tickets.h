@@ -14,6 +14,7 @@ namespace tandem::server {
 /// identifies a console, because consoles have no seat and no datagrams.
 class ConsoleTickets {
  public:
+  [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }
   void add(const Secret<32>& console, const auth::Id16& ticket) { rows_.emplace_back(console, ticket); }
   [[nodiscard]] bool contains(const Secret<32>& console) const noexcept {
     return std::ranges::find(rows_, console, &Row::first) != rows_.end();

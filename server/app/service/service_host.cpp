@@ -104,8 +104,8 @@ void ServiceHost::step(Time now) {
   report(thread_->quietly([this](const ServiceMember& member, Time t) { return news_.update(t, member.status(t)); }));
   if (published_ && now - *published_ < kPublishInterval) return;
   published_ = now;
-  publish_load();
   publish_lists();
+  publish_load();
   locator_->remember_members();
 }
 
@@ -261,7 +261,8 @@ void ServiceHost::publish_load() {
   double expected = 0;
   for (SessionUse& use : parts_.sessions.uses()) {
     expected += use.expected;
-    loads.push_back({std::move(use.name), use.measured, use.expected, use.waiting});
+    const bool waiting = use.waiting && !watched_.contains(use.name);
+    loads.push_back({std::move(use.name), use.measured, use.expected, waiting});
   }
   record_.expected = kExpectedStep * std::round(expected / kExpectedStep);
   record_.capacity = parts_.options.control.load_limits.core * io::available_processors();
@@ -274,9 +275,13 @@ void ServiceHost::publish_load() {
 
 void ServiceHost::publish_lists() {
   std::vector<std::pair<std::string, std::string>> lists;
+  watched_.clear();
   parts_.control.change([&](const SessionRegistry& registry, const auto& done) {
-    for (const SessionEntry& entry : registry.entries())
-      if (entry.open()) lists.emplace_back(entry.registration.name, listed_text(SessionRegistry::listed(entry)));
+    for (const SessionEntry& entry : registry.entries()) {
+      if (!entry.open()) continue;
+      lists.emplace_back(entry.registration.name, listed_text(SessionRegistry::listed(entry)));
+      if (!entry.consoles.empty()) watched_.insert(entry.registration.name);
+    }
     done();
   });
   thread_->quietly([&](ServiceMember& member, Time) {

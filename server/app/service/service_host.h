@@ -90,6 +90,7 @@ class ServiceHost {
   std::uint64_t newest_order_ = 0;
   std::set<std::string> handing_over_;         ///< sessions that move to another server
   std::map<std::string, std::string> listed_;  ///< as last published
+  std::set<std::string> watched_;              ///< sessions with consoles
   std::optional<Time> published_;
   bool leaving_ = false;
 };

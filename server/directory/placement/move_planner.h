@@ -19,7 +19,7 @@ struct PlacedSession {
   std::string session;
   double cost = 0;       ///< measured processor time [cores]
   double expected = 0;   ///< processor time when all its seats are taken [cores]
-  bool waiting = false;  ///< no seat is taken: no hand feels a move
+  bool waiting = false;  ///< no seat is taken, and no console is joined: no person notices a move
   bool pinned = false;   ///< an operator moved it here: it leaves only a server that drains
   Time opened{};         ///< at this server
 };
