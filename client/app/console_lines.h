@@ -44,6 +44,11 @@ class ConsoleLines {
     }
   }
 
+  /// Watches another connection from now on.
+  void set_server(int server) {
+    server_ = server;
+    server_gone_ = false;
+  }
   /// True if `next` returned because of kIdleMs without input.
   [[nodiscard]] bool idle() const { return idle_; }
   /// True if the server closed the connection while no request was pending.

@@ -270,8 +270,7 @@ std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, c
 }
 
 std::string moved_text(const rpc::Elsewhere& to) {
-  return "session " + to.session + " is at the server " + to.address + " of this service; join it there (--session " +
-         to.session + "), with a new ticket if this connection had one";
+  return "session " + to.session + " has moved to the server " + to.address + " of this service";
 }
 
 std::expected<rpc::SessionList, JoinError> list_sessions(const JoinOptions& options) {

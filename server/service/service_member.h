@@ -131,8 +131,8 @@ class ServiceMember {
   void replace(const std::string& session, ServiceSession spec);
   void set_snapshot(const std::string& session, std::string bytes);
   void set_listed(const std::string& session, std::string text);
-  /// Whether all snapshots that were set are in the directory, or will never be.
-  [[nodiscard]] bool snapshots_written() const;
+  /// Whether all snapshots that were set, and all restored tickets, are in the directory, or will never be.
+  [[nodiscard]] bool all_written() const;
   /// Ends the lease and with it all ownerships, so that other servers begin at once. No session may have effort.
   /// The member does nothing afterwards but this.
   void leave();

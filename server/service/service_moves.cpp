@@ -85,7 +85,7 @@ void ServiceMember::advance_move(const std::string& session, Entry& entry) {
     --entry.steps_until_move;
     return;
   }
-  if (writer_.pending(session)) return;  // the last snapshot
+  if (writer_.pending(session) || tickets_.restoring(session)) return;  // the last snapshot; tickets of consoles
   entry.steps_until_move = -1;
   if (!ownership_.move(session, entry.target)) entry.phase = Phase::kLoading;
 }

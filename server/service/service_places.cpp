@@ -100,8 +100,9 @@ void ServiceMember::set_listed(const std::string& session, std::string text) {
   writer_.set(session, keys_.listed(session), std::move(text), found->second.revision);
 }
 
-bool ServiceMember::snapshots_written() const {
-  return std::ranges::none_of(entries_, [&](const auto& entry) { return writer_.pending(entry.first); });
+bool ServiceMember::all_written() const {
+  return !tickets_.restoring() &&
+         std::ranges::none_of(entries_, [&](const auto& entry) { return writer_.pending(entry.first); });
 }
 
 ServiceStatus ServiceMember::status(Time now) const {

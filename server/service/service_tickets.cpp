@@ -25,6 +25,10 @@ void ServiceTickets::restore(const std::string& session, const std::string& tick
   restores_.push_back({session, ticket, revision});
 }
 
+bool ServiceTickets::restoring(std::string_view session) const noexcept {
+  return std::ranges::find(restores_, session, &Restore::session) != restores_.end();
+}
+
 void ServiceTickets::on_notice(const Notice& notice) {
   const bool accepted = notice.kind == Notice::Kind::kTicketAccepted;
   if (!accepted && notice.kind != Notice::Kind::kTicketRefused) return;

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "server/directory/ownership.h"
 
@@ -40,6 +41,9 @@ class ServiceTickets {
   void use(Time now, const std::string& session, const std::string& ticket, Duration life, std::uint64_t order);
   /// Makes a ticket valid again whose use this server was granted; any other stays as it is.
   void restore(const std::string& session, const std::string& ticket);
+  /// Whether a ticket of the session is not yet valid again in the directory.
+  [[nodiscard]] bool restoring(std::string_view session) const noexcept;
+  [[nodiscard]] bool restoring() const noexcept { return !restores_.empty(); }
   /// Takes a notice about a ticket.
   void on_notice(const directory::Notice& notice);
 

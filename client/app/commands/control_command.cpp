@@ -26,6 +26,7 @@
 namespace tandem::client {
 namespace {
 
+constexpr Duration kFollow = std::chrono::seconds(15);  // of a session that a service moves
 constexpr int kPollIntervalMs = ConsoleLines::kIdleMs;  // between two polls of the session status
 
 struct ControlArguments {
@@ -62,6 +63,28 @@ class ConsoleClient {
     if (news.empty()) return PollResult::kNothing;
     say((isatty(STDIN_FILENO) == 1 ? "\n" : "") + news);  // on its own line, not after the prompt
     return PollResult::kChanged;
+  }
+
+  /// Joins again at the server of the service that has the session now. The former one makes tickets of consoles valid
+  /// again when it hands a session over. @return false: not within kFollow, or a signal ended it
+  bool follow() {
+    if (!console_.service) return false;
+    const Time until = io::monotonic_now() + kFollow;
+    while (true) {
+      auto again = join_console(asked_);
+      if (again) {
+        console_ = std::move(*again);
+        seen_.reset();
+        say("this console has followed session " + welcome().session_name + " to its new server");
+        return true;
+      }
+      pollfd signal{asked_.signals, POLLIN, 0};
+      if (again.error().interrupted || poll(&signal, 1, kPollIntervalMs / 2) > 0) return false;
+      if (io::monotonic_now() >= until) {
+        complain(again.error().reason);
+        return false;
+      }
+    }
   }
 
   /// Shows the progress of a drain until the server has ended or a signal arrives. @return exit code
@@ -279,7 +302,11 @@ int converse(ConsoleClient& attendant, int signals) {
     }
     waiting = false;
     if (lines.server_gone() || (!line && lines.idle())) {
-      if (!attendant.drained()) return tell_gone(person, worst);
+      if (!attendant.drained()) {
+        if (!attendant.follow()) return tell_gone(person, worst);
+        lines.set_server(attendant.connection());
+        continue;
+      }
       std::printf("%sthe server has ended: the drain is complete\n", person ? "\n" : "");
       return worst;
     }

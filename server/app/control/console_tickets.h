@@ -19,6 +19,12 @@ class ConsoleTickets {
   [[nodiscard]] bool contains(const Secret<32>& console) const noexcept {
     return std::ranges::find(rows_, console, &Row::first) != rows_.end();
   }
+  /// Removes all consoles. @return their tickets
+  std::vector<auth::Id16> take_all() {
+    std::vector<auth::Id16> tickets;
+    for (const Row& row : std::exchange(rows_, {})) tickets.push_back(row.second);
+    return tickets;
+  }
   /// Removes a console. @return its ticket; nullopt if there is no such console
   std::optional<auth::Id16> take(const Secret<32>& console) {
     const auto row = std::ranges::find(rows_, console, &Row::first);

@@ -115,6 +115,14 @@ std::string ControlServer::notes_folder() const {
   return notes_.empty() && trust_.on_disk() ? trust_.folder()->path() : notes_;
 }
 
+void ControlServer::release_consoles(const std::string& session) {
+  change([&](SessionRegistry& registry, const auto& done) {
+    for (SessionEntry& entry : registry.entries())
+      if (entry.registration.name == session) joins_.release_consoles(entry);
+    done();
+  });
+}
+
 void ControlServer::change(const std::function<void(SessionRegistry&, std::function<void()> done)>& change) {
   std::promise<void> done;
   asio::post(thread_.context(), [&] { change(registry_, [&] { done.set_value(); }); });

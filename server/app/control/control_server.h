@@ -72,6 +72,8 @@ class ControlServer {
   /// Sets where tickets are used once in the whole service. Call it before `start`. @param uses  must outlive this
   /// object
   void set_ticket_uses(TicketUses& uses) { joins_.set_ticket_uses(&uses); }
+  /// Makes the tickets of this session's consoles valid again. Waits for the control thread.
+  void release_consoles(const std::string& session);
   /// Membership in a service; null: the server belongs to none.
   [[nodiscard]] const auth::ServiceMembership* membership() const noexcept { return trust_.membership(); }
 

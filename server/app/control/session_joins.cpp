@@ -215,6 +215,10 @@ void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const
                auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem) + by_person(person));
 }
 
+void SessionJoins::release_consoles(SessionEntry& entry) {
+  for (const auth::Id16& ticket : entry.consoles.take_all()) restore_ticket(ticket, entry, "");
+}
+
 // ---- Consoles and link tests ----
 
 void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,

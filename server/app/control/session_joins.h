@@ -28,6 +28,9 @@ class SessionJoins final : public JoinHandler {
   void set_locator(SessionLocator* locator, std::string name) { redirect_.set_locator(locator, std::move(name)); }
   /// @param uses  of tickets in the service; must outlive this object; null: tickets are used at this server alone
   void set_ticket_uses(TicketUses* uses) { ticket_uses_ = uses; }
+  /// Makes the tickets of a session's consoles valid again, because another server is about to serve the session. The
+  /// consoles lose their connections here.
+  void release_consoles(SessionEntry& entry);
   void admit(const JoinRequest& request, std::function<void(JoinReply)> answer) override;
   void on_joined(const JoinRequest& request, const rpc::Welcome& welcome,
                  const Secret<auth::kExportSize>& secrets) override;

@@ -206,6 +206,7 @@ class ServerProcess {
       registry.drain().begin();
       done();
     });
+    if (service_) service_->release_consoles();
     sessions_->drain();
     shards_.stop(sessions_->will_resume() && options_.control.listen.port() != 0 ? wire::CloseReason::kServerReturns
                                                                                  : wire::CloseReason::kServerStops);

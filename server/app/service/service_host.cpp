@@ -123,6 +123,7 @@ void ServiceHost::execute(ServiceEvent event, Time now) {
       return;
     case ServiceEvent::Kind::kHandOver:
       handing_over_.insert(event.session);
+      parts_.control.release_consoles(event.session);
       parts_.sessions.hand_over(event.session, event.text + "; its clients join there");
       return;
     case ServiceEvent::Kind::kRefused:
@@ -294,6 +295,10 @@ void ServiceHost::report(const std::vector<ServiceNews::Line>& lines) {
   for (const ServiceNews::Line& line : lines)
     parts_.output.report(line.warning ? io::Level::kWarn : io::Level::kInfo, {.event = line.event, .text = line.text},
                          line.text);
+}
+
+void ServiceHost::release_consoles() {
+  for (const auto& session : parts_.sessions.all()) parts_.control.release_consoles(session->options().name);
 }
 
 bool ServiceHost::left_by_all() const {

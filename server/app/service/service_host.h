@@ -46,6 +46,8 @@ class ServiceHost {
   [[nodiscard]] bool take(SessionOrder& order);
   /// The server drains, and has no session any more.
   [[nodiscard]] bool left_by_all() const;
+  /// Lets consoles join the next owners by the tickets that they have. For the begin of the server's end.
+  void release_consoles();
   /// Hands all sessions over, after the last one is over and before the process ends.
   void leave();
   /// For the control plane's thread.

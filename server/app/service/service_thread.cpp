@@ -86,7 +86,7 @@ bool ServiceThread::leave(Duration limit) {
   // The thread has taken all mailboxes after one whole round.
   wake();
   std::this_thread::sleep_for(2 * kPause);
-  static_cast<void>(wait_for(limit, [](const ServiceMember& member) { return member.snapshots_written(); }));
+  static_cast<void>(wait_for(limit, [](const ServiceMember& member) { return member.all_written(); }));
   with([](ServiceMember& member, Time) { member.leave(); });
   return wait_for(limit, [](const ServiceMember& member) { return member.left(); });
 }

@@ -106,7 +106,9 @@ void LivePage::on_news() {
 }
 
 void LivePage::send_notices(const LivePicture& own, const LivePicture& view) {
-  if (own.connected != connected_) {
+  const bool gives_up = !own.connected && again_ && !own.again;
+  again_ = own.again;
+  if (own.connected != connected_ || gives_up) {
     connected_ = own.connected;
     const std::string lost = "the connection to the server was lost (" + own.warning + "); ";
     if (connected_) {

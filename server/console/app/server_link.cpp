@@ -127,6 +127,7 @@ void ServerLink::update(Change change) {
 
 void ServerLink::adopt(JoinedLink joined) {
   feed_.reset();
+  follows_until_.reset();
   console_ = std::move(joined.console);
   std::shared_ptr<const SceneSpec> scene;
   if (joined.feed) scene = std::make_shared<const SceneSpec>(joined.feed->scene());
@@ -161,11 +162,20 @@ void ServerLink::adopt(JoinedLink joined) {
 void ServerLink::lose(const std::string& why) {
   feed_.reset();
   console_.connection.reset();
+  if (!options_.again && console_.service) follows_until_ = Clock::now() + kFollow;
   update([&](LivePicture& picture) {
     picture.connected = false;
+    picture.again = joins_again();
     picture.live = nullptr;
     picture.warning = why;
   });
+}
+
+bool ServerLink::joins_again() const { return options_.again || (follows_until_ && Clock::now() < *follows_until_); }
+
+void ServerLink::stop_following() {
+  if (!std::exchange(follows_until_, std::nullopt)) return;
+  update([](LivePicture& picture) { picture.again = false; });
 }
 
 bool ServerLink::join() {
@@ -305,7 +315,8 @@ void ServerLink::work() {
     hold.unlock();
     if (!console_.connection) {
       const bool first = options_.joined != nullptr;
-      if (!first && !options_.again) {  // a ticket is valid once
+      if (!first && !joins_again()) {  // a ticket is valid once
+        stop_following();
         hold.lock();
         wake_.wait(hold, [this] { return over_ || !orders_.empty(); });
         continue;

@@ -37,11 +37,14 @@ struct JoinedLink {
 class ServerLink final : public LiveSource {
  public:
   static constexpr std::size_t kOrdersMax = 16;
+  static constexpr std::chrono::seconds kFollow{15};
 
   struct Options {
-    client::JoinOptions join;         ///< `signals` is not used
-    bool watch = true;                ///< with datagrams
-    bool again = false;               ///< joins again when the connection is lost; a ticket is valid once
+    client::JoinOptions join;  ///< `signals` is not used
+    bool watch = true;         ///< with datagrams
+    /// Joins again whenever the connection is lost. Without it a link follows a session that its service has moved to
+    /// another server, for kFollow: the old server makes the tickets of consoles valid again.
+    bool again = false;
     bool list = false;                ///< also reads the list of the server's sessions
     std::function<void()> news = {};  ///< called by any thread after a new picture
     /// Called once by the link's thread after its first join, if the link joins by itself. Text: why it failed.
@@ -71,6 +74,8 @@ class ServerLink final : public LiveSource {
   void adopt(JoinedLink joined);
   void lose(const std::string& why);
   [[nodiscard]] bool join();
+  [[nodiscard]] bool joins_again() const;
+  void stop_following();
   [[nodiscard]] bool ask_status();
   void ask_sessions();
   void ask_scenes();
@@ -94,6 +99,7 @@ class ServerLink final : public LiveSource {
   client::Console console_;
   std::unique_ptr<FeedThread> feed_;
   std::optional<JoinedLink> first_;
+  std::optional<std::chrono::steady_clock::time_point> follows_until_;  ///< after a loss in a service
   std::uint32_t notes_after_ = 0, notes_known_ = 0;  ///< last note read; newest note of the server when all were read
   bool notes_again_ = false;                         ///< all notes must be read again
   bool scenes_stale_ = true;

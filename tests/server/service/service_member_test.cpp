@@ -200,7 +200,7 @@ TEST_F(ServiceTest, LeavesAtOnceSoThatTheStandbyTakesOverWithoutWaitingForTheLea
   pass(3s);
   a.open.clear();
   a.member.set_snapshot("lab", "last");
-  while (!a.member.snapshots_written()) pass(20ms);
+  while (!a.member.all_written()) pass(20ms);
   a.member.leave();
   pass(200ms);
   EXPECT_TRUE(a.member.left());
