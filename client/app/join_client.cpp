@@ -31,6 +31,12 @@ bool wait_for_owner(const JoinOptions& options) {
   return ::poll(&signals, 1, kOwnerRetryMs) <= 0;
 }
 
+/// The control connection of a console that was accepted.
+Console console_of(ServerConnection& server, const Accepted& accepted) {
+  const bool service = server.service().has_value();
+  return {accepted.welcome, server.release(), server.workstation(), service};
+}
+
 /// Connects, sends the join request and returns it with the server's Welcome. Follows the servers of a service to the
 /// owner of the session, and waits for it up to the timeout.
 std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
@@ -164,8 +170,7 @@ std::expected<Console, JoinError> join_console(const JoinOptions& options) {
   ServerConnection server{options};
   auto accepted = request_join(server);
   if (!accepted) return std::unexpected(accepted.error());
-  const bool service = server.service().has_value();
-  return Console{accepted->welcome, server.release(), server.workstation(), service};
+  return console_of(server, *accepted);
 }
 
 std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options) {
@@ -178,8 +183,8 @@ std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options)
                         (scene.error().empty() ? std::string() : scene.error().front().message));
   const auto link = channel_params(server, accepted->welcome, accepted->hello, scene->tick_hz);
   if (!link) return std::unexpected(link.error());
-  return JoinedWatcher{
-      std::move(*scene), *link, server.address(), {accepted->welcome, server.release(), server.workstation()}};
+  const io::SocketAddress udp = server.address();
+  return JoinedWatcher{std::move(*scene), *link, udp, console_of(server, *accepted)};
 }
 
 namespace {

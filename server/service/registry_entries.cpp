@@ -72,6 +72,25 @@ auth::RegistryLists lists_of(const RegistryEntries& entries) {
   return lists;
 }
 
+std::string merged_entry(const std::string& before, const std::string& local, const std::string& stored) {
+  const auto was = parse_entry(before), here = parse_entry(local), there = parse_entry(stored);
+  if (local.empty() || stored.empty() || !here || !there) return local.empty() ? local : stored;
+  // A workstation that one of them has revoked stays revoked. A code that one of them has used or replaced counts no
+  // more, but another one that was issued since does.
+  std::optional<WorkstationRow> workstation = there->workstation;
+  std::optional<CodeRow> code = there->code;
+  const bool knew_key = was && was->workstation, knew_code = was && was->code;
+  if (!workstation && !knew_key) workstation = here->workstation;
+  if (!here->workstation && knew_key) workstation.reset();
+  if (!code && here->code && !(knew_code && was->code == here->code)) code = here->code;
+  if (!here->code && knew_code && code == was->code) code.reset();
+  auth::RegistryLists lists;
+  if (workstation) lists.workstations.push_back(*workstation);
+  if (code) lists.codes.push_back(*code);
+  const RegistryEntries entries = entries_of(lists);
+  return entries.empty() ? std::string{} : entries.begin()->second;
+}
+
 bool readable_entry(std::string_view text) { return parse_entry(text).has_value(); }
 
 }  // namespace tandem::server

@@ -18,6 +18,10 @@ inline constexpr std::size_t kRegistryEntryMax = 1024;  ///< [bytes] of a text t
 [[nodiscard]] RegistryEntries entries_of(const auth::RegistryLists& lists);
 /// Texts that cannot be read have no rows.
 [[nodiscard]] auth::RegistryLists lists_of(const RegistryEntries& entries);
+/// Text of a name that the files and the directory have both changed since `before`. A revocation wins, and nothing
+/// that only one of them has added is lost: a key that one server enrols while another issues a code. Else the
+/// directory wins. Empty texts: no row.
+[[nodiscard]] std::string merged_entry(const std::string& before, const std::string& local, const std::string& stored);
 /// Whether another server's text can be read, whatever its bytes are.
 [[nodiscard]] bool readable_entry(std::string_view text);
 

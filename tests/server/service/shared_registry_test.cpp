@@ -121,6 +121,44 @@ TEST(SharedRegistry, GivesOneKeyToACodeThatTwoServersAcceptedAtOnce) {
   EXPECT_NE(desks[0].key_of("a"), 0);
 }
 
+TEST(SharedRegistry, KeepsAKeyThatOneServerEnrolsWhileAnotherIssuesACode) {
+  Desks desks(2);
+  desks.pass(1s);
+  desks[0].enroll("a", 1);
+  desks[1].issue("a", 7);
+  for (int n = 0; n < 100; ++n) {
+    desks.pass(10ms);
+    ASSERT_EQ(desks[0].key_of("a"), 1) << "its seats would be removed";
+  }
+  EXPECT_EQ(desks[1].key_of("a"), 1);
+  for (const auto& desk : desks.desk) EXPECT_EQ(desk->lists.codes, (std::vector<CodeRow>{code("a", 7)}));
+}
+
+TEST(RegistryEntries, OfTwoChangesLoseNothingThatWasAdded) {
+  const auto text = [](int key, int hash) {
+    auth::RegistryLists lists;
+    if (key != 0) lists.workstations.push_back(workstation("a", key));
+    if (hash != 0) lists.codes.push_back(code("a", hash));
+    const RegistryEntries entries = entries_of(lists);
+    return entries.empty() ? std::string{} : entries.at("a");
+  };
+  struct Case {
+    std::string before, local, stored, merged;
+  };
+  for (const Case& c : {
+           Case{"", text(1, 0), text(0, 7), text(1, 7)},          // enrolled here, a code there
+           Case{"", text(0, 7), text(1, 0), text(1, 7)},          // the other way round
+           Case{text(0, 7), text(1, 0), text(2, 0), text(2, 0)},  // one code, used twice: the directory
+           Case{text(0, 7), text(1, 0), text(0, 8), text(1, 8)},  // used here, replaced there
+           Case{text(1, 0), "", text(1, 7), ""},                  // revoked here
+           Case{text(1, 0), text(1, 7), "", ""},                  // revoked there
+           Case{text(1, 0), text(0, 7), text(1, 8), text(0, 8)},  // revoked here, with codes of both since
+           Case{text(1, 7), text(1, 0), text(2, 7), text(2, 0)},  // another key there, the code used here
+           Case{"", text(1, 0), text(2, 0), text(2, 0)},          // two keys for one name: the directory
+       })
+    EXPECT_EQ(merged_entry(c.before, c.local, c.stored), c.merged) << c.before << " " << c.local << " " << c.stored;
+}
+
 // The files take what the directory has, and change before they are looked at again.
 TEST(SharedRegistry, SendsAnEnrolmentWithACodeThatHasJustArrived) {
   Desks desks(1);

@@ -1,0 +1,42 @@
+// Persons who have signed in follow their session to another server of its service. Real programs on loopback.
+#include <gtest/gtest.h>
+
+#include "tests/common/base/counts.h"
+#include "tests/io/service_fixture.h"
+#include "tests/io/web_fixture.h"
+
+namespace tandem::test {
+namespace {
+
+TEST(GatewayService, PersonsFollowTheirSessionWithTheTicketThatTheyHave) {
+  if (etcd_program("etcd").empty() || etcd_program("etcdctl").empty()) GTEST_SKIP() << kNoEtcd;
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const WebGateway gateway(address_of(a), {"--sign-in", "--state", service.enrolled("desk")});
+  const std::string ticket =
+      first_line(LiveService::run({"ticket", "--session", "lab", "--role", "operator", "--person", "ann",
+                                   "--workstation", "desk", "--state", service.folder().file("a")}));
+  const HttpReply reply =
+      http_post(gateway.at, "/join", "application/json", Json{{"ticket", ticket}}.dump(), gateway.at.origin());
+  ASSERT_EQ(reply.status, 200U) << reply.body;
+  WebPage ann(gateway.at, cookie_of(reply));
+  EXPECT_EQ(ann.next("hello")["person"], "ann");
+  LiveService::run({"move", "lab", "--to", "b", "--config", service.folder().file("a.textproto")});
+  const Json lost = ann.until([](const Json& m) { return m["type"] == "notice" && m["level"] == "error"; });
+  EXPECT_NE(lost["text"].get<std::string>().find("trying again"), std::string::npos) << lost;
+  const Json back = ann.until([](const Json& m) { return m["type"] == "notice" && m["server"] == "back"; });
+  EXPECT_FALSE(back.is_null());
+  EXPECT_EQ(ann.order({{"order", "stop"}, {"why", "fire drill"}})["ok"], true);
+  if (tandem::test::draws(0, 1, 1) == 0) return;  // the rest waits for 15 s
+  // After the end of all servers only another ticket helps.
+  a.signal(SIGKILL);
+  b.signal(SIGKILL);
+  const Json gone = ann.until([](const Json& m) { return m["type"] == "notice" && m["server"] == "gone"; });
+  EXPECT_NE(gone["text"].get<std::string>().find("sign in again"), std::string::npos) << gone;
+}
+
+}  // namespace
+}  // namespace tandem::test
