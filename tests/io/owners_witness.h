@@ -10,19 +10,22 @@
 #include <vector>
 
 #include "tests/io/metrics_page.h"
+#include "tests/io/pressing_hands.h"
 
 namespace tandem::test {
 
-/// Watches which servers of a service run sessions, and their seats, through the metrics of each some 40 times a
-/// second. A server engages hands only in a session that runs.
+/// Watches which servers of a service engage hands, through the metrics of each some 40 times a second. A hand is
+/// engaged as its client reported last.
 class OwnersWitness {
  public:
-  /// What a server showed about its sessions between two moments.
+  /// What a server showed about its seats between two moments.
   struct Seen {
     std::chrono::steady_clock::time_point asked, answered;
     bool answers = false;
-    bool runs = false;       ///< at least one session runs
-    std::size_t active = 0;  ///< seats whose gate is wholly active, in a server whose sessions run
+    bool held = false;        ///< its sessions are HELD: what is older than that is no engagement
+    std::size_t engaged = 0;  ///< taken seats whose gate is active or ramps in
+    std::size_t active = 0;   ///< those whose gate is wholly active
+    [[nodiscard]] bool acts() const { return engaged > 0 && !held; }
   };
 
   OwnersWitness() = default;
@@ -55,25 +58,25 @@ class OwnersWitness {
     const auto found = seen_.find(server);
     return found == seen_.end() || found->second.empty() ? Seen{} : found->second.back();
   }
-  /// Name of the server that runs sessions now; empty: none.
+  /// Name of the server that engages hands now; empty: none.
   [[nodiscard]] std::string owner() const {
     const std::lock_guard lock(lock_);
     for (const auto& [server, all] : seen_)
-      if (!all.empty() && all.back().runs) return server;
+      if (!all.empty() && all.back().acts()) return server;
     return "";
   }
-  /// Number of times at which a server ran a session while another one did, as far as the pace of the samples shows.
+  /// Number of times at which a server engaged hands while another one did, as far as the pace of the samples shows.
   [[nodiscard]] std::size_t overlaps() const {
     const std::lock_guard lock(lock_);
     std::size_t count = 0;
     for (const auto& [server, own] : seen_)
       for (std::size_t i = 1; i < own.size(); ++i) {
         const Seen &before = own[i - 1], &after = own[i];
-        if (!before.runs || !after.runs || after.answered - before.asked > kContinuous) continue;
+        if (!before.acts() || !after.acts() || after.answered - before.asked > kContinuous) continue;
         for (const auto& [other, theirs] : seen_)
           if (other != server)
             for (const Seen& their : theirs)
-              if (their.runs && their.asked > before.answered && their.answered < after.asked) ++count;
+              if (their.acts() && their.asked > before.answered && their.answered < after.asked) ++count;
       }
     return count;
   }
@@ -86,13 +89,15 @@ class OwnersWitness {
     const std::string text = page(metrics);
     seen.answered = std::chrono::steady_clock::now();
     seen.answers = !text.empty();
-    const std::string running = "tandem_sessions{phase=\"running\"} ";
-    const auto at = text.find(running);
-    seen.runs = at != std::string::npos && text[at + running.size()] != '0';
-    if (seen.runs)
-      for (auto gate = text.find("\ntandem_gate_state{"); gate != std::string::npos;
-           gate = text.find("\ntandem_gate_state{", gate + 1))
-        if (text.compare(text.find("} ", gate), 4, "} 3\n") == 0) ++seen.active;
+    seen.held = text.find("\ntandem_service_held 1\n") != std::string::npos;
+    const std::string name = "\ntandem_gate_state";
+    for (auto at = text.find(name + "{"); at != std::string::npos; at = text.find(name + "{", at + 1)) {
+      const std::string labels = text.substr(at + name.size(), text.find('}', at) - at - name.size());
+      if (text.find("\ntandem_seat_taken" + labels + "} 1\n") == std::string::npos) continue;
+      const auto gate = static_cast<Gate>(text[text.find("} ", at) + 2] - '0');
+      seen.engaged += gate == kRampIn || gate == kActive ? 1 : 0;
+      seen.active += gate == kActive ? 1 : 0;
+    }
     return seen;
   }
 

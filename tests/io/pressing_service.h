@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,6 +34,7 @@ class PressingService {
       EXPECT_TRUE(server.wait_for("is a member of the service")) << server.err();
       if (name == names.front()) service_.wait_for_sessions(name, 1);
       witness_.watch(name, service_.metrics(name));
+      names_.push_back(name);
     }
     if (names.size() > 1) std::this_thread::sleep_for(std::chrono::milliseconds(2500));
   }
@@ -58,15 +60,12 @@ class PressingService {
   }
   [[nodiscard]] Process& hand(std::size_t n) { return *hands_.at(n); }
 
-  /// Waits until a condition holds. @return time that it took [s]; the test fails after 30 s
+  /// Waits until a condition holds. @return time that it took [s]  @throws std::runtime_error after 30 s
   double wait_until(const std::function<bool()>& holds, const std::string& what) const {
     const auto began = std::chrono::steady_clock::now();
     const auto taken = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
     while (!holds()) {
-      if (taken() > 30) {
-        ADD_FAILURE() << "not after 30 s: " << what;
-        break;
-      }
+      if (taken() > 30) throw std::runtime_error("not after 30 s: " + what + "\n" + story());
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return taken();
@@ -80,12 +79,12 @@ class PressingService {
         },
         "both hands are active at server " + (server.empty() ? "any" : server));
   }
-  /// Waits until no server runs the session. @return time that it took [s]
-  double wait_until_released() const {
-    return wait_until([&] { return witness_.owner().empty(); }, "no server runs the session");
+  /// Waits until both hands report to a server that they are not engaged. @return time that it took [s]
+  double wait_until_released(const std::string& server) const {
+    return wait_until([&] { return witness_.newest(server).engaged == 0; }, "both hands are free at server " + server);
   }
 
-  /// Ends the hands, and judges: no two servers ran the session at one time, and each hand came back from zero force.
+  /// Ends the hands, and judges: no two servers engaged hands at one time, and each hand came back from zero force.
   /// @param rejoins  reconnections of each hand; nullopt: any number  @return absences of both hands
   std::vector<Absence> expect_safe(std::optional<std::size_t> rejoins) {
     for (auto& hand : hands_) {
@@ -93,7 +92,7 @@ class PressingService {
       EXPECT_EQ(hand->wait(), 0) << hand->err();
     }
     witness_.stop();
-    EXPECT_EQ(witness_.overlaps(), 0U) << "two servers ran the session at one time";
+    EXPECT_EQ(witness_.overlaps(), 0U) << "two servers engaged hands at one time";
     std::vector<Absence> all;
     for (const char* seat : kSeats) {
       SCOPED_TRACE(seat);
@@ -112,8 +111,23 @@ class PressingService {
   static constexpr double kFirstForceMax = 0.05;  // [N] in the first tick of a return
 
  private:
+  /// Ends all hands and servers. @return what they printed
+  [[nodiscard]] std::string story() const {
+    std::string text;
+    const auto add = [&](Process& process, const std::string& name, int signal) {
+      process.signal(SIGCONT);
+      process.signal(signal);
+      static_cast<void>(process.wait());
+      text += "---- " + name + "\n" + process.err();
+    };
+    for (std::size_t n = 0; n < hands_.size(); ++n) add(*hands_[n], kSeats[n], SIGINT);
+    for (const std::string& name : names_) add(service_.of(name), "server " + name, SIGTERM);
+    return text;
+  }
+
   LiveService service_;
   OwnersWitness witness_;
+  std::vector<std::string> names_;
   std::vector<std::unique_ptr<Process>> hands_;
 };
 

@@ -51,9 +51,10 @@ TEST_F(ServiceEtcd, WithoutItsQuorumHandsAreFreeAndTheOwnerGoesOnWhenItIsBack) {
   const std::size_t leader = service.etcds().leader();
   for (std::size_t n = 0; n < 2; ++n) kill(service.etcd((leader + n) % 3).process());
   ASSERT_TRUE(service.of("a").wait_for("1 session HELD")) << service.of("a").err();
-  pressed.wait_until_released();
+  pressed.wait_until_released("a");
   std::this_thread::sleep_for(milliseconds(4000));  // longer than the lease
-  EXPECT_EQ(pressed.witness().owner(), "") << "a hand is engaged without the directory";
+  for (const char* server : {"a", "b"})
+    EXPECT_EQ(pressed.witness().newest(server).engaged, 0U) << "a hand is engaged without the directory";
   for (std::size_t n = 0; n < 2; ++n) service.etcd((leader + n) % 3).start();
   pressed.wait_until_active("a");
   ASSERT_TRUE(service.of("a").wait_for("not HELD by the directory any more")) << service.of("a").err();
