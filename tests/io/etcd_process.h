@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -81,6 +83,16 @@ class Etcd {
   }
   /// Starts the member with its old data, after it was ended.
   void start() { process_.emplace(command_); }
+  /// Ends the member, which is alone, and starts it with the data of a backup. @param file  of `etcdctl snapshot save`
+  void restore(const std::string& file) {
+    process_->signal(SIGTERM);
+    EXPECT_TRUE(process_->wait());
+    const auto data = std::ranges::find(command_, "--data-dir") + 1;
+    *data = folder_.file("restored");
+    Process restored({etcd_program("etcdctl"), "snapshot", "restore", file, "--data-dir", *data});
+    EXPECT_EQ(restored.wait(), 0) << restored.err();
+    start();
+  }
   [[nodiscard]] std::string endpoint() const { return format("127.0.0.1:%d", client_); }
   [[nodiscard]] Process& process() { return *process_; }
   [[nodiscard]] const Folder& folder() const { return folder_; }

@@ -98,11 +98,16 @@ TEST_F(ServiceClock, SetByAYearWhileHandsPressDisturbsNoHandAndRefusesTicketsWit
 
 TEST_F(ServiceClock, WrongAtTheStartRefusesTicketsOrTheStartWithTheCause) {
   LiveService& service = pressed.service();
-  set_clock("+365d");
+  set_clock("+0");
   service.set("a", {.under = under()});
   service.start("a");
   service.wait_for_sessions("a", 1);
   static_cast<void>(service.enrolled("desk"));
+  service.of("a").signal(SIGTERM);
+  EXPECT_EQ(service.of("a").wait(), 0);
+  set_clock("+365d");
+  service.start("a");
+  service.wait_for_sessions("a", 1);
   const std::string ticket = operator_ticket("operator.ticket");
   expect_refusal_names_the_clock(ticket, "expired 364 days ago");
   // A year back, the server's own voucher is not valid yet.
