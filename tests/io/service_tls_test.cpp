@@ -1,7 +1,6 @@
 // A service over an etcd that demands certificates of its clients.
 #include <ctime>
 
-#include "common/auth/certificate.h"
 #include "common/auth/tls_key.h"
 #include "tests/io/pressing_service.h"
 
