@@ -100,7 +100,7 @@ class CutPath {
     io::SocketAddress from;
     for (ssize_t size; from.size = sizeof from.storage,
                        (size = ::recvfrom(udp_.get(), part.data(), part.size(), 0,
-                                         reinterpret_cast<sockaddr*>(&from.storage), &from.size)) >= 0;) {
+                                          reinterpret_cast<sockaddr*>(&from.storage), &from.size)) >= 0;) {
       if (cut) continue;
       Peer& peer = peer_of(from);
       static_cast<void>(::send(peer.server.get(), part.data(), static_cast<std::size_t>(size), 0));
@@ -108,8 +108,8 @@ class CutPath {
     for (const Peer& peer : peers_)
       for (ssize_t size; (size = ::recv(peer.server.get(), part.data(), part.size(), 0)) >= 0;)
         if (!cut)
-          static_cast<void>(::sendto(udp_.get(), part.data(), static_cast<std::size_t>(size), 0, peer.from.get(),
-                                     peer.from.size));
+          static_cast<void>(
+              ::sendto(udp_.get(), part.data(), static_cast<std::size_t>(size), 0, peer.from.get(), peer.from.size));
   }
   Peer& peer_of(const io::SocketAddress& from) {
     for (Peer& peer : peers_)

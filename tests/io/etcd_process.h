@@ -144,7 +144,8 @@ class EtcdCluster {
   [[nodiscard]] std::size_t leader() const {
     for (int tries = 0; tries < 100; ++tries) {
       for (std::size_t n = 0; n < members_.size(); ++n) {
-        Process asked({etcd_program("etcdctl"), "--endpoints", members_[n]->endpoint(), "endpoint", "status", "-w", "json"});
+        Process asked(
+            {etcd_program("etcdctl"), "--endpoints", members_[n]->endpoint(), "endpoint", "status", "-w", "json"});
         if (asked.wait() != 0) continue;
         const Json all = Json::parse(asked.out(), nullptr, false);
         if (!all.is_array() || all.empty()) continue;

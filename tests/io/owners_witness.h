@@ -18,11 +18,11 @@ namespace tandem::test {
 /// engaged as its client reported last.
 class OwnersWitness {
  public:
-  /// What a server showed about its seats between two moments.
+  /// State of a server's seats, as it showed it between two moments.
   struct Seen {
     std::chrono::steady_clock::time_point asked, answered;
     bool answers = false;
-    bool held = false;        ///< its sessions are HELD: what is older than that is no engagement
+    bool held = false;        ///< its sessions are HELD; an older state of a gate is no engagement
     std::size_t engaged = 0;  ///< taken seats whose gate is active or ramps in
     std::size_t active = 0;   ///< those whose gate is wholly active
     [[nodiscard]] bool acts() const { return engaged > 0 && !held; }

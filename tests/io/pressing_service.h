@@ -43,10 +43,12 @@ class PressingService {
     const Folder& folder = service_.folder();
     const std::string own = service_.enrolled_at(names_.front(), "desk");
     for (const char* seat : kSeats) {
-      const std::string ticket =
-          folder.write(std::string(seat) + ".ticket", ticket_of(seat));
-      Words words{"--session", "lab", "--ticket-file", ticket, "--state", own, "--trace",
-                  folder.file(std::string(seat) + ".csv"), "--json", folder.file(std::string(seat) + ".json")};
+      const std::string ticket = folder.write(std::string(seat) + ".ticket", ticket_of(seat));
+      Words words{"--session",     "lab",
+                  "--ticket-file", ticket,
+                  "--state",       own,
+                  "--trace",       folder.file(std::string(seat) + ".csv"),
+                  "--json",        folder.file(std::string(seat) + ".json")};
       words.insert(words.end(), more.begin(), more.end());
       hands_.push_back(std::make_unique<Process>(client(address, seat, words)));
     }

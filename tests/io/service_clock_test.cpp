@@ -45,8 +45,11 @@ class ServiceClock : public PressingServiceTest {
   }
   /// Uses a ticket at server a.
   Process operate(const std::string& ticket, const Words& command) {
-    Words words{TANDEM_CLIENT, "control", "--server", pressed.service().address("a"), "--session", "lab",
-                "--ticket-file", ticket, "--state", pressed.service().folder().file("own-desk")};
+    Words words{TANDEM_CLIENT,   "control",
+                "--server",      pressed.service().address("a"),
+                "--session",     "lab",
+                "--ticket-file", ticket,
+                "--state",       pressed.service().folder().file("own-desk")};
     words.insert(words.end(), command.begin(), command.end());
     return Process(std::move(words));
   }

@@ -1,4 +1,5 @@
-// A server of a service that is cut off from its clients, or from its clients and etcd, while hands press in its session.
+// A server of a service that is cut off from its clients, or from its clients and etcd, while hands press in its
+// session.
 #include "tests/io/cut_path.h"
 #include "tests/io/pressing_service.h"
 

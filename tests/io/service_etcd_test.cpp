@@ -1,5 +1,5 @@
-// What happens to etcd, and to the hands that press in a session of the service over it: its leader is killed together
-// with the session's owner, most of its members fail, its history is compacted, its disks are slow.
+// Failures of etcd while hands press in a session of the service over it: its leader is killed together with the
+// session's owner, most of its members fail, its history is compacted, its disks are slow.
 #include "tests/common/base/counts.h"
 #include "tests/io/pressing_service.h"
 

@@ -60,8 +60,8 @@ class LiveService {
     if (!setup.address.empty()) directory += " address: \"" + setup.address + "\"";
     const std::string config =
         folder_.write(name + ".textproto", "version: 1 listen: \"" + address(name) + "\" metrics: \"" + metrics(name) +
-                                               "\" state: \"" + name + "\" " + sessions_ + " directory { " +
-                                               directory + format(" ttl_s: %d }", ttl_s_));
+                                               "\" state: \"" + name + "\" " + sessions_ + " directory { " + directory +
+                                               format(" ttl_s: %d }", ttl_s_));
     Words command = setup.under;
     command.insert(command.end(), {TANDEM_SERVER, "serve", config});
     servers_[name] = std::make_unique<Process>(std::move(command));

@@ -20,31 +20,35 @@ class ServiceRestore : public ::testing::Test {
   }
   /// Takes the trainer's seat for a second. @return whether it had the seat; else the ticket was used before
   bool use(const std::string& ticket) {
-    Process joined = client(service.address("a"), "trainer",
-                            {"--session", "lab", "--ticket-file", ticket, "--state", service.folder().file("own-desk"),
-                             "--duration", "1"});
+    Process joined = client(
+        service.address("a"), "trainer",
+        {"--session", "lab", "--ticket-file", ticket, "--state", service.folder().file("own-desk"), "--duration", "1"});
     EXPECT_TRUE(joined.wait());
     const bool seated = joined.err().find("left the seat") != std::string::npos;
     EXPECT_EQ(seated, joined.err().find("used already") == std::string::npos) << joined.err();
     return seated;
   }
   void operate(const Words& command) {
-    Words words{TANDEM_CLIENT, "control", "--server", service.address("a"), "--session", "lab", "--ticket-file",
-                ticket("operator", {"--role", "operator"}), "--state", service.folder().file("own-desk")};
+    Words words{TANDEM_CLIENT,   "control",
+                "--server",      service.address("a"),
+                "--session",     "lab",
+                "--ticket-file", ticket("operator", {"--role", "operator"}),
+                "--state",       service.folder().file("own-desk")};
     words.insert(words.end(), command.begin(), command.end());
     Process done(std::move(words));
     EXPECT_EQ(done.wait(), 0) << done.err();
   }
   /// The sessions of the service, as a client sees them.
   std::string listed() {
-    Process asked({TANDEM_CLIENT, "sessions", "--server", service.address("a"), "--state",
-                   service.folder().file("own-desk")});
+    Process asked(
+        {TANDEM_CLIENT, "sessions", "--server", service.address("a"), "--state", service.folder().file("own-desk")});
     EXPECT_EQ(asked.wait(), 0) << asked.err();
     return asked.out();
   }
   /// Workstations that a server has enrolled, as its file names them.
   [[nodiscard]] bool enrolled(const std::string& server, const std::string& workstation) {
-    return service.folder().read(server + "/workstations.textproto").find("\"" + workstation + "\"") != std::string::npos;
+    return service.folder().read(server + "/workstations.textproto").find("\"" + workstation + "\"") !=
+           std::string::npos;
   }
 
   LiveService service{"session { name: \"lab\" scene: \"free_motion\" }"};
@@ -83,10 +87,10 @@ TEST_F(ServiceRestore, BringsBackWhatTheBackupHasAndNamesWhatCameAfterIt) {
   EXPECT_TRUE(a.wait_for("session lab RESTORED from its checkpoint")) << a.err();
   const Json again = service.sessions("a");
   EXPECT_EQ(again[0]["id"], lab[0]["id"]);
-  // What the backup has.
+  // Everything of the backup is there.
   EXPECT_TRUE(enrolled("a", "desk"));
   EXPECT_FALSE(use(used)) << "a ticket that was used before the backup";
-  // What came after it: the ended session is back, without a server until a client asks for it.
+  // The session that ended after it is back, without a server until a client asks for it.
   const std::string table = listed();
   EXPECT_NE(table.find("before: waiting"), std::string::npos) << table;
   EXPECT_EQ(table.find("after: "), std::string::npos) << table;

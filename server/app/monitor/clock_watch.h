@@ -26,7 +26,8 @@ class ClockWatch {
     offset_ = offset;
     if (std::abs(step) <= kStepMax) return {};
     return "the clock of this computer was set " + span(std::abs(step)) + (step > 0 ? " forward" : " back") +
-           " while the server runs. Sessions that run go on. Tickets, enrolment codes and vouchers are judged by the new "
+           " while the server runs. Sessions that run go on. Tickets, enrolment codes and vouchers are judged by the "
+           "new "
            "time: if it is wrong, joins are refused until the clock is set (`timedatectl`)";
   }
 

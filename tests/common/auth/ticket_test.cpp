@@ -217,7 +217,8 @@ TEST(Ticket, ThatIsADayTooOldOrMinutesTooNewNamesTheClockAsTheCause) {
     EXPECT_NE(text.find(span), std::string::npos) << text;
     EXPECT_NE(text.find("clock of this server is wrong"), std::string::npos) << text;
   }
-  EXPECT_EQ(to_text(TicketError{TicketCheck::kExpired, kDay - 1, {}}), "the ticket expired 23 h ago; ask for a new one");
+  EXPECT_EQ(to_text(TicketError{TicketCheck::kExpired, kDay - 1, {}}),
+            "the ticket expired 23 h ago; ask for a new one");
 }
 
 TEST(Ticket, RejectsEveryFlippedBit) {
