@@ -20,7 +20,7 @@ class OwnersWitness {
  public:
   /// State of a server's seats, as it showed it between two moments.
   struct Seen {
-    std::chrono::steady_clock::time_point asked, answered;
+    std::chrono::steady_clock::time_point asked{}, answered{};
     bool answers = false;
     bool held = false;        ///< its sessions are HELD; an older state of a gate is no engagement
     std::size_t engaged = 0;  ///< taken seats whose gate is active or ramps in
@@ -68,26 +68,25 @@ class OwnersWitness {
   /// Number of times at which a server engaged hands while another one did, as far as the pace of the samples shows.
   [[nodiscard]] std::size_t overlaps() const {
     const std::lock_guard lock(lock_);
+    return overlaps(seen_);
+  }
+  /// The same for given samples of each server, the oldest first.
+  [[nodiscard]] static std::size_t overlaps(const std::map<std::string, std::deque<Seen>>& of) {
     std::size_t count = 0;
-    for (const auto& [server, own] : seen_)
+    for (const auto& [server, own] : of)
       for (std::size_t i = 1; i < own.size(); ++i) {
         const Seen &before = own[i - 1], &after = own[i];
         if (!before.acts() || !after.acts() || after.answered - before.asked > kContinuous) continue;
-        for (const auto& [other, theirs] : seen_)
+        for (const auto& [other, theirs] : of)
           if (other != server)
             for (const Seen& their : theirs)
               if (their.acts() && their.asked > before.answered && their.answered < after.asked) ++count;
       }
     return count;
   }
-
- private:
-  static constexpr std::chrono::milliseconds kPause{25}, kContinuous{200};
-
-  static Seen look(const std::string& metrics) {
-    Seen seen{.asked = std::chrono::steady_clock::now(), .answered = {}};
-    const std::string text = page(metrics);
-    seen.answered = std::chrono::steady_clock::now();
+  /// Reads a page of metrics.
+  [[nodiscard]] static Seen read(const std::string& text) {
+    Seen seen;
     seen.answers = !text.empty();
     seen.held = text.find("\ntandem_service_held 1\n") != std::string::npos;
     const std::string name = "\ntandem_gate_state";
@@ -98,6 +97,17 @@ class OwnersWitness {
       seen.engaged += gate == kRampIn || gate == kActive ? 1 : 0;
       seen.active += gate == kActive ? 1 : 0;
     }
+    return seen;
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kPause{25}, kContinuous{200};
+
+  static Seen look(const std::string& metrics) {
+    const auto asked = std::chrono::steady_clock::now();
+    Seen seen = read(page(metrics));
+    seen.asked = asked;
+    seen.answered = std::chrono::steady_clock::now();
     return seen;
   }
 
