@@ -97,9 +97,9 @@ TEST_F(ServiceEtcd, ServerThatMissedCompactedChangesReadsAllAgainAndFollows) {
   service.of("b").signal(SIGCONT);
   pressed.wait_until_active("a");
   EXPECT_EQ(service.etcd().etcdctl({"get", "--print-value-only", "/tandem/v1/catalogue/lab/move"}), "\n");
-  const std::vector<Absence> all = pressed.expect_safe(2);
-  ASSERT_FALSE(all.empty());
-  EXPECT_EQ(owner.err().find("lease of this server has ended"), std::string::npos) << owner.err();
+  // At least one reconnection for each move; a client may also come back to a server that has just gone on.
+  const std::vector<Absence> all = pressed.expect_safe(std::nullopt);
+  ASSERT_GE(all.size(), 4U);
 }
 
 /// Delays each sync of a process's files by a second, as long as it lives.
