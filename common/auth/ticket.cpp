@@ -66,11 +66,16 @@ std::optional<rpc::TicketContent> claimed_content(std::span<const std::byte> byt
   return ticket ? rpc::decode_ticket_content(ticket->content) : std::nullopt;
 }
 
-/// Returns "2 s", "5 min" or "3 h", rounded down.
+constexpr std::int64_t kHour = 3600, kDay = 24 * kHour;  // [s]
+/// [s] before its validity, from which on a ticket shows that a clock is wrong.
+constexpr std::int64_t kClockDoubt = 300;
+
+/// Returns "2 s", "5 min", "3 h" or "4 days", rounded down.
 std::string span_text(std::int64_t s) {
   if (s < 120) return format("%lld s", static_cast<long long>(s));
-  if (s < 7200) return format("%lld min", static_cast<long long>(s / 60));
-  return format("%lld h", static_cast<long long>(s / 3600));
+  if (s < 2 * kHour) return format("%lld min", static_cast<long long>(s / 60));
+  if (s < 2 * kDay) return format("%lld h", static_cast<long long>(s / kHour));
+  return format("%lld days", static_cast<long long>(s / kDay));
 }
 
 struct Words {
@@ -158,9 +163,15 @@ std::string to_text(const TicketError& fault) {
   if (i >= kTicketChecks) return "?";
   switch (fault.rule) {
     case TicketCheck::kExpired:
-      return "the ticket expired " + span_text(fault.seconds) + " ago; ask for a new one";
+      if (fault.seconds < kDay) return "the ticket expired " + span_text(fault.seconds) + " ago; ask for a new one";
+      return "by the clock of this server, the ticket expired " + span_text(fault.seconds) +
+             " ago; ask for a new one. If the ticket is newer than that, the clock of this server is wrong: ask its "
+             "administrator to set it, then use the same ticket again";
     case TicketCheck::kNotYet:
-      return "the ticket is valid only in " + span_text(fault.seconds) + "; wait, and check the server's clock";
+      if (fault.seconds < kClockDoubt) return "the ticket is valid only in " + span_text(fault.seconds) + "; wait";
+      return "by the clock of this server, the ticket is valid only in " + span_text(fault.seconds) +
+             ": the clock of this server is wrong, or that of the server that made the ticket. Ask their "
+             "administrator to set it, then use the same ticket again";
     case TicketCheck::kContent:
       return std::string(kWords[i].text) + " (" + fault.detail + ")";
     case TicketCheck::kSeat:

@@ -19,7 +19,8 @@ namespace tandem::auth {
 using Id16 = std::array<std::byte, 16>;
 
 /// The right of one workstation to join one seat of one session, once. All times are seconds since 1970, UTC, on the
-/// server's clock. The server both signs and checks, so clocks of other machines do not matter.
+/// clocks of servers: the one that signs, and the one that checks. In a service these may be two; clocks of clients do
+/// not matter.
 struct Ticket {
   static constexpr std::uint32_t kVersion = 2;                       ///< of the format
   static constexpr std::size_t kNameMax = 32;                        ///< of seats and persons

@@ -18,8 +18,9 @@ class ServiceNews {
   };
 
   /// @param endpoints  of the directory, for messages
-  ServiceNews(std::string server, std::string endpoints, directory::LeaseTimes times)
-      : server_(std::move(server)), endpoints_(std::move(endpoints)), times_(times) {}
+  /// @param tls        the server talks to the directory by TLS
+  ServiceNews(std::string server, std::string endpoints, directory::LeaseTimes times, bool tls = false)
+      : server_(std::move(server)), endpoints_(std::move(endpoints)), times_(times), tls_(tls) {}
 
   /// @param now  of the clock of the member
   [[nodiscard]] std::vector<Line> update(Time now, const ServiceStatus& status);
@@ -29,6 +30,7 @@ class ServiceNews {
 
   std::string server_, endpoints_;
   directory::LeaseTimes times_;
+  bool tls_;
   State state_ = State::kStarting;
   bool held_ = false;
   std::optional<Time> began_, name_taken_since_;

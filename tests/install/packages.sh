@@ -47,6 +47,9 @@ TANDEM_PACKAGES_TEST=(
   "valgrind: counts instructions"
   "etcd-server: the directory of several servers, compared with its model"
   "etcd-client: reads what the directory wrote"
+  "strace: slows the disks of etcd"
+  "faketime: sets the wall clock of one server"
+  "openssl: certificates of a service that is tried"
 )
 
 # Further packages of the label web. Without them its tests are skipped.

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -81,6 +83,16 @@ class Etcd {
   }
   /// Starts the member with its old data, after it was ended.
   void start() { process_.emplace(command_); }
+  /// Ends the member, which is alone, and starts it with the data of a backup. @param file  of `etcdctl snapshot save`
+  void restore(const std::string& file) {
+    process_->signal(SIGTERM);
+    EXPECT_TRUE(process_->wait());
+    const auto data = std::ranges::find(command_, "--data-dir") + 1;
+    *data = folder_.file("restored");
+    Process restored({etcd_program("etcdctl"), "snapshot", "restore", file, "--data-dir", *data});
+    EXPECT_EQ(restored.wait(), 0) << restored.err();
+    start();
+  }
   [[nodiscard]] std::string endpoint() const { return format("127.0.0.1:%d", client_); }
   [[nodiscard]] Process& process() { return *process_; }
   [[nodiscard]] const Folder& folder() const { return folder_; }
@@ -115,7 +127,8 @@ class Etcd {
 class EtcdCluster {
  public:
   /// @param members  1 to 9
-  explicit EtcdCluster(std::size_t members) {
+  /// @param tls      further arguments of each; not empty: clients use TLS
+  explicit EtcdCluster(std::size_t members, const Words& tls = {}) {
     std::vector<int> peers;
     std::string all;
     for (std::size_t n = 0; n < members; ++n) {
@@ -123,10 +136,27 @@ class EtcdCluster {
       all += (n == 0 ? "" : ",") + format("m%zu=http://127.0.0.1:%d", n, peers.back());
     }
     for (std::size_t n = 0; n < members; ++n)
-      members_.push_back(std::make_unique<Etcd>(format("m%zu", n), peers[n], members == 1 ? "" : all));
+      members_.push_back(std::make_unique<Etcd>(format("m%zu", n), peers[n], members == 1 ? "" : all, tls));
   }
   [[nodiscard]] Etcd& member(std::size_t n) const { return *members_.at(n); }
   [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
+  /// Number of the member that leads now; the test fails if there is none within 10 s.
+  [[nodiscard]] std::size_t leader() const {
+    for (int tries = 0; tries < 100; ++tries) {
+      for (std::size_t n = 0; n < members_.size(); ++n) {
+        Process asked(
+            {etcd_program("etcdctl"), "--endpoints", members_[n]->endpoint(), "endpoint", "status", "-w", "json"});
+        if (asked.wait() != 0) continue;
+        const Json all = Json::parse(asked.out(), nullptr, false);
+        if (!all.is_array() || all.empty()) continue;
+        const Json status = all[0]["Status"];
+        if (status["leader"] == status["header"]["member_id"]) return n;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    ADD_FAILURE() << "no member of etcd leads";
+    return 0;
+  }
   [[nodiscard]] std::vector<std::string> endpoints() const {
     std::vector<std::string> all;
     for (const auto& member : members_) all.push_back(member->endpoint());

@@ -36,8 +36,9 @@ inline std::string pressing(const std::string& more = "") {
 
 /// One absence of the server, from a seat's trace.
 struct Absence {
+  double free_s = 0;      ///< from the gate's release until the force began to come up again
   double back_s = 0;      ///< from the gate's release until it was fully active again
-  double first_n = 0;     ///< motor force in the first tick of the return
+  double first_n = 0;     ///< motor force in the first tick of the return, the largest if it began again
   double jump_mm = 0;     ///< of the tip, between two ticks around the return
   double beyond_n = 0;    ///< force in the first 500 ms above the maximum before
   double forward_mm = 0;  ///< motion of the hand in the 300 ms after the release
@@ -56,14 +57,19 @@ inline std::vector<Absence> absences(const Trace& t) {
     while (k < t.size() && gate(k) != kRampIn) ++k;
     if (k == t.size()) break;
     a.first_n = norm(t.triple(k, "f_gate_"));
+    a.free_s = t.at(k, "t_s") - t.at(i, "t_s");
     for (std::size_t m = k; m < t.size() && t.at(m, "t_s") < t.at(k, "t_s") + 0.5; ++m) {
       // Ticks that this machine skipped.
       const double missed = std::max(1.0, (t.at(m, "t_s") - t.at(m - 1, "t_s")) / 1e-3);
       a.jump_mm = std::max(a.jump_mm, 1e3 * distance(t.triple(m, ""), t.triple(m - 1, "")) / missed);
       a.beyond_n = std::max(a.beyond_n, norm(t.triple(m, "f_gate_")) - before);
     }
-    while (k < t.size() && gate(k) == kRampIn) ++k;
-    if (k == t.size() || gate(k) != kActive) break;
+    // A return may be cut short, by a new connection of the client; the next one begins at zero too.
+    while (k < t.size() && gate(k) != kActive) {
+      if (gate(k) == kRampIn && gate(k - 1) != kRampIn) a.first_n = std::max(a.first_n, norm(t.triple(k, "f_gate_")));
+      ++k;
+    }
+    if (k == t.size()) break;
     a.back_s = t.at(k, "t_s") - t.at(i, "t_s");
     out.push_back(a);
     i = k;
@@ -73,8 +79,11 @@ inline std::vector<Absence> absences(const Trace& t) {
 
 inline void print(const char* what, std::vector<double> v) {
   std::ranges::sort(v);
-  std::printf("[  figures ] %-46s min %.3f median %.3f max %.3f (%zu)\n", what, v.front(), v[v.size() / 2], v.back(),
-              v.size());
+  double sum = 0;
+  for (const double x : v) sum += x;
+  const double n = static_cast<double>(v.size());
+  std::printf("[  figures ] %-46s min %.3f median %.3f mean %.3f max %.3f (%zu)\n", what, v.front(), v[v.size() / 2],
+              sum / n, v.back(), v.size());
 }
 
 }  // namespace tandem::test

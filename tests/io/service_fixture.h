@@ -14,17 +14,38 @@
 
 namespace tandem::test {
 
+/// How one server of a service differs from the others.
+struct MemberSetup {
+  Words under{};                         ///< a program, and its arguments, that starts the server
+  std::string address{};                 ///< where clients reach it; empty: where it listens
+  std::vector<std::string> endpoints{};  ///< of etcd; empty: all members
+  std::string directory{};               ///< further fields of block `directory`
+};
+
 /// Servers of one service over etcd, all on loopback: `a`, `b` and so on. Each has its own keys and a voucher.
 class LiveService {
  public:
   /// @param sessions  of the configuration of all servers  @param etcds  1 or 3
-  explicit LiveService(std::string sessions, std::size_t etcds = 1, int ttl_s = 3)
-      : sessions_(std::move(sessions)), ttl_s_(ttl_s), etcd_(etcds) {
+  /// @param tls       further arguments of etcd, with which clients use TLS
+  explicit LiveService(std::string sessions, std::size_t etcds = 1, int ttl_s = 3, const Words& tls = {})
+      : sessions_(std::move(sessions)), ttl_s_(ttl_s), etcd_(etcds, tls) {
     run({"service", "init", folder_.file("service")});
   }
 
   /// From the next start of a server on, its sessions move to less used servers by themselves.
   void let_balance() { balance_ = true; }
+  /// Sets how a server differs, from its next start on.
+  void set(const std::string& name, MemberSetup setup) { setups_[name] = std::move(setup); }
+  /// Address at which a server listens, or will listen.
+  [[nodiscard]] std::string address(const std::string& name) {
+    if (addresses_[name].empty()) addresses_[name] = free_address();  // clients know it, so a restart has the same
+    return addresses_[name];
+  }
+  /// Address of a server's metrics.
+  [[nodiscard]] std::string metrics(const std::string& name) {
+    if (metrics_[name].empty()) metrics_[name] = free_address();
+    return metrics_[name];
+  }
 
   /// Makes keys and member file of a server, and starts it.
   Process& start(const std::string& name) {
@@ -34,19 +55,24 @@ class LiveService {
       run({"service", "vouch", folder_.file("service"), "--name", name, "--key", key_in(init), "--out", member});
       run({"service", "join", member, "--state", folder_.file(name)});
     }
-    if (addresses_[name].empty()) addresses_[name] = free_address();  // clients know it, so a restart has the same
-    std::string endpoints;
-    for (const std::string& endpoint : etcd_.endpoints()) endpoints += "endpoint: \"" + endpoint + "\" ";
-    const std::string config = folder_.write(
-        name + ".textproto", "version: 1 listen: \"" + addresses_[name] + "\" metrics: \"127.0.0.1:0\" state: \"" +
-                                 name + "\" " + sessions_ + " directory { " + endpoints + format("ttl_s: %d ", ttl_s_) +
-                                 (balance_ ? "}" : "balance: false }"));
-    servers_[name] = std::make_unique<Process>(server({"serve", config}));
+    const MemberSetup& setup = setups_[name];
+    std::string directory = setup.directory;
+    for (const std::string& endpoint : setup.endpoints.empty() ? etcd_.endpoints() : setup.endpoints)
+      directory += " endpoint: \"" + endpoint + "\"";
+    if (!setup.address.empty()) directory += " address: \"" + setup.address + "\"";
+    const std::string config =
+        folder_.write(name + ".textproto", "version: 1 listen: \"" + address(name) + "\" metrics: \"" + metrics(name) +
+                                               "\" state: \"" + name + "\" " + sessions_ + " directory { " + directory +
+                                               format(" ttl_s: %d balance: %s }", ttl_s_, balance_ ? "true" : "false"));
+    Words command = setup.under;
+    command.insert(command.end(), {TANDEM_SERVER, "serve", config});
+    servers_[name] = std::make_unique<Process>(std::move(command));
     EXPECT_TRUE(servers_[name]->wait_for("Ctrl-C ends")) << servers_[name]->err();
     return *servers_[name];
   }
   [[nodiscard]] Process& of(const std::string& name) const { return *servers_.at(name); }
   [[nodiscard]] Etcd& etcd(std::size_t n = 0) { return etcd_.member(n); }
+  [[nodiscard]] EtcdCluster& etcds() { return etcd_; }
   [[nodiscard]] const Folder& folder() const { return folder_; }
 
   /// Sessions that a server serves, as JSON.
@@ -71,13 +97,16 @@ class LiveService {
   }
   /// Enrols a workstation at all servers. @return the folder of its keys
   [[nodiscard]] std::string enrolled(const std::string& workstation) const {
+    for (const auto& [name, process] : servers_) static_cast<void>(enrolled_at(name, workstation));
+    return folder_.file("own-" + workstation);
+  }
+  /// Enrols a workstation at one server, which tells the others within a second. @return the folder of its keys
+  [[nodiscard]] std::string enrolled_at(const std::string& name, const std::string& workstation) const {
     const std::string own = folder_.file("own-" + workstation);
-    for (const auto& [name, process] : servers_) {
-      Process given = server({"enroll", workstation, "--state", folder_.file(name)});
-      EXPECT_EQ(given.wait(), 0) << given.err();
-      Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", own});
-      EXPECT_EQ(taken.wait(), 0) << taken.err();
-    }
+    Process given = server({"enroll", workstation, "--state", folder_.file(name)});
+    EXPECT_EQ(given.wait(), 0) << given.err();
+    Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", own});
+    EXPECT_EQ(taken.wait(), 0) << taken.err();
     return own;
   }
   /// Runs a command of tandem-server to its end. @return standard output
@@ -102,7 +131,8 @@ class LiveService {
   bool balance_ = false;
   Folder folder_;
   EtcdCluster etcd_;
-  std::map<std::string, std::string> addresses_;
+  std::map<std::string, std::string> addresses_, metrics_;
+  std::map<std::string, MemberSetup> setups_;
   std::map<std::string, std::unique_ptr<Process>> servers_;
 };
 

@@ -70,6 +70,7 @@ struct SessionEntry {
   SessionRegistration registration;
   std::uint32_t number = 0;            ///< of this server, from 1: place in the list of sessions
   bool closing = false;                ///< the session is over and being removed: it gets no more requests
+  bool given_up = false;               ///< it ends here only: another server of the service goes on with it
   std::vector<SeatReservation> seats;  ///< one per seat
   LinkTestSlots link_tests;
   WatcherSlots watchers;

@@ -142,7 +142,7 @@ void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, st
 
 JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& request, ResumeMatch match,
                                     const ShardRequest& asked) {
-  if (asked.result == JoinResult::kSessionOver) return session_ends();
+  if (asked.result == JoinResult::kSessionOver) return session_ends(entry);
   if (asked.result == JoinResult::kSeatTaken)
     return seat_taken(entry.session().seat_catalogue().scene().seats[asked.seat].name);
   SeatReservation& reservation = entry.seats[asked.seat];

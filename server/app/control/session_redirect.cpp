@@ -33,10 +33,17 @@ rpc::Elsewhere elsewhere_of(const ServerLocation& at, const rpc::SessionChoice& 
 
 }  // namespace
 
+ErrorReply being_taken_over() {
+  return {ErrorCode::kNotNow, "a server of this service is about to serve the session; try again in a moment",
+          kAskAgainS};
+}
+
 std::optional<SessionRedirect::Reply> SessionRedirect::find(const rpc::SessionChoice& choice, bool understands) {
   if (locator_ == nullptr) return std::nullopt;
   if (std::holds_alternative<std::monostate>(choice)) return only_session(understands);
-  if (std::holds_alternative<SessionEntry*>(registry_.choose(choice))) return std::nullopt;
+  const auto chosen = registry_.choose(choice);
+  if (const auto* const here = std::get_if<SessionEntry*>(&chosen); here != nullptr && !(*here)->given_up)
+    return std::nullopt;
   return located(choice, understands);
 }
 
@@ -59,8 +66,7 @@ std::optional<SessionRedirect::Reply> SessionRedirect::located(const rpc::Sessio
   const SessionLocator::Found found = locator_->locate(choice);
   if (std::holds_alternative<SessionLocator::None>(found)) return std::nullopt;
   if (std::holds_alternative<SessionLocator::Here>(found) || std::holds_alternative<SessionLocator::Coming>(found))
-    return ErrorReply{ErrorCode::kNotNow,
-                      "a server of this service is about to serve the session; try again in a moment", kAskAgainS};
+    return being_taken_over();
   if (const auto* const unknown = std::get_if<SessionLocator::Unknown>(&found))
     return ErrorReply{ErrorCode::kInternal,
                       bounded_text("this server cannot tell which server of the service has the session: " +

@@ -12,6 +12,9 @@
 
 namespace tandem::server {
 
+/// Reply to a request for a session that a server of the service is about to serve.
+[[nodiscard]] rpc::ErrorReply being_taken_over();
+
 /// Answers requests for sessions that other servers of the service own. Without a locator it answers none: the server
 /// belongs to no service. Control plane's thread.
 class SessionRedirect {

@@ -67,8 +67,10 @@ void SessionRegistry::remove(const rpc::Id& id, std::function<void()> gone) {
 }
 
 void SessionRegistry::end(const rpc::Id& id, wire::CloseReason why) {
-  if (SessionEntry* const found = find(id); found != nullptr)
-    post_when_possible(*found, {.what = ShardRequest::What::kEndSession, .why = why});
+  SessionEntry* const found = find(id);
+  if (found == nullptr) return;
+  found->given_up = why == wire::CloseReason::kServerReturns;
+  post_when_possible(*found, {.what = ShardRequest::What::kEndSession, .why = why});
 }
 
 void SessionRegistry::move(const rpc::Id& id, Shard& to, const io::SteeringProgram& there,

@@ -7,11 +7,14 @@
 
 #include "common/base/format.h"
 #include "server/app/control/join_handler.h"
+#include "server/app/control/session_redirect.h"
 #include "server/app/control/session_registry.h"
 
 namespace tandem::server {
 
-[[nodiscard]] inline rpc::ErrorReply session_ends() {
+/// Reply to a request for a session that ends on this server.
+[[nodiscard]] inline rpc::ErrorReply session_ends(const SessionEntry& entry) {
+  if (entry.given_up) return being_taken_over();
   return {rpc::ErrorCode::kSessionOver, "the session is ending", 0};
 }
 
@@ -27,9 +30,9 @@ void reserve_slot(SessionRegistry& registry, SessionEntry& entry, Slots& slots, 
       format("all %zu %s of this session are taken; try again in %u s", Slots::kMax, what, kSlotRetryS), kSlotRetryS};
   if (!slots.begin_join()) return answer(full);
   ShardRequest query{.what = ShardRequest::What::kQueryPeers, .peers = peers};
-  query.done = [&slots, full, admit = std::move(admit), answer = std::move(answer)](ShardRequest& asked) {
+  query.done = [&entry, &slots, full, admit = std::move(admit), answer = std::move(answer)](ShardRequest& asked) {
     const bool accepted = asked.result == JoinResult::kAccepted;
-    JoinReply reply = !accepted ? session_ends() : !slots.enough(asked.place) ? full : admit(slots.next_place());
+    JoinReply reply = !accepted ? session_ends(entry) : !slots.enough(asked.place) ? full : admit(slots.next_place());
     if (std::holds_alternative<rpc::ErrorReply>(reply)) slots.cancel_join();
     answer(std::move(reply));
   };

@@ -15,6 +15,7 @@
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
 #include "common/io/systemd_notify.h"
+#include "server/app/monitor/clock_watch.h"
 #include "server/app/monitor/load_events.h"
 #include "server/app/process/session_table.h"
 #include "server/app/recording/leftover_repair.h"
@@ -166,8 +167,10 @@ class ServerProcess {
     if (const std::string why = options_.start_problem(); !why.empty()) drain(why);
   }
 
-  /// Reports changes of the load, and once whether the ticks have real-time priority.
+  /// Reports changes of the load and steps of the wall clock, and once whether the ticks have real-time priority.
   void report_machine() {
+    if (const std::string step = clock_watch_.update(auth::wall_seconds(), io::boottime_now()); !step.empty())
+      output_.report(io::Level::kWarn, {.event = "clock_set", .text = step}, step);
     for (const LoadEvents::Event& event : load_events_.update(shards_.all())) {
       io::log_event(event.more ? io::Level::kWarn : io::Level::kInfo,
                     {.event = event.more ? "shed" : "shed_less", .text = event.text});
@@ -236,6 +239,7 @@ class ServerProcess {
   std::unique_ptr<ServiceHost> service_;          ///< null: the server is alone; it outlives the sessions
   std::optional<SessionTable> sessions_;
   LoadEvents load_events_;
+  ClockWatch clock_watch_;
   std::optional<LeftoverRepair> leftovers_;
   std::optional<Time> drain_began_;
   std::uint64_t punctual_ = 0;

@@ -55,7 +55,8 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
     : parts_(parts),
       server_(std::move(server)),
       record_(std::move(record)),
-      news_(server_, joined_endpoints(parts.options.directory->etcd), parts.options.directory->times) {
+      news_(server_, joined_endpoints(parts.options.directory->etcd), parts.options.directory->times,
+            !parts.options.directory->etcd.authority.empty()) {
   const ServiceOptions& in = *parts.options.directory;
   ServiceMemberOptions options{.server = server_,
                                .prefix = in.prefix,

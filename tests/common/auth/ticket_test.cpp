@@ -203,6 +203,22 @@ TEST(Ticket, IsValidFromItsFirstToItsLastSecond) {
   EXPECT_EQ(s, 2);
   EXPECT_EQ(to_text(TicketError{TicketCheck::kExpired, 1, {}}), "the ticket expired 1 s ago; ask for a new one");
   EXPECT_EQ(to_text(TicketError{TicketCheck::kExpired, 7200, {}}), "the ticket expired 2 h ago; ask for a new one");
+  EXPECT_EQ(to_text(TicketError{TicketCheck::kNotYet, 2, {}}), "the ticket is valid only in 2 s; wait");
+}
+
+TEST(Ticket, ThatIsADayTooOldOrMinutesTooNewNamesTheClockAsTheCause) {
+  constexpr std::int64_t kDay = 86400;
+  for (const auto& [fault, span] : {std::pair{TicketError{TicketCheck::kExpired, 365 * kDay, {}}, "365 days ago"},
+                                    std::pair{TicketError{TicketCheck::kExpired, kDay, {}}, "24 h ago"},
+                                    std::pair{TicketError{TicketCheck::kNotYet, 365 * kDay, {}}, "in 365 days"},
+                                    std::pair{TicketError{TicketCheck::kNotYet, 300, {}}, "in 5 min"}}) {
+    const std::string text = to_text(fault);
+    EXPECT_TRUE(text.starts_with("by the clock of this server, the ticket ")) << text;
+    EXPECT_NE(text.find(span), std::string::npos) << text;
+    EXPECT_NE(text.find("clock of this server is wrong"), std::string::npos) << text;
+  }
+  EXPECT_EQ(to_text(TicketError{TicketCheck::kExpired, kDay - 1, {}}),
+            "the ticket expired 23 h ago; ask for a new one");
 }
 
 TEST(Ticket, RejectsEveryFlippedBit) {

@@ -46,8 +46,18 @@ TEST_F(ServiceNewsTest, ReportsADirectoryThatCannotBeReachedAtTheStart) {
   a.directory.cut = true;
   EXPECT_EQ(events(a, 10s), Events{"service_unreachable"});
   EXPECT_NE(told_.find("etcdctl"), std::string::npos) << told_;
+  EXPECT_NE(told_.find("demands TLS"), std::string::npos) << told_;
   a.directory.cut = false;
   EXPECT_EQ(events(a, 3s), Events{"service_joined"});
+}
+
+TEST_F(ServiceNewsTest, NamesTheCertificatesIfTheDirectoryIsReachedByTls) {
+  servers_.push_back(std::make_unique<Server>(store_, ServiceMemberOptions{.server = "a"}));
+  servers_.back()->directory.cut = true;
+  news_ = ServiceNews("a", "10.0.0.1:2379", directory::LeaseTimes{}, true);
+  EXPECT_EQ(events(*servers_.back(), 10s), Events{"service_unreachable"});
+  EXPECT_NE(told_.find("etcd must accept directory { certificate }"), std::string::npos) << told_;
+  EXPECT_EQ(told_.find("demands TLS"), std::string::npos) << told_;
 }
 
 TEST_F(ServiceNewsTest, ReportsANameThatAnotherServerHas) {

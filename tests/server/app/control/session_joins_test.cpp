@@ -127,6 +127,18 @@ TEST(SessionJoins, ReplyThatASessionIsEndingThatTheShardDoesNotServe) {
   EXPECT_FALSE(over.seats[1].joining());
 }
 
+/// A client that asks while its session moves to another server of the service asks again; it does not leave.
+TEST(SessionJoins, ReplyNotNowForASessionThatAnotherServerGoesOnWith) {
+  Joining j;
+  const SessionEntry& moves = j.add("moves", 2, kCode, false);
+  j.serve();
+  j.registry.end(id_of(2), wire::CloseReason::kServerReturns);
+  JoinRequest request = Joining::request("trainee", rpc::CodeCredential{kCode});
+  request.hello.session = id_of(2);
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kNotNow);
+  EXPECT_FALSE(moves.seats[1].joining());
+}
+
 TEST(SessionJoins, ServeNoMoreLinkTestsThanThereAreSlots) {
   Joining j;
   JoinRequest request = Joining::request("");
