@@ -67,6 +67,10 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
     options.configured.emplace(session.name, spec_of(session));
   thread_ = std::make_unique<ServiceThread>(std::move(options), std::make_unique<directory::EtcdDirectory>(in.etcd),
                                             snapshots_);
+  list_file_ =
+      std::make_unique<ServiceListFile>(*parts_.control.trust().folder(), *thread_, [this](const std::string& what) {
+        parts_.output.post_message("list of the service's sessions for commands: " + what);
+      });
   registry_ = std::make_unique<RegistryMirror>(std::move(keys), *thread_, [this](const std::string& what) {
     parts_.output.post_message("workstations of the service: " + what);
   });
@@ -81,6 +85,7 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
 void ServiceHost::start() {
   thread_->start([this](const ServiceTickets::Result& result) { ticket_uses_->on_result(result); });
   registry_->start();
+  list_file_->start();
 }
 
 void ServiceHost::step(Time now) {
@@ -281,6 +286,7 @@ void ServiceHost::report(const std::vector<ServiceNews::Line>& lines) {
 void ServiceHost::leave() {
   leaving_ = true;
   registry_->stop();
+  list_file_->stop();
   if (!thread_->leave(kLeaveMax)) {
     const std::string text =
         "the directory did not confirm the end of this server; other servers begin its sessions when "

@@ -11,6 +11,7 @@
 #include "server/app/process/session_table.h"
 #include "server/app/service/directory_snapshots.h"
 #include "server/app/service/registry_mirror.h"
+#include "server/app/service/service_list_file.h"
 #include "server/app/service/service_locator.h"
 #include "server/app/service/service_thread.h"
 #include "server/app/service/service_ticket_uses.h"
@@ -80,6 +81,7 @@ class ServiceHost {
   DirectorySnapshots snapshots_;
   std::unique_ptr<ServiceThread> thread_;
   std::unique_ptr<RegistryMirror> registry_;
+  std::unique_ptr<ServiceListFile> list_file_;
   std::unique_ptr<ServiceLocator> locator_;
   std::unique_ptr<ServiceTicketUses> ticket_uses_;
   ServiceNews news_;
