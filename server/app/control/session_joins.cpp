@@ -87,7 +87,8 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
         ErrorCode::kDraining,
         "this server is draining and rejects new joins; wait until it has restarted, or ask its operator", 10});
   const auto found = registry_.choose(request.hello.session);
-  if (const auto* refused = std::get_if<ErrorReply>(&found)) return answer(*refused);
+  if (const auto* refused = std::get_if<ErrorReply>(&found))
+    return answer(redirect_.refusal(request.hello.session, *refused));
   SessionEntry& entry = *std::get<SessionEntry*>(found);
   if (!request.hello.link_test)
     answer = used_once(ticket_uses_, request, std::move(answer), [this](const rpc::Welcome& w) { on_join_failed(w); });
