@@ -172,6 +172,21 @@ TEST_F(EtcdConformance, EndsLeasesAsTheModelAndNeverBeforeTheirTime) {
   compare_changes(watch.operation);
 }
 
+TEST_F(EtcdConformance, TellsTheRestOfALeaseAsTheModel) {
+  const LeaseId lease = both(Grant{100s}).lease;
+  const auto rest_of = [&](LeaseId asked) {
+    directory_->begin(operation_, Remaining{asked});
+    return wait_for_reply(*directory_, operation_++, &others_);
+  };
+  const Reply rest = rest_of(lease);
+  EXPECT_EQ(rest.outcome, Outcome::kDone);
+  EXPECT_GT(rest.ttl, 0s);
+  EXPECT_LE(rest.ttl, store_.execute(1, Remaining{lease}).ttl);
+  both(Revoke{lease});
+  EXPECT_EQ(rest_of(lease).outcome, Outcome::kNoLease);
+  EXPECT_EQ(rest_of(lease).ttl, store_.execute(1, Remaining{lease}).ttl);
+}
+
 TEST_F(EtcdConformance, ForgetsCompactedRevisionsAsTheModel) {
   for (int n = 0; n < 6; ++n) put("k", std::to_string(n));  // revisions 2 to 7
   both(Compact{100});

@@ -65,6 +65,7 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
                                .registry_mark = to_hex(auth::random_bytes<auth::Id16>())};
   for (const SessionOptions& session : parts.options.sessions)
     options.configured.emplace(session.name, spec_of(session));
+  differences_.emplace(server_, options.configured);
   thread_ = std::make_unique<ServiceThread>(std::move(options), std::make_unique<directory::EtcdDirectory>(in.etcd),
                                             snapshots_);
   list_file_ =
@@ -108,6 +109,7 @@ void ServiceHost::step(Time now) {
   published_ = now;
   publish_load();
   publish_lists();
+  report_differences();
   locator_->remember_members();
 }
 
@@ -283,10 +285,27 @@ void ServiceHost::report(const std::vector<ServiceNews::Line>& lines) {
                          line.text);
 }
 
+void ServiceHost::report_differences() {
+  const auto found =
+      thread_->quietly([this](const ServiceMember& member, Time) { return differences_->update(member); });
+  for (const ServiceDifferences::Difference& difference : found)
+    parts_.output.report(io::Level::kWarn,
+                         {.event = "service_config_differs", .session = difference.session, .text = difference.text},
+                         difference.text);
+}
+
 void ServiceHost::leave() {
   leaving_ = true;
   registry_->stop();
   list_file_->stop();
+  const ServiceStatus before = status();
+  if (before.follows && before.members == 1 && before.sessions > 0) {
+    const std::string text = format(
+        "this was the last server of the service: %zu session%s without a server now, and begin%s again from the state "
+        "in the directory when one starts",
+        before.sessions, before.sessions == 1 ? " is" : "s are", before.sessions == 1 ? "s" : "");
+    parts_.output.report(io::Level::kInfo, {.event = "service_left_last", .text = text}, text);
+  }
   if (!thread_->leave(kLeaveMax)) {
     const std::string text =
         "the directory did not confirm the end of this server; other servers begin its sessions when "

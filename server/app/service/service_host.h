@@ -15,6 +15,7 @@
 #include "server/app/service/service_locator.h"
 #include "server/app/service/service_thread.h"
 #include "server/app/service/service_ticket_uses.h"
+#include "server/service/service_differences.h"
 #include "server/service/service_news.h"
 
 namespace tandem::server {
@@ -74,6 +75,7 @@ class ServiceHost {
   void publish_load();
   void publish_lists();
   void report(const std::vector<ServiceNews::Line>& lines);
+  void report_differences();
 
   Parts parts_;
   std::string server_;
@@ -85,6 +87,7 @@ class ServiceHost {
   std::unique_ptr<ServiceLocator> locator_;
   std::unique_ptr<ServiceTicketUses> ticket_uses_;
   ServiceNews news_;
+  std::optional<ServiceDifferences> differences_;
   std::vector<Waiting> waiting_;
   std::map<std::uint64_t, SessionOrder> orders_;  ///< creations without a reply, by number
   std::uint64_t newest_order_ = 0;
