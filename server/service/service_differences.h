@@ -8,7 +8,7 @@
 
 namespace tandem::server {
 
-/// What differs between a session as a server's configuration has it and as the service runs it: duration, entry,
+/// Returns the differences of a session as a server's configuration has it and as the service runs it: duration, entry,
 /// `restart`, and the first line of the scene that differs, for users. Empty: nothing. Ids and codes do not count.
 [[nodiscard]] std::string difference_text(const ServiceSession& configured, const ServiceSession& running);
 
@@ -17,7 +17,7 @@ class ServiceDifferences {
  public:
   struct Difference {
     std::string session;
-    std::string text;  ///< what differs, what holds, and the next step
+    std::string text;  ///< the differences, the session that holds, and the next step
   };
   /// @param server      name of this server  @param configured  its sessions, by name
   ServiceDifferences(std::string server, std::map<std::string, ServiceSession> configured)

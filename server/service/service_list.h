@@ -15,7 +15,7 @@ namespace tandem::server {
 /// The sessions of a service as one of its servers knows them, for commands in the state folder of that server: they
 /// issue tickets for a session wherever it is.
 struct ServiceList {
-  /// What the directory has told this server.
+  /// Answers of the directory to this server so far.
   enum class Known : std::uint8_t {
     kNothing,  ///< it has not answered since the start
     kOld,      ///< it does not answer now

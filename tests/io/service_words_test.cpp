@@ -1,4 +1,4 @@
-// What servers of one service over etcd tell their users: real programs on loopback. Texts and results are asserted,
+// Texts of servers of one service over etcd for their users: real programs on loopback. Texts and results are asserted,
 // never durations.
 #include "proto/text/scenes_embedded.h"
 #include "tests/io/service_fixture.h"

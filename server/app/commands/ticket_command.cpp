@@ -36,7 +36,7 @@ std::vector<OpenSession> known_sessions(const std::optional<ServingSpec>& servin
   return sessions;
 }
 
-/// What the list of a service lacks, for the end of a message.
+/// Returns the part of a message about sessions that the list of a service lacks; empty: it lacks none.
 std::string gap_of(const ServiceList& service) {
   switch (service.known) {
     case ServiceList::Known::kNothing:

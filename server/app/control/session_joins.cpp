@@ -82,14 +82,7 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
     return std::visit([&](auto& reply) { answer(std::move(reply)); }, *away);
   // A console operates sessions, so it may join while the server drains.
   const bool console = request.hello.seat.empty() && !request.hello.link_test;
-  if (registry_.drain().active() && !console)
-    return answer(ErrorReply{
-        ErrorCode::kDraining,
-        redirect_.members().empty()
-            ? "this server is draining and rejects new joins; wait until it has restarted, or ask its operator"
-            : "this server is draining and rejects new joins. When it has ended, another server of the service takes "
-              "the session over, if there is one; try again in some seconds, or ask the operator",
-        10});
+  if (registry_.drain().active() && !console) return answer(redirect_.draining());
   const auto found = registry_.choose(request.hello.session);
   if (const auto* refused = std::get_if<ErrorReply>(&found))
     return answer(redirect_.refusal(request.hello.session, *refused));

@@ -57,8 +57,9 @@ std::optional<SessionRedirect::Reply> SessionRedirect::only_session(bool underst
     if (e.open()) names.push_back(e.registration.name);
   if (names.empty() && away.size() == 1) return located(away.front().session.id, understands);
   for (const auto& other : away) names.push_back(other.session.name);
-  return ErrorReply{ErrorCode::kNoSession,
-                    bounded_text("this service has several sessions: " + some_of(names) + "; choose one with --session"), 0};
+  return ErrorReply{
+      ErrorCode::kNoSession,
+      bounded_text("this service has several sessions: " + some_of(names) + "; choose one with --session"), 0};
 }
 
 ErrorReply SessionRedirect::refusal(const rpc::SessionChoice& choice, const ErrorReply& own) const {
@@ -77,10 +78,11 @@ ErrorReply SessionRedirect::refusal(const rpc::SessionChoice& choice, const Erro
   if (any) return own;  // several sessions of this server
   const std::string open = "; sessions of the service: " + some_of(names);
   if (std::holds_alternative<std::string>(choice))
-    return {ErrorCode::kCode,
-            bounded_text("no session of this service has this code (a restarted session has a new code: ask its operator)" +
-                         open),
-            0};
+    return {
+        ErrorCode::kCode,
+        bounded_text("no session of this service has this code (a restarted session has a new code: ask its operator)" +
+                     open),
+        0};
   return {ErrorCode::kNoSession, bounded_text("this service has no such session" + open), 0};
 }
 
@@ -103,6 +105,16 @@ std::optional<SessionRedirect::Reply> SessionRedirect::located(const rpc::Sessio
                                  "server's release, or enrol there and use --server " +
                                  at.address),
                     0};
+}
+
+ErrorReply SessionRedirect::draining() const {
+  constexpr std::uint32_t kDrainAgainS = 10;
+  return {ErrorCode::kDraining,
+          locator_ == nullptr
+              ? "this server is draining and rejects new joins; wait until it has restarted, or ask its operator"
+              : "this server is draining and rejects new joins. When it has ended, another server of the service takes "
+                "the session over, if there is one; try again in some seconds, or ask the operator",
+          kDrainAgainS};
 }
 
 std::vector<SessionLocator::Elsewhere> SessionRedirect::others() const {

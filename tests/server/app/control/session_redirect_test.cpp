@@ -108,9 +108,9 @@ TEST(SessionRedirect, RefusesUnknownSessionsWithThoseOfTheService) {
     return r.redirect.refusal(choice, error_of(r.registry.choose(choice)));
   };
   r.locator.others = {other("exam", 2)};
-  EXPECT_EQ(refused(id_of(3)), (rpc::ErrorReply{ErrorCode::kNoSession,
-                                                "this service has no such session; sessions of the service: lesson, exam",
-                                                0}));
+  EXPECT_EQ(refused(id_of(3)),
+            (rpc::ErrorReply{ErrorCode::kNoSession,
+                             "this service has no such session; sessions of the service: lesson, exam", 0}));
   r.registry.remove(id_of(1), [] {});
   r.wait_until([&] { return r.registry.entries().empty(); });
   const rpc::ErrorReply code = refused("ZZZZZ12345");
@@ -128,6 +128,8 @@ TEST(SessionRedirect, RefusesUnknownSessionsWithThoseOfTheService) {
   const rpc::ErrorReply own{ErrorCode::kNoSession, "no session is open on this server", 0};
   EXPECT_EQ(alone.refusal(std::monostate{}, own), own);
   EXPECT_EQ(r.redirect.refusal(id_of(3), {ErrorCode::kSessionOver, "over", 0}).text, "over");
+  EXPECT_NE(r.redirect.draining().text.find("another server of the service"), std::string::npos);
+  EXPECT_NE(alone.draining().text.find("until it has restarted"), std::string::npos);
 }
 
 TEST(SessionRedirect, ListsTheWholeServiceInPagesAndSaysWhenItIsOld) {
