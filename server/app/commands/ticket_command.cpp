@@ -126,7 +126,8 @@ int ticket_command(const TicketArguments& arguments) {
   const WorkstationRow* const workstation = auth::find_workstation(*book, arguments.workstation);
   if (workstation == nullptr)
     errors.add("--workstation: " + unknown_workstation_text(arguments.workstation, *book, state->folder()->path()));
-  const auto service = read_service_list(*state->folder());
+  std::expected<std::optional<ServiceList>, std::string> service;
+  if (*serving) service = read_service_list(*state->folder());
   if (!service) return print_error("ticket", service.error());
   const auto session = find_session(arguments.session, *serving, *service);
   std::optional<AccessRole> role;

@@ -60,7 +60,7 @@ std::expected<std::optional<ServiceList>, std::string> read_service_list(const a
     return std::unexpected(folder.path_of(kListFile) +
                            ": is no list of the sessions of a service; delete the file, the running server writes "
                            "another when the sessions of the service change");
-  return std::optional(std::move(*list));
+  return list;
 }
 
 }  // namespace tandem::server
