@@ -41,7 +41,7 @@ TEST(Recordings, AreExportedForNoOtherUser) {
   const Folder folder;
   ASSERT_TRUE(record(folder, "a"));
   for (const std::string format : {"csv", "hdf5"}) {
-    const std::string to = folder.file("a." + format);
+    const std::string to = folder.file("out." + format);
     Process out({"/bin/sh", "-c",
                  "umask 000; exec '" + std::string(TANDEM_SERVER) + "' recordings export '" + folder.file("a.mcap") +
                      "' --to '" + to + "' --format " + format});

@@ -60,7 +60,8 @@ TEST_F(ServiceWords, TicketsOfOneServerAdmitAtTheOwnerOfTheSession) {
   EXPECT_TRUE(joined.wait_for("seat trainee at " + address_of(service.of("a")))) << joined.err();
   Process twice = client(address_of(b), "trainee", {"--ticket-file", ticket, "--state", own});
   EXPECT_NE(twice.wait(), 0) << "a ticket admits once";
-  Process wrong = server({"ticket", "--session", "lab", "--seat", "trainr", "--workstation", "desk", "--state", state});
+  Process wrong =
+      server({"ticket", "--session", "lab", "--seat", "traineee", "--workstation", "desk", "--state", state});
   EXPECT_EQ(wrong.wait(), 2);
   EXPECT_TRUE(contains(wrong.err(), "did you mean trainee")) << wrong.err();
   const std::string table = wait_for_output({"servers", "--config", config}, " s left");
