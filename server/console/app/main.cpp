@@ -52,7 +52,7 @@ int complain(const std::string& text) {
 std::string recordings_problem(const std::string& folder) {
   if (folder.empty()) return {};
   if (std::error_code error; !std::filesystem::is_directory(folder, error))
-    return "\"" + folder + "\" is no folder" + (error ? ": " + error.message() : std::string()) +
+    return folder + " is no folder" + (error ? ": " + error.message() : std::string()) +
            "; name the folder into which tandem-server records (`run --record`, `record` in a configuration)";
   const auto index = server::RecordingIndex::open(folder);
   return index ? std::string{} : index.error();
