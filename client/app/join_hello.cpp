@@ -27,11 +27,21 @@ std::expected<rpc::ListedSession, JoinError> find_session(ServerConnection& serv
     if (s.name == options.session || (is_id ? s.id == id : only)) found = &s;
   }
   if (found != nullptr) return *found;
-  if (list->sessions.empty())
-    return join_failure("no session is open at " + io::to_text(server.address()) + "; start " + server.start_command());
+  const std::string at = io::to_text(server.address());
+  if (list->sessions.empty() && list->old)
+    return join_failure("no session is known at " + at +
+                        ": this server of the service serves none, and does not reach the directory of the service; "
+                        "try again in some seconds, or use the address of another server of the service");
+  if (list->sessions.empty() && server.service())
+    return join_failure("no session is open in the service of " + at +
+                        "; ask its operator for one, or create one: `tandem-client control create`");
+  if (list->sessions.empty()) return join_failure("no session is open at " + at + "; start " + server.start_command());
   return join_failure(options.session.empty()
                           ? "several sessions are open there: " + names + "; say which with --session"
-                          : "--session " + options.session + ": no such session there; open: " + names);
+                          : "--session " + options.session + ": no such session there; open: " + names +
+                                (list->old ? ". Newer sessions of other servers are not known: that server does not "
+                                             "reach the directory of its service"
+                                           : ""));
 }
 
 /// Signs a ticket with the server's ticket key, which only the server's own user on the same computer can read.

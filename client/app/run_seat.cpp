@@ -69,7 +69,6 @@ hal::DeviceCaps known_caps(const hal::DeviceCaps& opened) {
 
 int run_seat(const SeatOptions& plan) {
   const io::Fd signals = io::make_signalfd();
-  const std::string server = io::to_text(plan.join.server);
   io::StatusLine line{plan.quiet};
   // Hardware is opened before the join, because homing takes the user's time and must not reserve a seat meanwhile.
   std::unique_ptr<HardwareDevice> held;
@@ -87,6 +86,7 @@ int run_seat(const SeatOptions& plan) {
   if (!given) return not_attached(plan, given.error().reason);
   auto socket = io::connect_udp(given->udp);
   if (!socket) return trouble("--server: " + socket.error());
+  const std::string server = io::to_text(given->udp);  // of several addresses the one that answered
   const SeatSetup& setup = given->setup;
 
   const auto refuse = [&](const std::string& why, int code) {

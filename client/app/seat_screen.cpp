@@ -55,7 +55,8 @@ std::string own_reason(const ClientStatus& s) {
 
 io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
   const std::string name = setup.seat.name + " ";
-  if (s.reconnecting && s.closed) return {name + "the server restarts: reconnecting", name + "reconnecting"};
+  if (s.reconnecting && s.closed)
+    return {name + "the server ended or gave the session away: reconnecting", name + "reconnecting"};
   if (s.reconnecting)
     return {name + format("SERVER SILENT for %.0f s: reconnecting", s.silence_s), name + "SERVER SILENT: reconnecting"};
   if (s.closed) return {name + "closed", ""};

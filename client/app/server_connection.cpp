@@ -71,7 +71,7 @@ std::expected<void, JoinError> ServerConnection::connect() {
   const Duration each =
       several ? std::clamp(options_.timeout / static_cast<int>(addresses.size()), Duration{kTryMin}, Duration{kTryMax})
               : options_.timeout;
-  const Time until = io::monotonic_now() + options_.timeout;
+  const Time until = until_ = io::monotonic_now() + options_.timeout;
   std::vector<auth::ClientError> failures(addresses.size());
   while (true) {
     bool again = false;
@@ -120,6 +120,7 @@ std::expected<void, ResumeError> ServerConnection::connect_to(const ResumeState&
       return std::unexpected(std::string("this server is not the one that gave this seat"));
     return identity;
   };
+  until_ = io::monotonic_now() + options_.timeout;
   if (auto connected = connect_once(at, judge, options_.timeout); !connected)
     return std::unexpected(ResumeError{.kind = connected.error().kind == Kind::kInterrupted
                                                    ? ResumeError::Kind::kInterrupted
@@ -156,7 +157,7 @@ std::expected<void, JoinError> ServerConnection::follow(const rpc::Elsewhere& to
   };
   std::string why;
   for (const io::SocketAddress& at : addresses) {
-    const auto connected = connect_once(at, judge, options_.timeout);
+    const auto connected = connect_once(at, judge, answer_time(io::monotonic_now(), until_, options_.timeout));
     if (connected) return {};
     if (connected.error().kind == Kind::kInterrupted) return std::unexpected(interrupted(options_));
     why += (why.empty() ? "" : "; ") + connected.error().text;
@@ -170,8 +171,10 @@ void ServerConnection::remember(const std::vector<std::string>& members) const {
 }
 
 std::expected<rpc::Body, JoinError> ServerConnection::ask(const rpc::Body& request) {
-  auto reply = client_->ask(request, std::chrono::duration_cast<milliseconds>(options_.timeout));
+  auto reply = client_->ask(
+      request, std::chrono::ceil<milliseconds>(answer_time(io::monotonic_now(), until_, options_.timeout)));
   if (!reply) return std::unexpected(to_join_error(reply.error(), address_));
+  until_ = io::monotonic_now() + options_.timeout;
   return std::move(*reply);
 }
 

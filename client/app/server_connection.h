@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <expected>
 #include <memory>
 #include <optional>
@@ -18,7 +20,8 @@ namespace tandem::client {
 }
 
 /// Control connection from a client to the server of its options, before it becomes that of a seat or console: keys,
-/// connect, requests. All calls block, at most for the timeout of the options. Errors name cause and remedy.
+/// connect, requests. A server that does not answer is waited for at most for the timeout of the options, from the
+/// begin of the connect or from its last answer on. Errors name cause and remedy.
 class ServerConnection {
  public:
   /// @param options  must outlive this object
@@ -73,6 +76,12 @@ class ServerConnection {
   /// Returns the instruction that starts a server at the address of the options.
   [[nodiscard]] std::string start_command() const;
 
+  /// Time to wait for an answer: connect and reply together take at most the timeout, and 1 s more for a server that
+  /// has accepted late. @param until  begin of the connect, or the last answer, and the timeout
+  [[nodiscard]] static Duration answer_time(Time now, Time until, Duration timeout) noexcept {
+    return std::max(std::min(timeout, Duration{std::chrono::seconds(1)}), until - now);
+  }
+
   static constexpr int kHopsMax = 4;
   static constexpr const char* kUnexpectedReply = "unexpected reply from the server; use the same release on both";
 
@@ -87,6 +96,7 @@ class ServerConnection {
   const JoinOptions& options_;
   io::SocketAddress address_ = options_.server;
   int hops_ = 0;
+  Time until_{};                ///< end of the wait for the next answer
   std::uint64_t revision_ = 0;  ///< largest that a server has named
   std::optional<auth::IdentitySelector> keys_;
   std::optional<auth::ControlClient> client_;

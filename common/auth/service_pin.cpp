@@ -87,10 +87,15 @@ std::string to_text(const VoucherError& error) {
       return whose + " is of another version of Tandem; use the same release on both";
     case VoucherCheck::kService:
       return whose +
-             " is of another service than the one that enrolled this workstation; use the address of a server of "
-             "this service, or enrol at the other one";
+             " is signed with a key that this workstation does not know for its service: the server is of another "
+             "service, or its service has rotated its key and this server has no member file of the new key yet. Use "
+             "the address of another server of this service; after a rotation, its administrator runs `tandem-server "
+             "service vouch` and `join` for this server; to use another service, enrol there";
     case VoucherCheck::kReplaced:
-      return whose + " is signed with a key that the service has replaced; " + kNewVoucher;
+      return whose +
+             " is signed with the key of before the last `tandem-server service rotate`, and the time for which that "
+             "key stayed valid (--grace-days) is over. Use the address of another server of the service; " +
+             kNewVoucher;
     case VoucherCheck::kSignature:
       return whose + " was changed after it was signed; " + kNewVoucher;
     case VoucherCheck::kContent:
@@ -173,6 +178,14 @@ std::expected<ServicePin, std::string> first_pin(std::span<const std::byte> cred
   const ServicePin pin{shown->service_key, {}, 0};
   if (const auto voucher = check_voucher(shown->voucher, pin, server, now); !voucher)
     return std::unexpected(to_text(voucher.error()));
+  // The other servers may have vouchers of the key before.
+  for (const auto& change : shown->key_changes) {
+    const auto statement = rpc::decode_service_statement(change);
+    const auto content = statement ? rpc::decode_key_change_content(statement->content) : std::nullopt;
+    if (!content || content->new_key != pin.key) continue;
+    const ServicePin followed = follow_key_changes({content->old_key, {}, 0}, std::span(&change, 1));
+    if (followed.key == pin.key) return followed;
+  }
   return pin;
 }
 

@@ -52,7 +52,7 @@ struct KeyChange {
 enum class VoucherCheck : std::uint8_t {
   kFormat,  ///< not the encoding of a statement
   kVersion,
-  kService,   ///< signed with a key of another service
+  kService,   ///< signed with a key of another service, or with one that this service replaced before the last one
   kReplaced,  ///< signed with a key of this service that is no longer valid
   kSignature,
   kContent,  ///< signed, but no voucher, or a field is out of range
@@ -95,7 +95,8 @@ struct AcceptedMember {
                                                                             std::int64_t now);
 /// Whether two pins are of one service, before and after a change of its key.
 [[nodiscard]] bool same_service(const ServicePin& a, const ServicePin& b) noexcept;
-/// Returns the pin of the service to which a server belongs that the client trusts already by its own key.
+/// Returns the pin of the service to which a server belongs that the client trusts already by its own key. It has the
+/// key before the last change, for servers that have no voucher of the new key yet.
 /// @return the reason if the credential does not vouch for that server
 [[nodiscard]] std::expected<ServicePin, std::string> first_pin(std::span<const std::byte> credential,
                                                                const KeyFingerprint& server, std::int64_t now);

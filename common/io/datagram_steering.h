@@ -15,6 +15,7 @@ struct Steering {
   std::size_t byte = 0;
   std::size_t sockets = 1;                    ///< 1 ... kSocketsMax
   std::array<std::uint8_t, 256> socket_of{};  ///< below `sockets`; datagrams that are too short go to socket 0
+  bool grows = false;                         ///< further sockets may be bound later (`bind_udp_beside`)
 };
 
 /// The kernel's program of a Steering. It searches the value by halving, so a datagram takes at most 9 comparisons

@@ -68,6 +68,7 @@ class Filling {
   void line(std::string_view line, std::string_view next) {
     if (trimmed(line).empty()) {
       flush();
+      column_ = kMissing;
       out_ += '\n';
     } else if (line.front() == ' ') {
       indented(line);
@@ -87,8 +88,11 @@ class Filling {
  private:
   void indented(std::string_view line) {
     const std::size_t indent = indent_of(line);
-    const bool continues = row_ && indent > indent_ && (hang_ == kMissing || indent >= hang_ || command_);
+    // The second column of a row with a long first one may begin further right than that of the rows before.
+    const std::size_t column = std::min(hang_, column_);
+    const bool continues = row_ && indent > indent_ && (hang_ == kMissing || indent >= column || command_);
     if (continues) return add(trimmed(line));
+    column_ = hang_ == kMissing ? column_ : hang_;
     flush();
     row_ = true;
     indent_ = indent;
@@ -131,6 +135,7 @@ class Filling {
   std::string out_, text_, left_;
   bool row_ = false, command_ = false;
   std::size_t indent_ = 0, hang_ = kMissing;
+  std::size_t column_ = kMissing;  ///< second column of the row before
 };
 
 }  // namespace

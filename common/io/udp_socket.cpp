@@ -36,6 +36,18 @@ SocketAddress local_address(int fd) {
 
 Fd open_udp(int family) { return Fd{::socket(family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)}; }
 
+/// Binds a socket that shares its address and port with others of this process.
+std::expected<UdpSocket, std::string> bind_shared(const SocketAddress& at) {
+  UdpSocket socket{open_udp(at.family()), {}};
+  const int yes = 1;
+  if (!socket.fd.open() || ::setsockopt(socket.fd.get(), SOL_SOCKET, SO_REUSEPORT, &yes, sizeof yes) != 0 ||
+      ::bind(socket.fd.get(), at.get(), at.size) != 0)
+    return std::unexpected(bind_problem(at, errno));
+  ReceiveBatch::prepare(socket.fd.get(), at.family(), false);
+  socket.local = local_address(socket.fd.get());
+  return socket;
+}
+
 }  // namespace
 
 std::expected<UdpSocket, std::string> bind_udp(const SocketAddress& at, bool local_wanted) {
@@ -49,7 +61,7 @@ std::expected<UdpSocket, std::string> bind_udp(const SocketAddress& at, bool loc
 
 std::expected<std::vector<UdpSocket>, std::string> bind_udp_steered(const SocketAddress& at, const Steering& steering) {
   std::vector<UdpSocket> sockets;
-  if (steering.sockets == 1) {
+  if (steering.sockets == 1 && !steering.grows) {
     auto one = bind_udp(at);
     if (!one) return std::unexpected(one.error());
     sockets.push_back(std::move(*one));
@@ -63,17 +75,16 @@ std::expected<std::vector<UdpSocket>, std::string> bind_udp_steered(const Socket
   probe->fd = Fd{};
   const SteeringProgram program{steering};
   for (std::size_t i = 0; i < steering.sockets; ++i) {
-    UdpSocket socket{open_udp(at.family()), {}};
-    const int yes = 1;
-    if (!socket.fd.open() || ::setsockopt(socket.fd.get(), SOL_SOCKET, SO_REUSEPORT, &yes, sizeof yes) != 0 ||
-        ::bind(socket.fd.get(), where.get(), where.size) != 0 || (i == 0 && !program.attach(socket.fd.get())))
-      return std::unexpected(bind_problem(where, errno));
-    ReceiveBatch::prepare(socket.fd.get(), at.family(), false);
-    socket.local = where = local_address(socket.fd.get());
-    sockets.push_back(std::move(socket));
+    auto socket = bind_shared(where);
+    if (!socket) return std::unexpected(socket.error());
+    if (i == 0 && !program.attach(socket->fd.get())) return std::unexpected(bind_problem(where, errno));
+    where = socket->local;
+    sockets.push_back(std::move(*socket));
   }
   return sockets;
 }
+
+std::expected<UdpSocket, std::string> bind_udp_beside(const UdpSocket& socket) { return bind_shared(socket.local); }
 
 std::expected<UdpSocket, std::string> connect_udp(const SocketAddress& to) {
   UdpSocket socket{open_udp(to.family()), {}};

@@ -23,10 +23,15 @@ struct UdpSocket {
 
 /// Binds several sockets to one address and port, so that each thread has its own while firewalls and proxies see one
 /// port. The kernel distributes datagrams (SO_ATTACH_REUSEPORT_CBPF) without copying. A single socket is bound as by
-/// `bind_udp`.
+/// `bind_udp`, unless others may follow.
 /// @param at  port 0: a free one, the same for all  @return the sockets in order, or the error
 [[nodiscard]] std::expected<std::vector<UdpSocket>, std::string> bind_udp_steered(const SocketAddress& at,
                                                                                   const Steering& steering);
+
+/// Binds one more socket to the address and port of steered ones, after them in their order. It gets no datagram until
+/// the kernel's program names it.
+/// @param socket  one of the sockets that a Steering with `grows` or several sockets made
+[[nodiscard]] std::expected<UdpSocket, std::string> bind_udp_beside(const UdpSocket& socket);
 
 /// Opens a socket for one peer only: it never receives datagrams of others, and the system reports if no process
 /// listens at the peer.

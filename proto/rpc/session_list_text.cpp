@@ -22,7 +22,10 @@ std::string role_of(const rpc::ListedSeat& seat) { return std::string(to_text(se
 }  // namespace
 
 std::string session_list_text(const rpc::SessionList& list, const std::vector<std::string>& codes) {
-  if (list.sessions.empty()) return "no session is open\n";
+  if (list.sessions.empty())
+    return list.old ? "no session is known: this server serves none, and does not reach the directory of its service; "
+                      "ask again in some seconds, or another server of the service\n"
+                    : "no session is open\n";
   std::string text;
   for (std::size_t i = 0; i < list.sessions.size(); ++i) {
     const rpc::ListedSession& s = list.sessions[i];

@@ -14,17 +14,6 @@ std::string folder_of(const std::string& file) {
   return slash == std::string::npos ? std::string() : file.substr(0, slash);
 }
 
-/// Orders the rows of a group and finds what is missing.
-void order_group(const std::vector<RecordingRow>& rows, RecordingGroup& group) {
-  std::ranges::stable_sort(group.rows, {}, [&](std::size_t k) { return rows[k].summary.part.number; });
-  std::vector<RecordedPart> parts;
-  for (const std::size_t k : group.rows) {
-    parts.push_back(rows[k].summary.part);
-    parts.back().file = rows[k].file;
-  }
-  group.problem = order_parts(parts);
-}
-
 /// Whether the part behind the last one is being written. The name of part N is that of part 1 with -N.
 bool grows(const std::vector<RecordingRow>& rows, const RecordingGroup& group,
            const std::vector<std::string>& unfinished) {
@@ -37,15 +26,30 @@ bool grows(const std::vector<RecordingRow>& rows, const RecordingGroup& group,
   return std::ranges::find(unfinished, next) != unfinished.end();
 }
 
+/// Orders the rows of a group and finds what is missing.
+void order_group(const std::vector<RecordingRow>& rows, const std::vector<std::string>& unfinished,
+                 RecordingGroup& group) {
+  std::ranges::stable_sort(group.rows, {}, [&](std::size_t k) { return rows[k].summary.part.number; });
+  std::vector<RecordedPart> parts;
+  for (const std::size_t k : group.rows) {
+    parts.push_back(rows[k].summary.part);
+    parts.back().file = rows[k].file;
+  }
+  group.grows = grows(rows, group, unfinished);
+  if (group.grows) parts.back().last.reset();
+  group.problem = order_parts(parts);
+}
+
 }  // namespace
 
-std::vector<RecordingGroup> group_recordings(const std::vector<RecordingRow>& rows) {
+std::vector<RecordingGroup> group_recordings(const std::vector<RecordingRow>& rows,
+                                             const std::vector<std::string>& unfinished) {
   std::vector<RecordingGroup> groups;
   std::map<std::tuple<std::string, std::string, std::string, std::string>, std::vector<std::size_t>> known;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const RecordedPart& part = rows[k].summary.part;
     if (!rows[k].readable() || part.recording.empty()) {
-      groups.push_back({{k}, {}});
+      groups.push_back({.rows = {k}, .problem = {}});
       continue;
     }
     std::vector<std::size_t>& copies = known[{folder_of(rows[k].file), part.session_id, part.epoch, part.recording}];
@@ -57,11 +61,11 @@ std::vector<RecordingGroup> group_recordings(const std::vector<RecordingRow>& ro
       groups[*place].rows.push_back(k);
     } else {
       copies.push_back(groups.size());
-      groups.push_back({{k}, {}});
+      groups.push_back({.rows = {k}, .problem = {}});
     }
   }
   for (const auto& [key, copies] : known)
-    for (const std::size_t copy : copies) order_group(rows, groups[copy]);
+    for (const std::size_t copy : copies) order_group(rows, unfinished, groups[copy]);
   return groups;
 }
 
@@ -90,7 +94,7 @@ RecordingRow joined_row(const std::vector<RecordingRow>& rows, const RecordingGr
 std::vector<std::size_t> files_beyond_limits(const std::vector<RecordingRow>& rows,
                                              const std::vector<std::string>& unfinished, const RetentionLimits& limits,
                                              std::int64_t now_ns) {
-  const std::vector<RecordingGroup> groups = group_recordings(rows);
+  const std::vector<RecordingGroup> groups = group_recordings(rows, unfinished);
   std::vector<RecordingRow> recordings;
   for (const RecordingGroup& group : groups) {
     recordings.push_back(joined_row(rows, group));

@@ -11,12 +11,15 @@ namespace tandem::server {
 /// The files of one recording.
 struct RecordingGroup {
   std::vector<std::size_t> rows;  ///< indices, in the order of the parts; at least one
-  std::string problem;            ///< which part is missing; empty: they are the whole recording
+  std::string problem;            ///< which part is missing; empty: they are the whole recording so far
+  bool grows = false;             ///< the part behind the last one has no end yet
 };
 
 /// Returns the recordings of a folder, in the order of their first files. Files of one recording lie in one folder. A
 /// file that cannot be read, or whose recording has one file, is alone. Copies of a part belong to another recording.
-[[nodiscard]] std::vector<RecordingGroup> group_recordings(const std::vector<RecordingRow>& rows);
+/// @param unfinished  files NAME.mcap.part, with their folders as in `rows`: such a next part is not missing
+[[nodiscard]] std::vector<RecordingGroup> group_recordings(const std::vector<RecordingRow>& rows,
+                                                           const std::vector<std::string>& unfinished = {});
 
 /// Returns what the index knows of a recording as if it had one file. Its `file` is that of the first row, its
 /// `modified_ns` that of the last one. It is complete if every file is and no part is missing.

@@ -67,7 +67,8 @@ nlohmann::ordered_json row_json(const RecordingRow& row) {
 
 }  // namespace
 
-std::string recordings_text(const std::vector<RecordingRow>& rows, bool whole_folder) {
+std::string recordings_text(const std::vector<RecordingRow>& rows, bool whole_folder,
+                            const std::vector<std::string>& unfinished) {
   std::size_t width = 4, names = 7;
   for (const RecordingRow& row : rows) {
     width = std::max(width, sanitize(row.file).size());
@@ -79,8 +80,10 @@ std::string recordings_text(const std::vector<RecordingRow>& rows, bool whole_fo
   std::size_t readable = 0;
   std::size_t recordings = 0;
   std::string incomplete;
-  for (const RecordingGroup& group : group_recordings(rows)) {
+  for (const RecordingGroup& group : group_recordings(rows, unfinished)) {
     if (whole_folder && !group.problem.empty()) incomplete += sanitize(group.problem) + "\n";
+    if (whole_folder && group.grows)
+      incomplete += sanitize(rows[group.rows.back()].file) + ": the next part of this recording is not closed yet\n";
     if (rows[group.rows.front()].readable()) ++recordings;
     for (const std::size_t k : group.rows) {
       const RecordingRow& row = rows[k];

@@ -10,7 +10,9 @@ namespace tandem::server {
 /// Returns a table for users: file, begin, duration, size, session, persons; then the files that cannot be read. The
 /// files of a long recording stand together. Names are shown safely on a terminal.
 /// @param whole_folder  the rows are all of the folder, so that missing parts of recordings are named
-[[nodiscard]] std::string recordings_text(const std::vector<RecordingRow>& rows, bool whole_folder = true);
+/// @param unfinished    files NAME.mcap.part of the folder
+[[nodiscard]] std::string recordings_text(const std::vector<RecordingRow>& rows, bool whole_folder = true,
+                                          const std::vector<std::string>& unfinished = {});
 /// Returns all that the index knows of one file, one value per line.
 /// @param files    of its recording, in their order; empty or one: it has one
 /// @param problem  why they are not the whole recording; empty: they are

@@ -41,6 +41,10 @@ struct Grant {
 struct Renew {
   LeaseId lease = 0;
 };
+/// Asks for the time for which a lease still holds, without extending it.
+struct Remaining {
+  LeaseId lease = 0;
+};
 /// Ends a lease and erases its keys.
 struct Revoke {
   LeaseId lease = 0;
@@ -83,7 +87,7 @@ struct Watch {
 struct Compact {
   Revision until = 0;
 };
-using Request = std::variant<Grant, Renew, Revoke, Transaction, Watch, Compact>;
+using Request = std::variant<Grant, Renew, Remaining, Revoke, Transaction, Watch, Compact>;
 
 enum class Outcome : std::uint8_t {
   kDone,
@@ -100,7 +104,8 @@ struct Reply {
   Revision revision = 0;   ///< of the store after the request
   std::uint64_t term = 0;  ///< number of elections that the answering member of the store knows of
   LeaseId lease = 0;       ///< Grant: the new lease
-  Duration ttl{};          ///< Grant, Renew: time for which the lease holds from the moment of execution
+  Duration ttl{};          ///< Grant, Renew, Remaining: time for which the lease holds from the moment of execution;
+                           ///< Remaining: whole seconds, rounded down
   bool held = false;       ///< Transaction: all conditions held
   std::vector<std::vector<KeyValue>> found;  ///< Transaction: entries of each Read of the executed branch
   std::vector<Change> changes;               ///< Watch

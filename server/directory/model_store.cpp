@@ -41,6 +41,7 @@ void ModelStore::advance(Time now) {
 Reply ModelStore::execute(OperationId operation, const Request& request) {
   return std::visit(Visit{[&](const Grant& wanted) { return grant(operation, wanted); },
                           [&](const Renew& wanted) { return renew(operation, wanted.lease); },
+                          [&](const Remaining& wanted) { return remaining(operation, wanted.lease); },
                           [&](const Revoke& wanted) {
                             const auto lease = leases_.find(wanted.lease);
                             if (lease == leases_.end()) return answer(operation, Outcome::kNoLease);
@@ -79,6 +80,14 @@ Reply ModelStore::renew(OperationId operation, LeaseId id) {
   lease->second.end = now_ + lease->second.ttl;
   Reply reply = answer(operation);
   reply.ttl = lease->second.ttl;
+  return reply;
+}
+
+Reply ModelStore::remaining(OperationId operation, LeaseId id) const {
+  const auto lease = leases_.find(id);
+  if (lease == leases_.end()) return answer(operation, Outcome::kNoLease);
+  Reply reply = answer(operation);
+  reply.ttl = std::chrono::floor<std::chrono::seconds>(lease->second.end - now_);
   return reply;
 }
 

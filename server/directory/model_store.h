@@ -56,6 +56,7 @@ class ModelStore {
   [[nodiscard]] Reply answer(OperationId operation, Outcome outcome = Outcome::kDone) const;
   [[nodiscard]] Reply grant(OperationId operation, const Grant& wanted);
   [[nodiscard]] Reply renew(OperationId operation, LeaseId lease);
+  [[nodiscard]] Reply remaining(OperationId operation, LeaseId lease) const;
   [[nodiscard]] Reply run(OperationId operation, const Transaction& transaction);
   [[nodiscard]] Reply watch(OperationId operation, const Watch& wanted);
   [[nodiscard]] Reply compact(OperationId operation, Revision until);

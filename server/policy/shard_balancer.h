@@ -40,7 +40,7 @@ class ShardBalancer {
   static constexpr Duration kStrainedFor = std::chrono::seconds(2), kBetweenMoves = std::chrono::seconds(3),
                             kRest = std::chrono::minutes(1);
 
-  /// @param shards    always the same number, in the same order
+  /// @param shards    always in the same order; more may be added at the end
   /// @param sessions  slots below rpc::kSessionsMax; another session in a slot inherits the rest of the former one
   /// @return the move to execute now; nullopt: none
   [[nodiscard]] std::optional<SessionMove> step(Time now, std::span<const ShardView> shards,

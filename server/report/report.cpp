@@ -76,6 +76,7 @@ void ReportBuilder::add(const TickRecord& record) {
   const std::uint32_t stands_for = ticks_ > 0 && record.tick > newest_ ? record.tick - newest_ : 1;
   newest_ = record.tick;
   ticks_ += stands_for;
+  unleased_ticks_ += record.unleased ? stands_for : 0;
   track_stops(record);
   while (record.tick / stride_ >= slots_max_) decimate();
   const auto settled = [&](std::uint32_t& since, bool on) {
@@ -95,7 +96,7 @@ void ReportBuilder::add(const TickRecord& record) {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     const ToolRecord& t = record.tools[j];
     mfs_[j] = t.mfs_j;
-    held_ticks_[j] += t.held ? stands_for : 0;
+    held_ticks_[j] += t.held && !record.unleased ? stands_for : 0;
     const bool usable = settled(held_since_[j], !t.held);
     store_sample(tools_[j], t.sample_tick,
                  {single(t.x), single(t.f_env), single(t.f_cmd), single({t.q[0], t.q[1], t.q[2]}), true, usable, 0});
@@ -152,6 +153,7 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
   r.scenario = scene_->name;
   r.duration_s = static_cast<double>(ticks_) / scene_->tick_hz;
   r.stopped_s = static_cast<double>(stopped_total_) / scene_->tick_hz;
+  r.unleased_s = static_cast<double>(unleased_ticks_) / scene_->tick_hz;
   std::vector<Track> seats, tools;
   for (const auto& t : seats_) seats.push_back(fill_gaps(t));
   for (const auto& t : tools_) tools.push_back(fill_gaps(t));

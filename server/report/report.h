@@ -61,7 +61,7 @@ struct ToolReport {
   std::string name;                ///< name in the scene
   double contact_force_rms_n = 0,  ///< contact force of the slave, RMS [N]
       penetration_max_m = 0;       ///< its deepest penetration [m]
-  double held_s = 0;               ///< time without an authorised seat: the tool was braked [s]
+  double held_s = 0;               ///< time without an authorised seat: the tool was braked [s]; without `unleased_s`
 };
 /// Results of one phase of the scene.
 struct PhaseReport {
@@ -76,6 +76,7 @@ struct RunReport {
   std::uint64_t seed = 0;  ///< seed of the run
   double duration_s = 0;   ///< of the session clock
   double stopped_s = 0;    ///< time in which the session was stopped and its clock did not advance; not in `duration_s`
+  double unleased_s = 0;   ///< time in which the directory of the service did not answer, so no hand was engaged
   double judged_s = 0;     ///< session time in which the metrics of at least one MASTER seat were evaluated
   bool moved = false;      ///< a hand moved by more than ReportBuilder::kMoved while its seat was engaged
   std::vector<Violation> violations;  ///< violated invariants
@@ -173,7 +174,7 @@ class ReportBuilder {
   std::vector<std::uint32_t> engaged_since_, held_since_;
   std::vector<SeatRecord> last_;
   std::vector<double> mfs_;
-  std::uint64_t ticks_ = 0, dropped_ticks_ = 0, stopped_ticks_ = 0,
+  std::uint64_t ticks_ = 0, dropped_ticks_ = 0, stopped_ticks_ = 0, unleased_ticks_ = 0,
                 stopped_total_ = 0;  ///< stopped_ticks_: of the previous record; stopped_total_: sum
   std::uint32_t newest_ = 0;         ///< tick of the previous record
   std::vector<std::size_t> slips_;   ///< ticks at which session time did not advance

@@ -121,6 +121,7 @@ std::string to_json(const RunReport& r, int indent) {
          {"tools", std::move(tools)},
          {"phases", std::move(phases)},
          {"outside_phases", r.outside ? Json{{"seats", seats_of(*r.outside, r)}} : Json(nullptr)}};
+  if (r.unleased_s > 0) j["unleased_s"] = number(r.unleased_s);
   if (!r.feel.empty()) {
     j["feel"] = Json::object();
     for (const auto& [key, value] : r.feel) j["feel"][key] = number(value);

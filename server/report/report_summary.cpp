@@ -111,6 +111,11 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
           "  %s: braked (HELD) for %.1f s: no seat with authority over it, or not its own slave, was connected; no "
           "hand was guided\n",
           scene.tools[j].name.c_str(), r.tools[j].held_s);
+  if (r.unleased_s > 0)
+    out += format(
+        "  HELD for %.1f s: the directory of the service (etcd) did not answer in time, so another server might have "
+        "owned the session; no hand was engaged\n",
+        r.unleased_s);
   if (r.stopped_s > 0)
     out += format("  the session was stopped for %.1f s, in which its clock did not advance\n", r.stopped_s);
   if (r.duration_s <= 0) {

@@ -41,6 +41,8 @@ struct TickRecord {
   std::uint32_t tick = 0;    ///< session tick
   std::int64_t time_ns = 0;  ///< server's monotonic clock at this tick, since its first tick [ns]
   bool running = false;
+  bool every_tick = true;  ///< a trace or recording wants each tick; false: the records before and after may be missing
+  bool unleased = false;   ///< the directory of the service did not answer in time, so no hand was engaged
   std::uint64_t stopped_ticks = 0;  ///< ticks so far in which the session was stopped and its clock did not advance
   std::uint64_t dropped_ticks = 0;  ///< dropped ticks so far: session time did not advance while hands moved
   std::array<SeatRecord, kSeatsMax> seats{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <vector>
 
 #include "common/base/format.h"
@@ -13,7 +14,7 @@ namespace tandem::server {
 
 namespace {
 
-using Row = std::array<std::string, 7>;
+using Row = std::array<std::string, 9>;
 
 /// Date of a time in seconds since 1970, UTC, by the proleptic Gregorian calendar. Source: Howard Hinnant,
 /// "chrono-Compatible Low-Level Date Algorithms", civil_from_days.
@@ -52,29 +53,69 @@ std::string lines_of(const std::vector<Row>& rows) {
   return text;
 }
 
+/// Numbers of a version such as 1.2.10.
+std::vector<unsigned long> numbers_in(const std::string& version) {
+  std::vector<unsigned long> numbers;
+  for (std::size_t at = 0; at < version.size() && numbers.size() < 8;) {
+    const std::size_t begin = version.find_first_of("0123456789", at);
+    if (begin == std::string::npos) break;
+    const std::size_t end = std::min(version.find_first_not_of("0123456789", begin), version.size());
+    unsigned long number = 0;
+    static_cast<void>(std::from_chars(version.data() + begin, version.data() + end, number));
+    numbers.push_back(number);
+    at = end;
+  }
+  return numbers;
+}
+
+std::string newest_version(const directory::DirectoryView& view) {
+  std::string newest;
+  for (const auto& [name, server] : view.servers())
+    if (const auto record = directory::parse_server_record(server.text))
+      if (numbers_in(newest) < numbers_in(record->version)) newest = record->version;
+  return newest;
+}
+
+std::string lease_text(const LeaseRests& rests, directory::LeaseId lease) {
+  const auto rest = rests.find(lease);
+  if (rest == rests.end()) return "?";
+  return rest->second ? format("%.0f s left", seconds(*rest->second)) : "ended";
+}
+
 }  // namespace
 
-std::string servers_table(const directory::DirectoryView& view, const ServiceCatalogue& catalogue) {
-  std::vector<Row> rows{{"SERVER", "ADDRESS", "VERSION", "ZONE", "LOAD", "SESSIONS", "VOUCHER UNTIL"}};
+std::string servers_table(const directory::DirectoryView& view, const ServiceCatalogue& catalogue,
+                          const LeaseRests& rests) {
+  std::vector<Row> rows{
+      {"SERVER", "ADDRESS", "VERSION", "ZONE", "LOAD", "SESSIONS", "STANDBY", "LEASE", "VOUCHER UNTIL"}};
+  const std::string newest = newest_version(view);
   for (const auto& [name, server] : view.servers()) {
     const auto owned = std::ranges::count_if(view.sessions(), [&](const auto& session) {
       return session.second.owner && session.second.owner->name == name;
     });
+    const auto stands_by = std::ranges::count_if(view.sessions(), [&](const auto& session) {
+      return session.second.standby && session.second.standby->name == name;
+    });
+    const std::string lease = lease_text(rests, server.lease);
     const auto record = directory::parse_server_record(server.text);
     if (!record) {
-      rows.push_back({name, "unreadable", "", "", "", std::to_string(owned), ""});
+      rows.push_back({name, "unreadable", "", "", "", std::to_string(owned), std::to_string(stands_by), lease, ""});
       continue;
     }
-    rows.push_back({name, sanitize(record->address), sanitize(record->version),
+    rows.push_back({name, sanitize(record->address),
+                    sanitize(record->version) + (numbers_in(record->version) < numbers_in(newest) ? " (older)" : ""),
                     record->zone.empty() ? "-" : sanitize(record->zone),
                     format("%.2f of %.1f cores", record->used, record->capacity) + (record->drains ? ", drains" : ""),
-                    std::to_string(owned), is_hex(record->voucher) ? voucher_end(record->voucher) : "?"});
+                    std::to_string(owned), std::to_string(stands_by), lease,
+                    is_hex(record->voucher) ? voucher_end(record->voucher) : "?"});
   }
   std::string text = rows.size() > 1 ? lines_of(rows) : "no server is registered in this service\n";
   for (const auto& [name, entry] : catalogue.entries()) {
     const auto* const seen = view.session(name);
     if (entry.spec && (seen == nullptr || !seen->owner))
       text += "session " + name + " has no server; one takes it over when a client asks for it\n";
+    else if (entry.spec && !seen->standby && view.servers().size() > 1)
+      text += "session " + name + " has no standby now: its server names one within some seconds\n";
   }
   return text;
 }

@@ -59,10 +59,12 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
   }
   const bool held = status.holding && status.owned > 0;
   if (held != std::exchange(held_, held))
-    lines.push_back(held ? Line{true, "service_held",
-                                format("%zu session%s HELD: the lease of this server was not renewed in time",
-                                       status.owned, status.owned == 1 ? "" : "s")}
-                         : Line{false, "service_goes_on", "the sessions are not HELD by the directory any more"});
+    lines.push_back(
+        held ? Line{true, "service_held",
+                    format("%zu session%s HELD: the lease of this server was not renewed in time, so no hand is "
+                           "engaged until the directory answers; screens show BRAKED with this reason",
+                           status.owned, status.owned == 1 ? "" : "s")}
+             : Line{false, "service_goes_on", "the sessions are not HELD by the directory any more"});
   return lines;
 }
 

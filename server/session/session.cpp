@@ -179,6 +179,7 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   if (!over() && (++since_record_ >= record_interval_ || !record_.running)) {
     since_record_ = 0;
     record_tick(*this, leading_hands_, record_);
+    record_.every_tick = telemetry_every_tick_;
     recorded_ = true;
   }
   if (participants_.any_removal()) participants_.step_removals(now);

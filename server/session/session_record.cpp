@@ -71,6 +71,7 @@ void record_tick(const Session& session, const LeadingHands& leading, TickRecord
                        state == wire::SessionState::kOverloaded;
   record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld ||
                    (stopped && session.clock().begun() && !session.lifecycle().clock_stopped());
+  record.unleased = !session.lifecycle().may_act();
   record.stopped_ticks = session.clock().stopped_ticks();
   record.dropped_ticks = session.clock().dropped_ticks();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {

@@ -107,6 +107,35 @@ TEST(SteeringProgram, TakesEffectAtOnceWhenItIsReplaced) {
   }
 }
 
+TEST(SteeredSockets, GetNoDatagramBeforeTheProgramNamesThemWhenTheyAreAdded) {
+  Steering steering{.byte = 5, .sockets = 1, .socket_of = {}, .grows = true};
+  auto sockets = bind_udp_steered(*parse_address("127.0.0.1:0", 0), steering);
+  ASSERT_TRUE(sockets) << sockets.error();
+  const auto client = connect_udp(sockets->front().local);
+  ASSERT_TRUE(client);
+  std::array<std::uint8_t, 6> datagram{};
+  const auto sent_to = [&](std::size_t slot) {
+    datagram[5] = static_cast<std::uint8_t>(slot);
+    EXPECT_EQ(::send(client->fd.get(), datagram.data(), datagram.size(), 0), 6);
+    for (std::size_t i = 0; i < sockets->size(); ++i)
+      if (waiting((*sockets)[i]) == 1) return i;
+    return Steering::kSocketsMax;
+  };
+  while (sockets->size() < 5) {
+    auto added = bind_udp_beside(sockets->front());
+    ASSERT_TRUE(added) << added.error();
+    EXPECT_EQ(to_text(added->local), to_text(sockets->front().local));
+    sockets->push_back(std::move(*added));
+    for (std::size_t slot = 0; slot < 256; slot += 5) EXPECT_EQ(sent_to(slot), steering.socket_of[slot]);
+    steering.socket_of[5 * sockets->size()] = static_cast<std::uint8_t>(sockets->size() - 1);
+    steering.sockets = sockets->size();
+    ASSERT_TRUE(SteeringProgram{steering}.attach(sockets->front().fd.get()));
+    for (std::size_t slot = 0; slot < 256; slot += 5) EXPECT_EQ(sent_to(slot), steering.socket_of[slot]);
+  }
+  EXPECT_FALSE(bind_udp_beside(*bind_udp(*parse_address("127.0.0.1:0", 0))))
+      << "a socket that shares its port with no other";
+}
+
 TEST(SteeredSockets, LeaveThePortOfAnotherServerAlone) {
   Steering steering{.byte = 5, .sockets = 2, .socket_of = {}};
   steering.socket_of[200] = 1;

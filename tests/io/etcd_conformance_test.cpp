@@ -75,6 +75,7 @@ class EtcdConformance : public testing::Test {
   Request translated(Request request) {
     const auto lease = [this](LeaseId model) { return to_etcd_.contains(model) ? to_etcd_[model] : model; };
     if (auto* renew = std::get_if<Renew>(&request)) renew->lease = lease(renew->lease);
+    if (auto* remaining = std::get_if<Remaining>(&request)) remaining->lease = lease(remaining->lease);
     if (auto* revoke = std::get_if<Revoke>(&request)) revoke->lease = lease(revoke->lease);
     if (auto* transaction = std::get_if<Transaction>(&request)) {
       for (Condition& condition : transaction->conditions)
@@ -170,6 +171,21 @@ TEST_F(EtcdConformance, EndsLeasesAsTheModelAndNeverBeforeTheirTime) {
   EXPECT_EQ(read_all().found.at(0).size(), 1U);
   both(Renew{lease});
   compare_changes(watch.operation);
+}
+
+TEST_F(EtcdConformance, TellsTheRestOfALeaseAsTheModel) {
+  const LeaseId lease = both(Grant{100s}).lease;
+  const auto rest_of = [&](LeaseId asked) {
+    directory_->begin(operation_, translated(Remaining{asked}));
+    return wait_for_reply(*directory_, operation_++, &others_);
+  };
+  const Reply rest = rest_of(lease);
+  EXPECT_EQ(rest.outcome, Outcome::kDone);
+  EXPECT_GT(rest.ttl, 0s);
+  EXPECT_LE(rest.ttl, store_.execute(1, Remaining{lease}).ttl);
+  both(Revoke{lease});
+  EXPECT_EQ(rest_of(lease).outcome, Outcome::kNoLease);
+  EXPECT_EQ(rest_of(lease).ttl, store_.execute(1, Remaining{lease}).ttl);
 }
 
 TEST_F(EtcdConformance, ForgetsCompactedRevisionsAsTheModel) {

@@ -37,6 +37,21 @@ TEST(Recordings, ExportTheBytesOfTheTrace) {
   }
 }
 
+TEST(Recordings, AreExportedForNoOtherUser) {
+  const Folder folder;
+  ASSERT_TRUE(record(folder, "a"));
+  for (const std::string format : {"csv", "hdf5"}) {
+    const std::string to = folder.file("out." + format);
+    Process out({"/bin/sh", "-c",
+                 "umask 000; exec '" + std::string(TANDEM_SERVER) + "' recordings export '" + folder.file("a.mcap") +
+                     "' --to '" + to + "' --format " + format});
+    const auto code = out.wait();
+    if (format == "hdf5" && code != 0) continue;  // libhdf5 is not installed
+    ASSERT_EQ(code, 0) << out.err();
+    EXPECT_EQ(static_cast<unsigned>(fs::status(to).permissions()), 0640U) << format << ", as a recording has";
+  }
+}
+
 TEST(Recordings, AreNotOverwrittenByTheirExport) {
   const Folder folder;
   ASSERT_TRUE(record(folder, "a"));

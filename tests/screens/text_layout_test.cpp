@@ -103,6 +103,21 @@ TEST(HelpFormatter, FillsParagraphsAndKeepsTables) {
       << wide;
 }
 
+TEST(HelpFormatter, ContinuesARowWhoseFirstColumnIsLongAtTheColumnOfTheOthers) {
+  constexpr const char* kRows =
+      "Commands\n"
+      "  end SESSION         closes it\n"
+      "  create NAME SCENE [tickets] [time=S]  opens a session; prints\n"
+      "                      its code, and a ticket\n"
+      "  sessions            lists them\n";
+  EXPECT_EQ(fill_paragraphs(kRows, 70),
+            "Commands\n"
+            "  end SESSION         closes it\n"
+            "  create NAME SCENE [tickets] [time=S]\n"
+            "      opens a session; prints its code, and a ticket\n"
+            "  sessions            lists them\n");
+}
+
 TEST(HelpFormatter, FitsEveryWidthWithoutCuttingAWord) {
   for (const std::size_t width : {40u, 60u, 79u, 99u, 119u, 199u}) {
     const std::string text = fill_paragraphs(kHelp, width);

@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <asio/io_context.hpp>
 #include <asio/posix/stream_descriptor.hpp>
+#include <chrono>
 #include <cstring>
 
 #include "proto/rpc/rpc_codec.h"
@@ -66,6 +68,7 @@ std::expected<Secret<kExportSize>, std::string> ControlClient::export_secrets(co
 std::expected<ControlClient, ClientError> ControlClient::connect(const io::SocketAddress& server,
                                                                  ClientTls::IdentityCallback judge, Duration timeout,
                                                                  int signals) {
+  const auto begin = std::chrono::steady_clock::now();
   auto state = std::make_unique<State>(std::move(judge), signals);
   asio::ip::tcp::endpoint to;
   to.resize(server.size);
@@ -104,7 +107,9 @@ std::expected<ControlClient, ClientError> ControlClient::connect(const io::Socke
   asio::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   state->stream = ControlStream::make(std::move(socket), state->tls.context(), ControlStream::Side::kClient);
-  state->stream->set_deadline(timeout);
+  const auto left = timeout - (std::chrono::steady_clock::now() - begin);
+  state->stream->set_deadline(
+      std::max(std::chrono::duration_cast<Duration>(left), Duration{std::chrono::milliseconds(1)}));
   done = false;
   ControlStream::Peer peer = std::unexpected(StreamError{});
   state->stream->handshake([&](ControlStream::Peer got) {

@@ -82,7 +82,8 @@ std::string ServerKeystore::rotate_ticket_key(const std::string& path, std::int6
 
 std::expected<ServiceMembership, std::string> ServerKeystore::join_service(const std::string& path,
                                                                            std::span<const std::byte> member,
-                                                                           const std::string& file, std::int64_t now) {
+                                                                           const std::string& file, std::int64_t now,
+                                                                           bool older) {
   auto trust = open_alone(path);  // a damaged or expired membership can be renewed
   if (!trust) return std::unexpected(trust.error());
   const KeyFingerprint own = trust->identity().fingerprint();
@@ -90,6 +91,21 @@ std::expected<ServiceMembership, std::string> ServerKeystore::join_service(const
   if (!membership) return std::unexpected(membership.error());
   if (std::string problem = membership_problem(membership->first, own, now); !problem.empty())
     return std::unexpected(file + ": " + problem);
+  if (!older) {
+    const auto bytes = trust->folder_->read(kMemberFile);
+    const auto present = bytes && *bytes ? read_membership((*bytes)->bytes(), kMemberFile, own)
+                                         : std::unexpected(std::string());  // a damaged one may be replaced
+    if (present && is_older(membership->first, present->first))
+      return std::unexpected(
+          file + ": was made before the key of the service was rotated: its service key is " +
+          to_hex(membership->first.service_key).substr(0, 8) + "..., that of this server's present member file is " +
+          to_hex(present->first.service_key).substr(0, 8) +
+          "..., which replaced it. Clients that know the rotation would reject this server. Nothing was changed. Make "
+          "a "
+          "member file of the new key: " +
+          renewal(membership->first.name, own) +
+          ". If the rotation itself was undone, by a restored backup of the service's folder, add --older");
+  }
   // A running server holds the old ticket key and its redeemed tickets in memory.
   if (std::string problem = trust->begin_serving(now); !problem.empty()) return std::unexpected(std::move(problem));
   if (std::string problem = trust->folder_->replace(kMemberFile, member); !problem.empty())

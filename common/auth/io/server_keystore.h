@@ -39,11 +39,12 @@ class ServerKeystore {
   /// tickets with the service's ticket key.
   /// @param member  text of the member file
   /// @param file    its name, for errors
+  /// @param older   also takes a member file from before a rotation of the service's key that the present one knows
   /// @return the membership, or the error, such as a server that runs from the directory
   [[nodiscard]] static std::expected<ServiceMembership, std::string> join_service(const std::string& path,
                                                                                   std::span<const std::byte> member,
                                                                                   const std::string& file,
-                                                                                  std::int64_t now);
+                                                                                  std::int64_t now, bool older = false);
   /// Reads a directory that `init` created.
   [[nodiscard]] static std::expected<ServerKeystore, std::string> open(const std::string& path);
   /// Returns all errors of such a directory, each with its remedy. Empty: `open` and `begin_serving` would succeed, if

@@ -4,16 +4,12 @@
 #include "proto/text/service_text.h"
 
 namespace tandem::auth {
-namespace {
 
-/// Returns the command that makes a new member file.
 std::string renewal(const std::string& name, const KeyFingerprint& server) {
   return "where the service's folder is, run `tandem-server service vouch FOLDER --name " +
          (name.empty() ? "NAME" : name) + " --key " + server.hex() +
          " --out FILE`, and here `tandem-server service join FILE`";
 }
-
-}  // namespace
 
 std::expected<std::pair<ServiceMembership, TicketKey>, std::string> read_membership(std::span<const std::byte> text,
                                                                                     const std::string& file,
@@ -38,6 +34,11 @@ std::expected<std::pair<ServiceMembership, TicketKey>, std::string> read_members
   return std::pair{ServiceMembership{row->service_key, std::move(row->voucher), row->name, std::move(row->key_changes),
                                      voucher->not_before, voucher->not_after},
                    std::move(*ticket_key)};
+}
+
+bool is_older(const ServiceMembership& file, const ServiceMembership& present) {
+  return file.service_key != present.service_key &&
+         follow_key_changes({file.service_key, {}, 0}, present.key_changes).key == present.service_key;
 }
 
 std::string membership_problem(const ServiceMembership& membership, const KeyFingerprint& server, std::int64_t now) {

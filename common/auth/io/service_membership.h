@@ -33,6 +33,13 @@ struct ServiceMembership {
 [[nodiscard]] std::expected<std::pair<ServiceMembership, TicketKey>, std::string> read_membership(
     std::span<const std::byte> text, const std::string& file, const KeyFingerprint& server);
 
+/// Returns the commands that make a member file of the service's present key for a server and take it.
+/// @param name  of the server in its service; empty: unknown
+[[nodiscard]] std::string renewal(const std::string& name, const KeyFingerprint& server);
+
+/// Whether a member file is from before a change of the service's key that the present one knows.
+[[nodiscard]] bool is_older(const ServiceMembership& file, const ServiceMembership& present);
+
 /// Returns why a server with this membership may not serve at this time, with the remedy; empty: it may.
 [[nodiscard]] std::string membership_problem(const ServiceMembership& membership, const KeyFingerprint& server,
                                              std::int64_t now);

@@ -20,7 +20,10 @@ std::string ServingFile::begin() {
     return folder_->path() + ": another server runs from this folder: " + DirectoryLock::holder_of(*folder_, kLock) +
            "; stop it first, or give this one a folder of its own (`run --state`, `state` in a configuration)";
   serving_ = std::move(**lock);
-  return folder_->has(kEndFile) ? folder_->remove(kEndFile) : std::string{};  // meant for the previous server
+  for (const char* meant_for_previous : {kEndFile, kServiceFile})
+    if (folder_->has(meant_for_previous))
+      if (std::string problem = folder_->remove(meant_for_previous); !problem.empty()) return problem;
+  return {};
 }
 
 std::string ServingFile::write(const ServingSpec& serving) const {

@@ -19,6 +19,7 @@ class ServingFile {
   static constexpr const char* kFile = "serving.textproto";
   static constexpr const char* kLock = "serving.lock";
   static constexpr const char* kEndFile = "end_in_s";
+  static constexpr const char* kServiceFile = "service_sessions";  ///< of the service, while a member of one runs
 
   /// @param lists_lock  file that commands lock while they check for a running server
   ServingFile(std::shared_ptr<const StateDirectory> folder, const char* lists_lock)

@@ -145,7 +145,7 @@ int delete_chosen(const RecordingsTask& task, OpenIndex& open, const std::vector
 int list_recordings(const RecordingsTask& task) {
   const auto open = open_index(task.folder);
   if (!open) return print_error(kCommand, open.error());
-  return printed(task.json ? recordings_json(open->rows) : recordings_text(open->rows));
+  return printed(task.json ? recordings_json(open->rows) : recordings_text(open->rows, true, open->unfinished));
 }
 
 int show_recordings(const RecordingsTask& task) {
@@ -155,7 +155,7 @@ int show_recordings(const RecordingsTask& task) {
   const std::vector<std::size_t> named = find_named(open->rows, task.names, errors);
   if (!errors.empty()) return print_usage_errors(kCommand, errors);
   if (task.json) return printed(recordings_json(picked(open->rows, named)));
-  const std::vector<RecordingGroup> groups = group_recordings(open->rows);
+  const std::vector<RecordingGroup> groups = group_recordings(open->rows, open->unfinished);
   std::string text;
   for (const std::size_t k : named) {
     const auto group = std::ranges::find_if(

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +22,7 @@ namespace tandem::server {
 namespace {
 
 constexpr const char* kExport = "recordings export";
+constexpr mode_t kOthersMask = 0027;  // permissions that an export does not get
 
 using FileNames = std::vector<std::string>;  ///< of one recording, in their order
 
@@ -101,6 +104,9 @@ int export_recordings(const RecordingsTask& task) {
     return print_usage_error(kExport, "NAME: csv and hdf5 take one recording, not " +
                                           std::to_string(recordings->size()) + ", such as " +
                                           sanitize((*recordings)[0][0]) + " and " + sanitize((*recordings)[1][0]));
+  // An export has the personal data of its recording, so it gets no wider mode (0640): files of every format, and those
+  // of the program that writes Parquet.
+  ::umask(::umask(0) | kOthersMask);
   LongWork reading("reading"), writing("export");
   const std::string problem = export_lessons(task, *recordings, reading, writing);
   reading.clear();

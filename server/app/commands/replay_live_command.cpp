@@ -153,6 +153,8 @@ int replay_live_command(const ReplayLiveArguments& arguments) {
     io::print(stderr, "tandem-server replay-live: " + problem + "\n");
     return io::kExitTrouble;
   }
+  if (const std::string late = late_begin_text(*lesson); !late.empty())
+    io::print(stderr, "tandem-server replay-live: " + late + "\n");
   plan.on_listening = [&hands](const std::string& address) { hands.join(address); };
   plan.start_problem = [&hands] { return hands.failure(); };
   const int code = run_server(plan);

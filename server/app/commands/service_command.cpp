@@ -27,7 +27,7 @@ constexpr std::uintmax_t kMemberFileMax = 64U << 10U;
 
 struct ServiceArguments {
   std::string action, folder, name, key, days = "400", grace = "30", out, state;
-  bool new_ticket_key = false;
+  bool new_ticket_key = false, older = false;
 };
 
 int service_trouble(const std::string& what) { return print_error("service", what); }
@@ -108,8 +108,8 @@ int join_service(const ServiceArguments& arguments) {
   if (!path) return print_usage_error("service", path.error());
   auto text = io::read_whole_file(arguments.folder, kMemberFileMax);
   if (!text) return service_trouble(text.error());
-  const auto membership =
-      auth::ServerKeystore::join_service(*path, bytes_of(*text), arguments.folder, auth::wall_seconds());
+  const auto membership = auth::ServerKeystore::join_service(*path, bytes_of(*text), arguments.folder,
+                                                             auth::wall_seconds(), arguments.older);
   wipe(*text);
   if (!membership) return service_trouble(membership.error());
   std::printf("state folder %s\n", path->c_str());
@@ -127,10 +127,13 @@ int rotate_service(const ServiceArguments& arguments) {
                                                  arguments.new_ticket_key);
   if (!key) return service_trouble(key.error());
   std::printf("service folder %s\nservice key    %s\n", arguments.folder.c_str(), auth::to_hex(*key).c_str());
+  const bool at_once = seconds_of(grace) == 0;
+  const std::string when =
+      at_once ? "now, as clients that know the new key reject servers with the old one" : "within " + grace + " days";
   io::print_formatted(stderr,
-                      "next, for each server within %s days: tandem-server service vouch here, and service join there. "
+                      "next, for each server, %s: tandem-server service vouch here, and service join there. "
                       "Clients learn the new key from the first server that has it\n",
-                      grace.c_str());
+                      when.c_str());
   return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
 }
 
@@ -210,6 +213,9 @@ void add_service_command(const io::Command& root) {
   command.add_flag("--new-ticket-key", arguments.new_ticket_key,
                    "rotate: also replaces the key that signs tickets; tickets issued before are void at each server "
                    "once it has joined again");
+  command.add_flag("--older", arguments.older,
+                   "join: takes a member file of an older key of the service than the server has now, which undoes a "
+                   "rotation at this server");
   add_state_option(command, arguments.state);
   command.footer(
       "Keep the folder of the service on the administrator's computer, not on a server: a user who can read it can add "

@@ -14,6 +14,7 @@ namespace tandem::server {
 namespace {
 
 constexpr Duration kReadingMax = std::chrono::seconds(5);
+constexpr Duration kRestsMax = std::chrono::seconds(2);
 constexpr auto kQueryPause = std::chrono::milliseconds(5);
 
 }  // namespace
@@ -42,6 +43,26 @@ std::expected<std::unique_ptr<ServiceQuery>, ServiceQuery::Failure> ServiceQuery
                                                        config});
 }
 
+LeaseRests ServiceQuery::lease_rests() {
+  std::map<directory::OperationId, directory::LeaseId> asked;
+  for (const auto& [name, server] : view_.servers()) {
+    directory_.begin(++operation_, directory::Remaining{server.lease});
+    asked.emplace(operation_, server.lease);
+  }
+  LeaseRests rests;
+  static_cast<void>(wait(kRestsMax, [&] {
+    std::erase_if(asked, [&](const auto& question) {
+      const auto reply = other_replies_.find(question.first);
+      if (reply == other_replies_.end()) return false;
+      if (reply->second.outcome == directory::Outcome::kDone) rests[question.second] = reply->second.ttl;
+      if (reply->second.outcome == directory::Outcome::kNoLease) rests[question.second] = std::nullopt;
+      return true;
+    });
+    return asked.empty();
+  }));
+  return rests;
+}
+
 Time ServiceQuery::now() noexcept { return ServiceThread::now(); }
 
 void ServiceQuery::pause() { std::this_thread::sleep_for(kQueryPause); }
@@ -54,7 +75,7 @@ void ServiceQuery::step() {
     directory_.begin(++operation_, *request);
   while (const auto reply = directory_.poll()) {
     if (!reply->reason.empty()) trouble_ = reply->reason;
-    if (!view_.on_reply(*reply)) catalogue_.on_reply(*reply);
+    if (!view_.on_reply(*reply) && !catalogue_.on_reply(*reply)) other_replies_.emplace(reply->operation, *reply);
   }
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <expected>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "server/app/service/service_options.h"
 #include "server/directory/directory_view.h"
 #include "server/directory/io/etcd_directory.h"
+#include "server/service/servers_table.h"
 #include "server/service/service_catalogue.h"
 
 namespace tandem::server {
@@ -24,6 +26,8 @@ class ServiceQuery {
   [[nodiscard]] const directory::DirectoryView& view() const noexcept { return view_; }
   [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }
   [[nodiscard]] const ServiceKeys& keys() const noexcept { return keys_; }
+  /// Asks for the rest of the leases of all servers, for at most 2 s. Those without an answer are missing.
+  [[nodiscard]] LeaseRests lease_rests();
   /// Begins a transaction.
   void begin(directory::Transaction transaction) { directory_.begin(++operation_, transaction); }
   /// Follows the directory until `done` returns true. @return false: the time is over
@@ -51,6 +55,7 @@ class ServiceQuery {
   directory::DirectoryView view_;
   ServiceCatalogue catalogue_;
   directory::OperationId operation_ = 0;
+  std::map<directory::OperationId, directory::Reply> other_replies_;  ///< that belong to neither copy
   std::string trouble_ = "no answer in time";
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "common/io/command_line.h"
@@ -5,6 +6,7 @@
 #include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
 #include "server/app/control/session_registry.h"
+#include "server/app/service/service_list_file.h"
 
 namespace tandem::server {
 namespace {
@@ -18,6 +20,13 @@ rpc::SessionPhase phase_named(const std::string& name) {
   for (int i = 0; i <= static_cast<int>(rpc::SessionPhase::kOverloaded); ++i)
     if (name == rpc::to_text(static_cast<rpc::SessionPhase>(i))) return static_cast<rpc::SessionPhase>(i);
   return rpc::SessionPhase::kWaiting;
+}
+
+ServiceList without(ServiceList service, const rpc::SessionList& own) {
+  std::erase_if(service.sessions, [&](const ServiceList::Session& session) {
+    return std::ranges::find(own.sessions, session.listed.id, &rpc::ListedSession::id) != own.sessions.end();
+  });
+  return service;
 }
 
 int sessions_command(const SessionsArguments& arguments) {
@@ -35,9 +44,19 @@ int sessions_command(const SessionsArguments& arguments) {
     list.sessions.emplace_back(s.id, s.name, phase_named(s.phase), s.seats);
     codes.push_back(s.code.empty() ? "" : code_text(s.code));
   }
+  const auto service = read_service_list(*state->folder());
+  if (!service) return print_error("sessions", service.error());
+  std::string text = arguments.json ? session_list_json(list, codes) : session_list_text(list, codes);
+  if (*service) {
+    const ServiceList others = without(**service, list);
+    if (arguments.json)
+      text.insert(text.rfind('}'), ", \"service\": " + service_json(others));
+    else
+      text = (list.sessions.empty() ? "this server serves no session now\n" : text) + service_text(others);
+  }
   if (!arguments.json) std::printf("server at %s\n", (*serving)->address.c_str());
-  std::fputs((arguments.json ? session_list_json(list, codes) : session_list_text(list, codes)).c_str(), stdout);
-  return 0;
+  std::fputs(text.c_str(), stdout);
+  return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -49,7 +68,8 @@ void add_sessions_command(const io::Command& root) {
   add_state_option(command, arguments.state);
   command.add_flag("--json", arguments.json, "for machines");
   command.footer(
-      "`status` is an alias. The list is at most a second old. Exit: 0 done; 1 no server runs from this folder, or "
+      "`status` is an alias. The list is at most a second old. A server of a service names the sessions of its other "
+      "servers below its own. Exit: 0 done; 1 no server runs from this folder, or "
       "it cannot be read; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-server sessions --json\n"

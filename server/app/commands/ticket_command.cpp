@@ -11,6 +11,7 @@
 #include "proto/rpc/rpc_texts.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
+#include "server/app/service/service_list_file.h"
 #include "server/policy/roles.h"
 
 namespace tandem::server {
@@ -20,15 +21,45 @@ struct TicketArguments {
   std::string session, seat, workstation, person, role, state, hours = "4", force = "100";
 };
 
-/// Session of the running server that the argument names by id, code or name.
+/// Sessions that the running server knows: its own, then those of its service.
+std::vector<OpenSession> known_sessions(const std::optional<ServingSpec>& serving,
+                                        const std::optional<ServiceList>& service) {
+  std::vector<OpenSession> sessions = serving ? serving->sessions : std::vector<OpenSession>{};
+  if (!serving || !service) return sessions;
+  for (const ServiceList::Session& other : service->sessions) {
+    if (std::ranges::find(sessions, other.listed.id, &OpenSession::id) != sessions.end()) continue;
+    OpenSession session{other.listed.id, other.code, other.listed.name, 0, {}};
+    for (const rpc::ListedSeat& seat : other.listed.seats)
+      session.seats.push_back({seat.name, seat.role, false, seat.required});
+    sessions.push_back(std::move(session));
+  }
+  return sessions;
+}
+
+/// Returns the part of a message about sessions that the list of a service lacks; empty: it lacks none.
+std::string gap_of(const ServiceList& service) {
+  switch (service.known) {
+    case ServiceList::Known::kNothing:
+      return ". The directory of the service has not answered this server yet, so sessions of other servers are not "
+             "known; use the id, or try again when `tandem-server sessions` shows them";
+    case ServiceList::Known::kOld:
+      return ". The directory of the service does not answer now, so newer sessions of other servers are not known";
+    case ServiceList::Known::kNow:
+      break;
+  }
+  return {};
+}
+
+/// Session that the argument names by id, code or name.
 std::expected<OpenSession, std::string> find_session(const std::string& typed,
-                                                     const std::optional<ServingSpec>& serving) {
+                                                     const std::optional<ServingSpec>& serving,
+                                                     const std::optional<ServiceList>& service) {
   auth::Id16 id;
   const bool is_id = auth::from_hex(typed, id);
   const auto code = auth::canonical_session_code(typed);
   const OpenSession* found = nullptr;
   std::size_t same_name = 0;
-  const std::vector<OpenSession> sessions = serving ? serving->sessions : std::vector<OpenSession>{};
+  const std::vector<OpenSession> sessions = known_sessions(serving, service);
   for (const OpenSession& s : sessions) {
     if ((is_id && s.id == id) || (code && s.code == *code)) return s;
     if (s.name == typed && ++same_name == 1) found = &s;
@@ -41,8 +72,12 @@ std::expected<OpenSession, std::string> find_session(const std::string& typed,
   if (!serving)
     return std::unexpected(
         "--session: no server runs from this state folder, so only an id of 32 hex digits is accepted");
-  return std::unexpected("--session: \"" + typed + "\" is neither id, code nor name of a session; " +
-                         (sessions.empty() ? "the server has none" : suggest_name(typed, sessions)));
+  return std::unexpected("--session: \"" + typed + "\" is neither id, code nor name of a session" +
+                         (service ? " of the service; " : "; ") +
+                         (!sessions.empty() ? suggest_name(typed, sessions)
+                          : service         ? "the service has none"
+                                            : "the server has none") +
+                         (service ? gap_of(*service) : ""));
 }
 
 std::optional<AccessRole> find_role(const TicketArguments& arguments, const OpenSession& session,
@@ -91,7 +126,10 @@ int ticket_command(const TicketArguments& arguments) {
   const WorkstationRow* const workstation = auth::find_workstation(*book, arguments.workstation);
   if (workstation == nullptr)
     errors.add("--workstation: " + unknown_workstation_text(arguments.workstation, *book, state->folder()->path()));
-  const auto session = find_session(arguments.session, *serving);
+  std::expected<std::optional<ServiceList>, std::string> service;
+  if (*serving) service = read_service_list(*state->folder());
+  if (!service) return print_error("ticket", service.error());
+  const auto session = find_session(arguments.session, *serving, *service);
   std::optional<AccessRole> role;
   if (session) {
     role = find_role(arguments, *session, errors);
@@ -166,7 +204,7 @@ void add_ticket_command(const io::Command& root) {
   command.footer(
       "Prints the ticket to standard output. It cannot be changed, used twice or used on another workstation. Codes "
       "and names, and the\n"
-      "role of a seat, are known while the server runs.\n"
+      "role of a seat, are known while the server runs; a server of a service knows those of the whole service.\n"
       "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-server ticket --session contact --seat trainee --workstation touch-07 --person ann\n"

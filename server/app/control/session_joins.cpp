@@ -82,12 +82,10 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
     return std::visit([&](auto& reply) { answer(std::move(reply)); }, *away);
   // A console operates sessions, so it may join while the server drains.
   const bool console = request.hello.seat.empty() && !request.hello.link_test;
-  if (registry_.drain().active() && !console)
-    return answer(ErrorReply{
-        ErrorCode::kDraining,
-        "this server is draining and rejects new joins; wait until it has restarted, or ask its operator", 10});
+  if (registry_.drain().active() && !console) return answer(redirect_.draining());
   const auto found = registry_.choose(request.hello.session);
-  if (const auto* refused = std::get_if<ErrorReply>(&found)) return answer(*refused);
+  if (const auto* refused = std::get_if<ErrorReply>(&found))
+    return answer(redirect_.refusal(request.hello.session, *refused));
   SessionEntry& entry = *std::get<SessionEntry*>(found);
   if (!request.hello.link_test)
     answer = used_once(ticket_uses_, request, std::move(answer), [this](const rpc::Welcome& w) { on_join_failed(w); });

@@ -21,6 +21,14 @@ std::string bounded_text(std::string text) {
   return text;
 }
 
+/// The first names, and the number of the others.
+std::string some_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kChoicesNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > kChoicesNamed) text += " and " + std::to_string(names.size() - kChoicesNamed) + " more";
+  return text;
+}
+
 rpc::Elsewhere elsewhere_of(const ServerLocation& at, const rpc::SessionChoice& choice) {
   const auto* const id = std::get_if<rpc::Id>(&choice);
   return {.address = at.address,
@@ -56,10 +64,33 @@ std::optional<SessionRedirect::Reply> SessionRedirect::only_session(bool underst
     if (e.open()) names.push_back(e.registration.name);
   if (names.empty() && away.size() == 1) return located(away.front().session.id, understands);
   for (const auto& other : away) names.push_back(other.session.name);
-  std::string text = "this service has several sessions: ";
-  for (std::size_t i = 0; i < std::min(names.size(), kChoicesNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
-  if (names.size() > kChoicesNamed) text += " and " + std::to_string(names.size() - kChoicesNamed) + " more";
-  return ErrorReply{ErrorCode::kNoSession, text + "; choose one with --session", 0};
+  return ErrorReply{
+      ErrorCode::kNoSession,
+      bounded_text("this service has several sessions: " + some_of(names) + "; choose one with --session"), 0};
+}
+
+ErrorReply SessionRedirect::refusal(const rpc::SessionChoice& choice, const ErrorReply& own) const {
+  if (locator_ == nullptr || (own.code != ErrorCode::kNoSession && own.code != ErrorCode::kCode)) return own;
+  std::vector<std::string> names;
+  for (const SessionEntry& e : registry_.entries())
+    if (e.open()) names.push_back(e.registration.name);
+  const bool none_here = names.empty(), any = std::holds_alternative<std::monostate>(choice);
+  for (const auto& other : others()) names.push_back(other.session.name);
+  if (!locator_->fresh() && none_here)
+    return {ErrorCode::kInternal,
+            "this server serves no session, and does not reach the directory of its service, so it knows none of other "
+            "servers; try again in some seconds, or use the address of another server",
+            kAskAgainS};
+  if (names.empty()) return {ErrorCode::kNoSession, "no session is open in this service", 0};
+  if (any) return own;  // several sessions of this server
+  const std::string open = "; sessions of the service: " + some_of(names);
+  if (std::holds_alternative<std::string>(choice))
+    return {
+        ErrorCode::kCode,
+        bounded_text("no session of this service has this code (a restarted session has a new code: ask its operator)" +
+                     open),
+        0};
+  return {ErrorCode::kNoSession, bounded_text("this service has no such session" + open), 0};
 }
 
 std::optional<SessionRedirect::Reply> SessionRedirect::located(const rpc::SessionChoice& choice, bool understands) {
@@ -80,6 +111,16 @@ std::optional<SessionRedirect::Reply> SessionRedirect::located(const rpc::Sessio
                                  "server's release, or enrol there and use --server " +
                                  at.address),
                     0};
+}
+
+ErrorReply SessionRedirect::draining() const {
+  constexpr std::uint32_t kDrainAgainS = 10;
+  return {ErrorCode::kDraining,
+          locator_ == nullptr
+              ? "this server is draining and rejects new joins; wait until it has restarted, or ask its operator"
+              : "this server is draining and rejects new joins. When it has ended, another server of the service takes "
+                "the session over, if there is one; try again in some seconds, or ask the operator",
+          kDrainAgainS};
 }
 
 std::vector<SessionLocator::Elsewhere> SessionRedirect::others() const {

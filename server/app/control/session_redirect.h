@@ -34,6 +34,11 @@ class SessionRedirect {
   /// @param understands  the client follows an Elsewhere; others get its address in the text of an error
   /// @return nullopt: this server decides alone
   [[nodiscard]] std::optional<Reply> find(const rpc::SessionChoice& choice, bool understands);
+  /// The reply to a join by a choice that names no session of this server (`own`), with the sessions of the service in
+  /// its text. A wrong code counts as an attempt also at a server without a session.
+  [[nodiscard]] rpc::ErrorReply refusal(const rpc::SessionChoice& choice, const rpc::ErrorReply& own) const;
+  /// The reply to a join while this server drains.
+  [[nodiscard]] rpc::ErrorReply draining() const;
   /// One page of the sessions. @param request  with `service`: those of this server first, then all others by name
   [[nodiscard]] rpc::SessionList list(const rpc::SessionListRequest& request) const;
   /// Addresses of servers of the service, at most kMembersMax; empty: it has none.

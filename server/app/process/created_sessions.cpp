@@ -47,23 +47,37 @@ std::optional<ErrorReply> SessionTable::creation_problem() const {
                     0};
 }
 
-std::expected<SessionTable::Place, ErrorReply> SessionTable::find_place(const SceneSpec& scene) const {
+std::expected<std::size_t, ErrorReply> SessionTable::find_shard(double tick_hz) {
+  if (const auto shard = least_loaded(expected_loads(), tick_hz)) return *shard;
+  if (options_.service) {
+    const auto added = shards_.add(tick_hz);
+    if (!added)
+      return std::unexpected(ErrorReply{
+          ErrorCode::kFull, format("no thread ticks at %g Hz, and none can be added: ", tick_hz) + added.error(), 5});
+    control_.change([&](SessionRegistry& registry, const auto& done) {
+      registry.requests().watch(*shards_.all()[*added]);
+      done();
+    });
+    return *added;
+  }
+  std::string known;
+  for (const double rate : std::set<double>(shards_.rates().begin(), shards_.rates().end()))
+    known += (known.empty() ? "" : ", ") + format("%g", rate);
+  return std::unexpected(
+      ErrorReply{ErrorCode::kNotAllowed,
+                 format("the scene has tick_hz %g, and the threads of this server tick at ", tick_hz) + known +
+                     " Hz; change the scene, or configure a session of this rate and restart the server",
+                 0});
+}
+
+std::expected<SessionTable::Place, ErrorReply> SessionTable::find_place(const SceneSpec& scene) {
   if (sessions_.size() >= rpc::kSessionsMax)
     return std::unexpected(ErrorReply{ErrorCode::kFull,
                                       format("%zu sessions are open, and a server has at most %zu; end one first",
                                              sessions_.size(), rpc::kSessionsMax),
                                       0});
-  const auto shard = least_loaded(expected_loads(), scene.tick_hz);
-  if (!shard) {
-    std::string known;
-    for (const double rate : std::set<double>(shards_.rates().begin(), shards_.rates().end()))
-      known += (known.empty() ? "" : ", ") + format("%g", rate);
-    return std::unexpected(
-        ErrorReply{ErrorCode::kNotAllowed,
-                   format("the scene has tick_hz %g, and the threads of this server tick at ", scene.tick_hz) + known +
-                       " Hz; change the scene, or configure a session of this rate and restart the server",
-                   0});
-  }
+  const auto shard = find_shard(scene.tick_hz);
+  if (!shard) return std::unexpected(shard.error());
   for (std::size_t slot = 0; slot < Shard::kSessionsMax; ++slot) {
     const bool taken =
         std::ranges::any_of(sessions_, [&](const auto& session) { return session->live_session().slot() == slot; });

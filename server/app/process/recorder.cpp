@@ -40,7 +40,8 @@ void Recorder::drain() {
   for (const TickRecord* record = records_->front(); record != nullptr; record = records_->front()) {
     builder_.add(*record);
     csv_.append(*record, rows_);
-    if (recording_) recording_->push(*record);
+    // Records from before the session knew of the recording stand for several ticks each.
+    if (recording_ && record->every_tick) recording_->push(*record);
     records_->pop();
     if (rows_.size() > kRowsMax) flush();
   }

@@ -23,7 +23,8 @@ class Recorder {
   Recorder(const SceneSpec& scene, TickQueue& records, io::OutputFile& trace);
   ~Recorder() { finish(); }
 
-  /// Copies every further record to a recording; null: to none. From the thread that made this. Waits while the
+  /// Copies further records to a recording, from the first tick on of which the session makes a record for it; null: to
+  /// none. From the thread that made this. Waits while the
   /// recorder works on its queue.
   void copy_to(std::shared_ptr<TickFeed> recording);
   /// Processes the rest of the queue and ends the thread. Call it when the session is over.

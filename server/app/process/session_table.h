@@ -102,7 +102,9 @@ class SessionTable {
   struct Place {
     std::size_t slot = 0, shard = 0;
   };
-  [[nodiscard]] std::expected<Place, rpc::ErrorReply> find_place(const SceneSpec& scene) const;
+  /// A member of a service gets another shard if none has the tick rate of the scene.
+  [[nodiscard]] std::expected<Place, rpc::ErrorReply> find_place(const SceneSpec& scene);
+  [[nodiscard]] std::expected<std::size_t, rpc::ErrorReply> find_shard(double tick_hz);
   /// Measured loads of the shards.
   [[nodiscard]] std::vector<ShardView> shard_views() const;
   /// Measured costs of the sessions, as parts of the loads of their shards.

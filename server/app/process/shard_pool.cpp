@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/base/format.h"
 #include "common/io/processors.h"
 #include "common/transport/datagram.h"
 #include "server/session/connection_id.h"
@@ -29,6 +30,7 @@ ShardPool::ShardPool(const ServerOptions& options) {
   const std::vector<std::size_t> placed = first_placement(sessions, rates_);
   steering_.byte = kSlotAt;
   steering_.sockets = rates_.size();
+  steering_.grows = options.service;  // it may own sessions of any rate
   for (std::size_t slot = 0; slot < placed.size(); ++slot)
     steering_.socket_of[slot] = static_cast<std::uint8_t>(placed[slot]);
 }
@@ -37,6 +39,19 @@ void ShardPool::take_sockets(std::vector<io::UdpSocket> sockets) {
   socket_ = io::duplicate(sockets.front());
   for (std::size_t i = 0; i < rates_.size(); ++i)
     shards_.push_back(std::make_unique<Shard>(std::move(sockets[i]), rates_[i]));
+}
+
+std::expected<std::size_t, std::string> ShardPool::add(double tick_hz) {
+  if (!steering_.grows) return std::unexpected("this server is no member of a service");
+  if (shards_.size() >= io::Steering::kSocketsMax)
+    return std::unexpected(format("this server has %zu threads for ticks, the most", shards_.size()));
+  auto socket = io::bind_udp_beside(socket_);
+  if (!socket) return std::unexpected(socket.error());
+  shards_.push_back(std::make_unique<Shard>(std::move(*socket), tick_hz));
+  rates_.push_back(tick_hz);
+  steering_.sockets = rates_.size();
+  if (running_) threads_.emplace_back([shard = shards_.back().get()] { shard->run(); });
+  return shards_.size() - 1;
 }
 
 io::Steering ShardPool::steering_with(std::size_t slot, std::size_t shard) const noexcept {
@@ -54,7 +69,8 @@ bool ShardPool::assign(std::size_t slot, std::size_t shard) {
 }
 
 void ShardPool::run() {
-  for (const auto& shard : shards_) threads_.emplace_back([&shard] { shard->run(); });
+  for (const auto& shard : shards_) threads_.emplace_back([shard = shard.get()] { shard->run(); });
+  running_ = true;
 }
 
 void ShardPool::stop(wire::CloseReason why) noexcept {
@@ -65,6 +81,7 @@ void ShardPool::join() {
   stop();
   for (std::thread& thread : threads_) thread.join();
   threads_.clear();
+  running_ = false;
 }
 
 std::uint64_t ShardPool::punctual() const noexcept {

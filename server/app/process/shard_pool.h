@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <expected>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -27,6 +29,10 @@ class ShardPool {
   void take_sockets(std::vector<io::UdpSocket> sockets);
   [[nodiscard]] std::size_t shard_of_slot(std::size_t slot) const noexcept { return steering_.socket_of[slot]; }
   [[nodiscard]] Shard& of_slot(std::size_t slot) noexcept { return *shards_[shard_of_slot(slot)]; }
+  /// Adds a shard for sessions of another tick rate [Hz], and runs it if the others run.
+  /// @return its number; or the error: this server is no member of a service, has the most shards, or the system gives
+  /// no socket
+  [[nodiscard]] std::expected<std::size_t, std::string> add(double tick_hz);
   /// Tick rate of each shard [Hz].
   [[nodiscard]] const std::vector<double>& rates() const noexcept { return rates_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Shard>>& all() const noexcept { return shards_; }
@@ -48,9 +54,10 @@ class ShardPool {
  private:
   std::vector<double> rates_;  ///< one per shard
   io::Steering steering_;
-  io::UdpSocket socket_;  ///< one of the sockets, for `assign`
+  io::UdpSocket socket_;  ///< one of the sockets, for `assign` and `add`
   std::vector<std::unique_ptr<Shard>> shards_;
   std::vector<std::thread> threads_;
+  bool running_ = false;
 };
 
 }  // namespace tandem::server

@@ -80,4 +80,14 @@ std::expected<ReplayedLesson, std::string> replayed_lesson(const Lesson& lesson,
   return out;
 }
 
+std::string late_begin_text(const Lesson& lesson) {
+  constexpr double kNoted = 1;  // [s]
+  const double begin_s = lesson.tick.empty() ? 0 : lesson.tick.front() / lesson.scene.tick_hz;
+  if (begin_s < kNoted) return {};
+  return format(
+      "the recording begins at %.1f s of its session, and has nothing before: the recorded hands stand still "
+      "for so long, then they move until %.1f s",
+      begin_s, lesson.tick.back() / lesson.scene.tick_hz);
+}
+
 }  // namespace tandem::server

@@ -32,4 +32,8 @@ struct ReplayedLesson {
                                                                          const std::vector<std::string>& seats,
                                                                          bool await);
 
+/// Returns for users that the recording begins later than its session, and what its replay does until then; empty: it
+/// begins with it.
+[[nodiscard]] std::string late_begin_text(const Lesson& lesson);
+
 }  // namespace tandem::server

@@ -68,8 +68,13 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
                                .balance = in.balance};
   for (const SessionOptions& session : parts.options.sessions)
     options.configured.emplace(session.name, spec_of(session));
+  differences_.emplace(server_, options.configured);
   thread_ = std::make_unique<ServiceThread>(std::move(options), std::make_unique<directory::EtcdDirectory>(in.etcd),
                                             snapshots_);
+  list_file_ =
+      std::make_unique<ServiceListFile>(*parts_.control.trust().folder(), *thread_, [this](const std::string& what) {
+        parts_.output.post_message("list of the service's sessions for commands: " + what);
+      });
   registry_ = std::make_unique<RegistryMirror>(std::move(keys), *thread_, [this](const std::string& what) {
     parts_.output.post_message("workstations of the service: " + what);
   });
@@ -85,6 +90,7 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
 void ServiceHost::start() {
   thread_->start([this](const ServiceTickets::Result& result) { ticket_uses_->on_result(result); });
   registry_->start();
+  list_file_->start();
 }
 
 void ServiceHost::step(Time now) {
@@ -107,6 +113,7 @@ void ServiceHost::step(Time now) {
   published_ = now;
   publish_lists();
   publish_load();
+  report_differences();
   locator_->remember_members();
 }
 
@@ -307,9 +314,27 @@ bool ServiceHost::left_by_all() const {
          thread_->quietly([](const ServiceMember& member, Time) { return member.empty(); });
 }
 
+void ServiceHost::report_differences() {
+  const auto found =
+      thread_->quietly([this](const ServiceMember& member, Time) { return differences_->update(member); });
+  for (const ServiceDifferences::Difference& difference : found)
+    parts_.output.report(io::Level::kWarn,
+                         {.event = "service_config_differs", .session = difference.session, .text = difference.text},
+                         difference.text);
+}
+
 void ServiceHost::leave() {
   leaving_ = true;
   registry_->stop();
+  list_file_->stop();
+  const ServiceStatus before = status();
+  if (before.follows && before.members == 1 && before.sessions > 0) {
+    const std::string text = format(
+        "this was the last server of the service: %zu session%s without a server now, and begin%s again from the state "
+        "in the directory when one starts",
+        before.sessions, before.sessions == 1 ? " is" : "s are", before.sessions == 1 ? "s" : "");
+    parts_.output.report(io::Level::kInfo, {.event = "service_left_last", .text = text}, text);
+  }
   if (!thread_->leave(kLeaveMax)) {
     const std::string text =
         "the directory did not confirm the end of this server; other servers begin its sessions when "

@@ -11,9 +11,11 @@
 #include "server/app/process/session_table.h"
 #include "server/app/service/directory_snapshots.h"
 #include "server/app/service/registry_mirror.h"
+#include "server/app/service/service_list_file.h"
 #include "server/app/service/service_locator.h"
 #include "server/app/service/service_thread.h"
 #include "server/app/service/service_ticket_uses.h"
+#include "server/service/service_differences.h"
 #include "server/service/service_news.h"
 
 namespace tandem::server {
@@ -77,6 +79,7 @@ class ServiceHost {
   void publish_load();
   void publish_lists();
   void report(const std::vector<ServiceNews::Line>& lines);
+  void report_differences();
 
   Parts parts_;
   std::string server_;
@@ -84,9 +87,11 @@ class ServiceHost {
   DirectorySnapshots snapshots_;
   std::unique_ptr<ServiceThread> thread_;
   std::unique_ptr<RegistryMirror> registry_;
+  std::unique_ptr<ServiceListFile> list_file_;
   std::unique_ptr<ServiceLocator> locator_;
   std::unique_ptr<ServiceTicketUses> ticket_uses_;
   ServiceNews news_;
+  std::optional<ServiceDifferences> differences_;
   std::vector<Waiting> waiting_;
   std::map<std::uint64_t, SessionOrder> orders_;  ///< creations without a reply, by number
   std::uint64_t newest_order_ = 0;

@@ -1,6 +1,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <expected>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,11 +30,12 @@
 namespace tandem::console {
 namespace {
 
+constexpr const char* kDefaultServer = "127.0.0.1:7000";
 constexpr const char* kPlayScene = "lesson";
 constexpr double kPlaySeconds = 86400;
 
 struct Arguments {
-  client::ConnectionArguments connection{.ticket = {}, .server = "127.0.0.1:7000", .session = {}, .state = {}};
+  client::ConnectionArguments connection{.ticket = {}, .server = {}, .session = {}, .state = {}};
   PageAddressArguments page;
   std::string role = "instructor", recordings, audience_ticket;
   double away_s = 60;
@@ -49,6 +51,9 @@ int complain(const std::string& text) {
 /// Why the folder of recordings cannot be shown; empty: it can.
 std::string recordings_problem(const std::string& folder) {
   if (folder.empty()) return {};
+  if (std::error_code error; !std::filesystem::is_directory(folder, error))
+    return folder + " is no folder" + (error ? ": " + error.message() : std::string()) +
+           "; name the folder into which tandem-server records (`run --record`, `record` in a configuration)";
   const auto index = server::RecordingIndex::open(folder);
   return index ? std::string{} : index.error();
 }
@@ -84,8 +89,11 @@ std::expected<GatewayLinks, client::JoinError> join_links(const Arguments& argum
   return links;
 }
 
-int run(const Arguments& arguments) {
+int run(Arguments arguments) {
   io::UsageErrors errors;
+  if (arguments.play && (!arguments.connection.server.empty() || !arguments.connection.session.empty()))
+    errors.add("--play: it starts a server of its own; leave out --server and --session");
+  if (arguments.connection.server.empty()) arguments.connection.server = kDefaultServer;
   client::JoinOptions options = client::connection_of(arguments.connection, errors);
   options.timeout = client::timeout_of(arguments.connection.timeout, errors);
   options.ticket = client::ticket_of(arguments.connection.ticket, errors);

@@ -85,7 +85,7 @@ void RecordingCatalogue::scan(RecordingList& list) {
     list.problem = rows.error();
     return;
   }
-  keep(list, *rows);
+  keep(list, *rows, report->unfinished);
 }
 
 void RecordingCatalogue::list_files(RecordingList& list) {
@@ -101,11 +101,12 @@ void RecordingCatalogue::list_files(RecordingList& list) {
     }
     file_rows_.push_back(std::move(row));
   }
-  keep(list, file_rows_);
+  keep(list, file_rows_, {});
 }
 
-void RecordingCatalogue::keep(RecordingList& list, const std::vector<server::RecordingRow>& rows) {
-  std::vector<server::RecordingGroup> groups = group_recordings(rows);
+void RecordingCatalogue::keep(RecordingList& list, const std::vector<server::RecordingRow>& rows,
+                              const std::vector<std::string>& unfinished) {
+  std::vector<server::RecordingGroup> groups = group_recordings(rows, unfinished);
   known_.clear();
   for (const server::RecordingGroup& group : groups) {
     const std::string& first = rows[group.rows.front()].file;

@@ -35,7 +35,8 @@ class RecordingCatalogue {
  private:
   void scan(RecordingList& list);
   void list_files(RecordingList& list);
-  void keep(RecordingList& list, const std::vector<server::RecordingRow>& rows);
+  void keep(RecordingList& list, const std::vector<server::RecordingRow>& rows,
+            const std::vector<std::string>& unfinished);
 
   std::string folder_;
   std::vector<std::string> files_;

@@ -1,11 +1,17 @@
 #include "server/console/app/tls_files.h"
 
+#include <fcntl.h>
 #include <openssl/bio.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509v3.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "common/io/fd.h"
 
 namespace tandem::console {
 namespace {
@@ -34,6 +40,10 @@ std::string text_of(const GENERAL_NAME& name) {
 }  // namespace
 
 std::expected<TlsFiles, std::string> TlsFiles::load(const std::string& certificate, const std::string& key) {
+  for (const auto& [option, file] : {std::pair{"--certificate: ", certificate}, std::pair{"--key: ", key}})
+    if (const io::Fd readable{::open(file.c_str(), O_RDONLY | O_CLOEXEC)}; !readable.open())
+      return std::unexpected(option + file + " cannot be read: " + std::strerror(errno) +
+                             "; name an existing file in PEM format that this user may read");
   ERR_clear_error();
   const std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context{SSL_CTX_new(TLS_server_method()), &SSL_CTX_free};
   if (!context) return std::unexpected("TLS is not available: " + openssl_reason());

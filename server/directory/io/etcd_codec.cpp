@@ -132,6 +132,16 @@ Reply from_etcd(OperationId operation, const LeaseKeepAliveResponse& answer) {
   return reply;
 }
 
+Reply from_etcd(OperationId operation, const LeaseTimeToLiveResponse& answer) {
+  Reply reply = from_header(operation, answer.header());
+  reply.ttl = std::chrono::seconds(answer.ttl());
+  if (answer.ttl() < 0) {  // etcd says so of a lease that it does not have
+    reply.outcome = Outcome::kNoLease;
+    reply.ttl = {};
+  }
+  return reply;
+}
+
 Reply from_etcd(OperationId operation, const WatchResponse& answer) {
   Reply reply = from_header(operation, answer.header());
   if (answer.canceled()) {

@@ -19,6 +19,7 @@ namespace tandem::directory {
 [[nodiscard]] Reply from_etcd(OperationId operation, const etcdserverpb::TxnResponse& answer);
 [[nodiscard]] Reply from_etcd(OperationId operation, const etcdserverpb::LeaseGrantResponse& answer);
 [[nodiscard]] Reply from_etcd(OperationId operation, const etcdserverpb::LeaseKeepAliveResponse& answer);
+[[nodiscard]] Reply from_etcd(OperationId operation, const etcdserverpb::LeaseTimeToLiveResponse& answer);
 [[nodiscard]] Reply from_etcd(OperationId operation, const etcdserverpb::WatchResponse& answer);
 /// For answers that have a header only.
 [[nodiscard]] Reply from_header(OperationId operation, const etcdserverpb::ResponseHeader& header);

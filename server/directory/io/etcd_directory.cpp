@@ -334,23 +334,7 @@ void EtcdDirectory::Core::run() {
 Member& EtcdDirectory::Core::member(std::size_t number) {
   const auto found = members_.find(number);
   if (found != members_.end()) return found->second;
-  // etcd ends connections with pings more often than every 5 s.
-  constexpr int kPing = 6000, kPingAnswer = 2000, kReconnect = 200, kReconnectMost = 1000, kMessageMax = 32 << 20;
-  grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kPing);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kPingAnswer);
-  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kReconnect);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kReconnectMost);
-  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
-  arguments.SetMaxReceiveMessageSize(kMessageMax);
-  auto credentials = grpc::InsecureChannelCredentials();
-  if (!options_.authority.empty()) {
-    credentials = grpc::SslCredentials({options_.authority, options_.key, options_.certificate});
-    if (!options_.name_in_certificate.empty()) arguments.SetSslTargetNameOverride(options_.name_in_certificate);
-  }
-  return members_.emplace(number, grpc::CreateCustomChannel(options_.endpoints[number], credentials, arguments))
-      .first->second;
+  return members_.emplace(number, etcd_channel(options_, number)).first->second;
 }
 
 void EtcdDirectory::Core::begin_call(OperationId operation, const Request& request, std::size_t number) {
@@ -371,6 +355,13 @@ void EtcdDirectory::Core::begin_call(OperationId operation, const Request& reque
     Call<LeaseRevokeRequest, LeaseRevokeResponse>::begin(self, operation, number, wanted, [&to](auto& call, auto end) {
       to.lease->async()->LeaseRevoke(call.context.get(), &call.wanted, &call.answer, end);
     });
+  } else if (const auto* remaining = std::get_if<Remaining>(&request)) {
+    LeaseTimeToLiveRequest wanted;
+    wanted.set_id(remaining->lease);
+    Call<LeaseTimeToLiveRequest, LeaseTimeToLiveResponse>::begin(
+        self, operation, number, wanted, [&to](auto& call, auto end) {
+          to.lease->async()->LeaseTimeToLive(call.context.get(), &call.wanted, &call.answer, end);
+        });
   } else if (const auto* transaction = std::get_if<Transaction>(&request)) {
     Call<TxnRequest, TxnResponse>::begin(self, operation, number, to_etcd(*transaction), [&to](auto& call, auto end) {
       to.kv->async()->Txn(call.context.get(), &call.wanted, &call.answer, end);

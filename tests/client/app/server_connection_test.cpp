@@ -40,6 +40,14 @@ TEST_F(ServerConnectionTest, RetriesUntilTheTimeoutWhileNothingListens) {
             "on`");
 }
 
+TEST_F(ServerConnectionTest, WaitsForConnectAndReplyTogether) {
+  const Time until = Time{} + 5s;
+  EXPECT_EQ(ServerConnection::answer_time(Time{} + 100ms, until, 5s), 4900ms);
+  EXPECT_EQ(ServerConnection::answer_time(Time{} + 4900ms, until, 5s), 1s) << "the server has accepted late";
+  EXPECT_EQ(ServerConnection::answer_time(Time{} + 8s, until, 5s), 1s);
+  EXPECT_EQ(ServerConnection::answer_time(Time{} + 250ms, Time{} + 250ms, 250ms), 250ms);
+}
+
 TEST_F(ServerConnectionTest, NamesTheSignalAndWhatWasMissingWhenItEnded) {
   const io::Fd signals = io::make_signalfd();
   options.signals = signals.get();

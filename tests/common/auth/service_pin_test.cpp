@@ -157,6 +157,28 @@ TEST(ServicePin, IsFirstTakenOnlyFromAServerThatIsAMember) {
   EXPECT_FALSE(first_pin(credential(key, signed_voucher(key)), server(), kNow + 401 * kDay));
 }
 
+TEST(ServicePin, OfAClientThatEnrolsDuringTheGraceAcceptsServersOfTheOldKey) {
+  const TicketKey first = service_key(), second = service_key(20), third = service_key(40);
+  const std::vector<Bytes> chain{change_of(first, second), change_of(second, third, 5 * kDay)};
+  const ServicePin pin = first_pin(credential(third, signed_voucher(third), chain), server(), kNow).value();
+  EXPECT_EQ(pin, (ServicePin{third.verifier().key, second.verifier().key, kNow + 5 * kDay}));
+  EXPECT_TRUE(check_voucher(signed_voucher(second), pin, server(), kNow + 5 * kDay));
+  EXPECT_EQ(rule_of(signed_voucher(second), pin, kNow + 5 * kDay + 1), VoucherCheck::kReplaced);
+  // A statement that the old key has not signed changes nothing.
+  const KeyChange wanted{second.verifier().key, third.verifier().key, kNow, kNow + kDay};
+  const std::vector<Bytes> forged{sign_key_change(wanted, first).value()};
+  EXPECT_EQ(first_pin(credential(third, signed_voucher(third), forged), server(), kNow).value(), pin_of(third));
+}
+
+TEST(ServicePin, TellsARotationFromAnotherService) {
+  const std::string replaced = to_text(VoucherError{VoucherCheck::kReplaced});
+  for (const char* words : {"service rotate", "--grace-days", "another server of the service", "service vouch"})
+    EXPECT_NE(replaced.find(words), std::string::npos) << replaced;
+  const std::string unknown = to_text(VoucherError{VoucherCheck::kService});
+  for (const char* words : {"another service", "rotated its key", "enrol there"})
+    EXPECT_NE(unknown.find(words), std::string::npos) << unknown;
+}
+
 TEST(MemberCredential, TravelsInACertificateAndLeavesItsKeyAsItWas) {
   const TlsKey key = TlsKey::generate();
   const std::vector<Bytes> chain(rpc::kKeyChangesMax, change_of(service_key(), service_key(9)));

@@ -149,6 +149,20 @@ TEST(RecordingGroups, ThatStillGrowAreKept) {
   EXPECT_TRUE(chosen({"a/lab-2.mcap.part"}).empty());
 }
 
+TEST(RecordingGroups, LackNoPartThatIsBeingRecorded) {
+  std::vector<RecordingRow> rows{part("a/lab.mcap", 1, false), part("a/lab-2.mcap", 2, false)};
+  const auto group = [&](const std::vector<std::string>& unfinished) { return group_recordings(rows, unfinished)[0]; };
+  EXPECT_EQ(group({"a/lab-3.mcap.part"}).problem, "");
+  EXPECT_TRUE(group({"a/lab-3.mcap.part"}).grows);
+  EXPECT_NE(group({"a/lab-4.mcap.part"}).problem.find("part 3 of the recording is missing"), std::string::npos);
+  EXPECT_FALSE(group({"b/lab-3.mcap.part"}).grows);
+  const std::string text = recordings_text(rows, true, {"a/lab-3.mcap.part"});
+  EXPECT_EQ(text.find("missing"), std::string::npos) << text;
+  EXPECT_NE(text.find("a/lab-2.mcap: the next part of this recording is not closed yet"), std::string::npos) << text;
+  rows.erase(rows.begin());  // an earlier part is missing all the same
+  EXPECT_NE(group({"a/lab-3.mcap.part"}).problem.find("part 1 of the recording is missing"), std::string::npos);
+}
+
 TEST(RecordingGroups, AreDeletedFromTheirEnd) {
   const std::vector<RecordingRow> rows = folder();
   EXPECT_EQ(deletion_order(rows, {4, 2, 0, 1}), (std::vector<std::vector<std::size_t>>{{4}, {1, 0, 2}}))

@@ -70,6 +70,17 @@ TEST_F(ModelStoreTest, EndsALeaseExactlyAtItsTimeWithAllItsKeysInOneRevision) {
   EXPECT_EQ(store_.leases(), 0U);
 }
 
+TEST_F(ModelStoreTest, TellsTheRestOfALeaseWithoutExtendingIt) {
+  const LeaseId lease = grant(3s);
+  EXPECT_EQ(run(Remaining{lease}).ttl, 3s);
+  store_.advance(Time{} + 1200ms);
+  EXPECT_EQ(run(Remaining{lease}).ttl, 1s) << "whole seconds";
+  store_.advance(Time{} + 3s - 1ns);
+  EXPECT_EQ(run(Remaining{lease}).ttl, 0s);
+  store_.advance(Time{} + 3s);
+  EXPECT_EQ(run(Remaining{lease}).outcome, Outcome::kNoLease);
+}
+
 TEST_F(ModelStoreTest, GivesEveryLeaseItsWholeTimeAtAnElectionAndADeposedLeaderNone) {
   const LeaseId lease = grant(3s);
   store_.advance(Time{} + 2s);

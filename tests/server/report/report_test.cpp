@@ -173,6 +173,28 @@ TEST(Report, CoversALongSessionWithFewerSamples) {
   EXPECT_NEAR(r.seats[0].metrics.effort_peak_n, 0.3, 1e-6);
 }
 
+/// Half a second without an answer of the directory of a service; in it, all hands are free, so the tool is braked.
+TEST(Report, DoesNotBlameSeatsForTheTimeWithoutTheDirectory) {
+  const SceneSpec spec = scene("free_motion");
+  ReportBuilder builder(spec);
+  for (std::uint32_t tick = 1; tick <= 2000; ++tick) {
+    TickRecord r;
+    r.tick = tick;
+    r.running = true;
+    r.unleased = tick > 1000 && tick <= 1500;
+    r.tools[0].held = tick > 1000 && tick <= 1600;
+    builder.add(r);
+  }
+  const RunReport r = builder.build(std::vector<LinkReport>(2));
+  EXPECT_DOUBLE_EQ(r.unleased_s, 0.5);
+  EXPECT_DOUBLE_EQ(r.tools[0].held_s, 0.1) << "the seats were back 0.1 s later";
+  const std::string text = report_summary(r, spec);
+  EXPECT_NE(text.find("HELD for 0.5 s: the directory of the service (etcd) did not answer"), std::string::npos) << text;
+  EXPECT_NE(text.find("braked (HELD) for 0.1 s: no seat with authority"), std::string::npos) << text;
+  EXPECT_EQ(nlohmann::json::parse(to_json(r))["unleased_s"], 0.5);
+  EXPECT_FALSE(nlohmann::json::parse(to_json(RunReport{})).contains("unleased_s"));
+}
+
 /// Distances are taken at the same session tick, independent of the slave. Hand 1 is 3 mm and 4 mm from hand 0, which
 /// leads it for 10 s.
 TEST(Report, ReportsTheDistanceBetweenAHandAndItsLeader) {

@@ -80,6 +80,9 @@ TEST_F(ServiceNewsTest, TableHasEveryServerAndSessionsWithoutOne) {
                      .used = 1.25,
                      .voucher = to_hex(rpc::encode(statement))});
   Server& b = start("b");
+  b.member.describe({.address = "b:7000", .key = "k", .version = "1.10", .zone = "", .capacity = 4});
+  pass(3s);
+  Server& c = start("c");
   pass(1s);
   const auto table = [&] {
     directory::DirectoryView view{directory::DirectoryKeys{}};
@@ -89,15 +92,29 @@ TEST_F(ServiceNewsTest, TableHasEveryServerAndSessionsWithoutOne) {
     through.begin(2, *catalogue.poll_request(now_, 2, 1s));
     while (const auto reply = through.poll())
       if (!view.on_reply(*reply)) catalogue.on_reply(*reply);
-    return servers_table(view, catalogue);
+    LeaseRests rests;
+    for (const auto& [name, server] : view.servers()) {
+      const auto rest = store_.execute(9, directory::Remaining{server.lease});
+      if (name != "c")
+        rests[server.lease] = rest.outcome == directory::Outcome::kDone ? std::optional(rest.ttl) : std::nullopt;
+    }
+    return servers_table(view, catalogue, rests);
   };
   const std::string text = table();
-  EXPECT_NE(text.find("a       10.0.0.7:7000  1.2      north  1.25 of 4.0 cores  1         2027-01-15\n"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find(
+          "a       10.0.0.7:7000  1.2 (older)  north  1.25 of 4.0 cores  1         0        2 s left  2027-01-15\n"),
+      std::string::npos)
       << text;
-  EXPECT_NE(text.find("\nb "), std::string::npos) << text;
+  EXPECT_NE(
+      text.find("\nb       b:7000         1.10         -      0.00 of 4.0 cores  0         1        2 s left  ?\n"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("0        ?         ?\n"), std::string::npos) << "the rest of the lease of c is not known\n"
+                                                                    << text;
+  EXPECT_EQ(text.find("no standby"), std::string::npos) << text;
   EXPECT_EQ(text.find("has no server"), std::string::npos) << text;
-  a.runs = b.runs = false;
+  a.runs = b.runs = c.runs = false;
   a.open.clear();
   now_ += 10s;
   store_.advance(now_);

@@ -101,6 +101,37 @@ TEST(SessionRedirect, FindsTheOnlySessionOfTheServiceAndNamesSeveral) {
   EXPECT_EQ(r.locator.asked.back(), (rpc::SessionChoice{id_of(2)}));
 }
 
+TEST(SessionRedirect, RefusesUnknownSessionsWithThoseOfTheService) {
+  Redirecting r;
+  const auto refused = [&](const rpc::SessionChoice& choice) {
+    EXPECT_FALSE(r.redirect.find(choice, true));
+    return r.redirect.refusal(choice, error_of(r.registry.choose(choice)));
+  };
+  r.locator.others = {other("exam", 2)};
+  EXPECT_EQ(refused(id_of(3)),
+            (rpc::ErrorReply{ErrorCode::kNoSession,
+                             "this service has no such session; sessions of the service: lesson, exam", 0}));
+  r.registry.remove(id_of(1), [] {});
+  r.wait_until([&] { return r.registry.entries().empty(); });
+  const rpc::ErrorReply code = refused("ZZZZZ12345");
+  EXPECT_EQ(code.code, ErrorCode::kCode) << "an attempt at the code, also at a server without sessions";
+  EXPECT_NE(code.text.find("sessions of the service: exam"), std::string::npos) << code.text;
+  for (unsigned i = 0; i < 100; ++i) r.locator.others.push_back(other(std::string(32, 'n'), 100 + i));
+  EXPECT_LE(refused("ZZZZZ12345").text.size(), rpc::kTextMax);
+  r.locator.others.clear();
+  EXPECT_EQ(refused(id_of(3)), (rpc::ErrorReply{ErrorCode::kNoSession, "no session is open in this service", 0}));
+  EXPECT_EQ(refused(std::monostate{}).text, "no session is open in this service");
+  r.locator.is_fresh = false;
+  EXPECT_EQ(refused(std::monostate{}).code, ErrorCode::kInternal);
+  EXPECT_NE(refused(std::monostate{}).text.find("does not reach the directory"), std::string::npos);
+  SessionRedirect alone{r.registry};
+  const rpc::ErrorReply own{ErrorCode::kNoSession, "no session is open on this server", 0};
+  EXPECT_EQ(alone.refusal(std::monostate{}, own), own);
+  EXPECT_EQ(r.redirect.refusal(id_of(3), {ErrorCode::kSessionOver, "over", 0}).text, "over");
+  EXPECT_NE(r.redirect.draining().text.find("another server of the service"), std::string::npos);
+  EXPECT_NE(alone.draining().text.find("until it has restarted"), std::string::npos);
+}
+
 TEST(SessionRedirect, ListsTheWholeServiceInPagesAndSaysWhenItIsOld) {
   Redirecting r;
   for (unsigned i = 0; i < 100; ++i) r.locator.others.push_back(other("s" + std::to_string(199 - i), 100 + i));

@@ -82,6 +82,34 @@ TEST(OwnedSessions, AreServedUnderTheirIdCodeAndRevision) {
   EXPECT_NE(m.rig.table->open_owned(m.owned(4712)).find("has a session exam"), std::string::npos);
 }
 
+TEST(OwnedSessions, MayHaveATickRateThatNoConfiguredSessionHas) {
+  Member m;
+  m.rig.start();
+  const auto with_rate = [&](const std::string& name, double tick_hz) {
+    SessionOptions options = lesson(name);
+    options.scene.tick_hz = tick_hz;
+    OwnedSession owned = m.owned(3);
+    owned.id[1] = static_cast<std::byte>(m.rig.table->all().size() + 1);
+    owned.options = std::make_shared<const SessionOptions>(std::move(options));
+    return owned;
+  };
+  ASSERT_EQ(m.rig.table->open_owned(with_rate("exam", 1000)), "");
+  const std::size_t before = m.rig.shards.all().size();
+  ASSERT_EQ(m.rig.table->open_owned(with_rate("slow", 500)), "");
+  ASSERT_EQ(m.rig.table->open_owned(with_rate("slow-too", 500)), "");
+  ASSERT_EQ(m.rig.table->open_owned(with_rate("fast", 2000)), "");
+  EXPECT_EQ(m.rig.shards.all().size(), before + 2) << "one thread per further rate";
+  for (const auto& session : m.rig.table->all()) {
+    const auto period = from_seconds(1 / session->options().scene.tick_hz);
+    EXPECT_EQ(m.rig.shards.of_slot(session->live_session().slot()).period(), period) << session->options().name;
+  }
+  const rpc::Body reply = m.rig.order(rpc::EndSession{.session_id = m.rig.table->all().back()->id()});
+  EXPECT_TRUE(std::holds_alternative<rpc::Ok>(reply)) << "the added thread carries out orders";
+  for (double tick_hz = 100; m.rig.shards.all().size() < io::Steering::kSocketsMax; ++tick_hz)
+    ASSERT_TRUE(m.rig.shards.add(tick_hz));
+  EXPECT_NE(m.rig.table->open_owned(with_rate("more", 777)).find("the most"), std::string::npos);
+}
+
 TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
   Member m;
   m.rig.start();

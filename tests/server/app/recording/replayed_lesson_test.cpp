@@ -82,6 +82,17 @@ TEST(ReplayedLesson, DividesByTheMotionScaleOfASeat) {
   EXPECT_NE(replayed->hands[0].csv.find("1.003000,0.0015,0.01,-0.015\n"), std::string::npos) << replayed->hands[0].csv;
 }
 
+TEST(ReplayedLesson, SaysHowLongTheHandsOfALateRecordingStand) {
+  Lesson lesson = lesson_of("free_motion");
+  lesson.scene.tick_hz = 1000;
+  lesson.tick = {1, 2, 3};
+  EXPECT_EQ(late_begin_text(lesson), "");
+  lesson.tick = {600'000, 601'000, 660'000};
+  EXPECT_EQ(late_begin_text(lesson),
+            "the recording begins at 600.0 s of its session, and has nothing before: the recorded hands stand still "
+            "for so long, then they move until 660.0 s");
+}
+
 TEST(ReplayedLesson, NamesWhatCannotBePlayed) {
   const Lesson lesson = lesson_of("free_motion");
   EXPECT_NE(replayed_lesson(lesson, {"nurse"}, true).error().find("master seats: trainer, trainee"), std::string::npos);

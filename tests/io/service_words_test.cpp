@@ -1,0 +1,106 @@
+// Texts of servers of one service over etcd for their users: real programs on loopback. Texts and results are asserted,
+// never durations.
+#include "proto/text/scenes_embedded.h"
+#include "tests/io/service_fixture.h"
+
+namespace tandem::test {
+namespace {
+
+class ServiceWords : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (etcd_program("etcd").empty() || etcd_program("etcdctl").empty()) GTEST_SKIP() << kNoEtcd;
+  }
+};
+
+bool contains(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+/// Repeats a command of tandem-server until its output has these words; the test fails after 30 s.
+std::string wait_for_output(const Words& words, const std::string& wanted) {
+  std::string text;
+  for (int i = 0; i < 300; ++i) {
+    Process asked = server(words);
+    EXPECT_EQ(asked.wait(), 0) << asked.err();
+    text = asked.out();
+    if (contains(text, wanted)) return text;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  ADD_FAILURE() << "no \"" << wanted << "\" in " << text;
+  return text;
+}
+
+/// A server whose configuration differs from that of the others in the words of its scene.
+Process with_scene(LiveService& service, const std::string& name, const std::string& before, const std::string& after) {
+  Process& first = service.start(name);
+  first.signal(SIGTERM);
+  EXPECT_EQ(first.wait(), 0) << first.err();
+  std::string config = service.folder().read(name + ".textproto");
+  const std::size_t at = config.find(before);
+  EXPECT_NE(at, std::string::npos) << config;
+  config.replace(at, before.size(), after);
+  Process again = server({"serve", service.folder().write(name + ".textproto", config)});
+  EXPECT_TRUE(again.wait_for("is a member of the service")) << again.err();
+  return again;
+}
+
+TEST_F(ServiceWords, TicketsOfOneServerAdmitAtTheOwnerOfTheSession) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const std::string state = service.folder().file("b"), config = service.folder().file("b.textproto");
+  const std::string list = wait_for_output({"sessions", "--state", state}, "server a");
+  EXPECT_TRUE(contains(list, "this server serves no session now")) << list;
+  const std::string own = service.enrolled("desk");
+  wait_for_output({"sessions", "--json", "--state", state}, "\"trainee\"");
+  const Words made{"ticket", "--session", "lab", "--seat", "trainee", "--workstation", "desk", "--state", state};
+  const std::string ticket = service.folder().write("ticket", first_line(LiveService::run(made)));
+  Process joined = client(address_of(b), "trainee", {"--ticket-file", ticket, "--state", own});
+  EXPECT_TRUE(joined.wait_for("seat trainee at " + address_of(service.of("a")))) << joined.err();
+  Process twice = client(address_of(b), "trainee", {"--ticket-file", ticket, "--state", own});
+  EXPECT_NE(twice.wait(), 0) << "a ticket admits once";
+  Process wrong =
+      server({"ticket", "--session", "lab", "--seat", "traineee", "--workstation", "desk", "--state", state});
+  EXPECT_EQ(wrong.wait(), 2);
+  EXPECT_TRUE(contains(wrong.err(), "did you mean trainee")) << wrong.err();
+  const std::string table = wait_for_output({"servers", "--config", config}, " s left");
+  for (const char* column : {"STANDBY", "LEASE", "VOUCHER UNTIL"}) EXPECT_TRUE(contains(table, column)) << table;
+}
+
+TEST_F(ServiceWords, AServerWhoseConfigurationDiffersSaysSo) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process b = with_scene(service, "b", "free_motion", "contact");
+  EXPECT_TRUE(
+      b.wait_for("session lab differs in the configuration of this server from the session that the service "
+                 "runs at server a: scene contact here, free_motion in the service"))
+      << b.err();
+}
+
+TEST_F(ServiceWords, AServerTakesOverASessionOfATickRateThatItHasNotConfigured) {
+  LiveService service("session { name: \"lab\" scene: \"slow.textproto\" }");
+  std::string scene(find_shipped_scene("free_motion")->text);
+  const std::string rate = "tick_hz: 1000";
+  ASSERT_TRUE(contains(scene, rate));
+  service.folder().write("slow.textproto", scene.replace(scene.find(rate), rate.size(), "tick_hz: 500"));
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process b = with_scene(service, "b", "slow.textproto", "free_motion");
+  wait_for_output({"servers", "--config", service.folder().file("b.textproto")}, "0         1");
+  a.signal(SIGKILL);
+  EXPECT_EQ(a.wait(), -SIGKILL);
+  service.wait_for_sessions("b", 1);
+  EXPECT_TRUE(b.wait_for("session lab RESTORED from its checkpoint")) << b.err();
+}
+
+TEST(ServiceClients, NameTheAddressThatAnswered) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string address = address_of(host), nothing = free_address();
+  Process seat = client(nothing + "," + address, "trainee");
+  EXPECT_TRUE(seat.wait_for("seat trainee at " + address)) << seat.err();
+}
+
+}  // namespace
+}  // namespace tandem::test
