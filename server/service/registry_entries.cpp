@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "common/auth/key_fingerprint.h"
 #include "common/base/hex.h"
@@ -16,6 +17,8 @@ struct Rows {
   std::optional<CodeRow> code;
 };
 
+constexpr std::int64_t kTimeMax = 1'000'000'000'000;  // [s] proto/schema/registry.proto
+
 /// Reads `{"KEY": "64 digits", "TIME": seconds}`.
 bool read_pair(const Json& in, const char* key, const char* time, Sha256& digest, std::int64_t& seconds) {
   if (!in.is_object()) return false;
@@ -23,7 +26,7 @@ bool read_pair(const Json& in, const char* key, const char* time, Sha256& digest
   if (hex == in.end() || at == in.end() || !hex->is_string() || !at->is_number_integer()) return false;
   if (!auth::from_hex(hex->get<std::string>(), digest)) return false;
   seconds = at->get<std::int64_t>();
-  return true;
+  return seconds >= 0 && seconds <= kTimeMax;
 }
 
 std::optional<Rows> parse_entry(std::string_view text) {
@@ -73,5 +76,32 @@ auth::RegistryLists lists_of(const RegistryEntries& entries) {
 }
 
 bool readable_entry(std::string_view text) { return parse_entry(text).has_value(); }
+
+RegistryEntries tenable(const RegistryEntries& entries, const RegistryEntries& own) {
+  const auth::RegistryLists lists = lists_of(entries);
+  std::map<Sha256, std::pair<std::int64_t, std::string>> keys;
+  for (const WorkstationRow& row : lists.workstations) {
+    std::pair held{row.enrolled_at, row.name};
+    if (const auto [first, made] = keys.try_emplace(row.spki, held); !made && held < first->second)
+      first->second = std::move(held);
+  }
+  std::map<Sha256, std::string> codes;
+  for (const CodeRow& row : lists.codes) codes.try_emplace(row.hash, row.workstation);  // sorted by name
+  std::size_t workstations_left = auth::kRegistryRowsMax, codes_left = auth::kRegistryRowsMax;
+  RegistryEntries kept;
+  const auto take = [&](const std::string& name, const std::string& text) {
+    const auto rows = parse_entry(text);
+    if (!rows || (rows->workstation && (workstations_left == 0 || keys.at(rows->workstation->spki).second != name)) ||
+        (rows->code && (codes_left == 0 || codes.at(rows->code->hash) != name)))
+      return;
+    if (rows->workstation) --workstations_left;
+    if (rows->code) --codes_left;
+    kept[name] = text;
+  };
+  for (const bool in_files : {true, false})
+    for (const auto& [name, text] : entries)
+      if (own.contains(name) == in_files) take(name, text);
+  return kept;
+}
 
 }  // namespace tandem::server

@@ -20,5 +20,10 @@ inline constexpr std::size_t kRegistryEntryMax = 1024;  ///< [bytes] of a text t
 [[nodiscard]] auth::RegistryLists lists_of(const RegistryEntries& entries);
 /// Whether another server's text can be read, whatever its bytes are.
 [[nodiscard]] bool readable_entry(std::string_view text);
+/// Returns those of the entries that the files of one server can hold together. Of several names with one key the one
+/// enrolled first stays, then the first by name; of several names with one code the first by name. Beyond
+/// auth::kRegistryRowsMax rows of a list, names that are not in `own` are left out.
+/// @param own  entries that the files have
+[[nodiscard]] RegistryEntries tenable(const RegistryEntries& entries, const RegistryEntries& own);
 
 }  // namespace tandem::server
