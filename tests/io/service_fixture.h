@@ -66,14 +66,21 @@ class LiveService {
     }
     return taken();
   }
-  /// Enrols a workstation at all servers. @return the folder of its keys
+  /// Enrols a workstation at the first server, and waits until all have it. @return the folder of its keys
   [[nodiscard]] std::string enrolled(const std::string& workstation) const {
     const std::string own = folder_.file("own-" + workstation);
+    Process given = server({"enroll", workstation, "--state", folder_.file(servers_.begin()->first)});
+    EXPECT_EQ(given.wait(), 0) << given.err();
+    Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", own});
+    EXPECT_EQ(taken.wait(), 0) << taken.err();
     for (const auto& [name, process] : servers_) {
-      Process given = server({"enroll", workstation, "--state", folder_.file(name)});
-      EXPECT_EQ(given.wait(), 0) << given.err();
-      Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", own});
-      EXPECT_EQ(taken.wait(), 0) << taken.err();
+      const std::string list = folder_.file(name) + "/workstations.textproto";
+      const auto has = [&] {
+        return std::filesystem::exists(list) &&
+               folder_.read(name + "/workstations.textproto").find(workstation) != std::string::npos;
+      };
+      for (int i = 0; i < 1500 && !has(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      EXPECT_TRUE(has()) << name << " does not learn the workstation: " << process->err();
     }
     return own;
   }
