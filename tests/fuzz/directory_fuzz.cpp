@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 const std::string kPrefix = "/t/";
 
-/// Entries of the input: lines KEY=VALUE, in which a byte 1 stands for a line break of the value.
+/// Reads the entries of the input: lines KEY=VALUE, in which a byte 1 stands for a line break of the value.
 std::vector<directory::KeyValue> entries_of(std::string_view text) {
   std::vector<directory::KeyValue> entries;
   while (!text.empty()) {
@@ -67,7 +67,7 @@ void read_texts(std::string_view text) {
     FUZZ_EXPECT(server::parse_registry_agreement(server::to_text(*agreed)) == agreed);
 }
 
-/// What the mirror of the registry does with the entries (server/app/service/registry_mirror.cpp).
+/// Handles the entries as the mirror of the registry does (server/app/service/registry_mirror.cpp).
 void share_registry(const std::vector<directory::KeyValue>& entries) {
   server::SharedRegistry registry(kPrefix, {}, "mark");
   WorkstationRow own{"own", {std::byte{1}}, 5};
