@@ -45,6 +45,13 @@ std::optional<Rows> parse_entry(std::string_view text) {
   return rows;
 }
 
+/// The value that changed; `stored` if both did.
+template <class Row>
+std::optional<Row> changed(const std::optional<Row>& before, const std::optional<Row>& local,
+                           const std::optional<Row>& stored) {
+  return stored == before ? local : stored;
+}
+
 }  // namespace
 
 RegistryEntries entries_of(const auth::RegistryLists& lists) {
@@ -76,6 +83,19 @@ auth::RegistryLists lists_of(const RegistryEntries& entries) {
 }
 
 bool readable_entry(std::string_view text) { return parse_entry(text).has_value(); }
+
+std::string merged_entry(std::string_view before, std::string_view local, std::string_view stored) {
+  const Rows old = parse_entry(before).value_or(Rows{}), own = parse_entry(local).value_or(Rows{}),
+             other = parse_entry(stored).value_or(Rows{});
+  auto workstation = changed(old.workstation, own.workstation, other.workstation);
+  auto code = changed(old.code, own.code, other.code);
+  if (!code && own.code != old.code) code = own.code;  // issued here, while the one before was used elsewhere
+  auth::RegistryLists lists;
+  if (workstation) lists.workstations.push_back(std::move(*workstation));
+  if (code) lists.codes.push_back(std::move(*code));
+  const RegistryEntries entries = entries_of(lists);  // of the name "", as the rows have none
+  return entries.empty() ? std::string(stored) : entries.begin()->second;
+}
 
 RegistryEntries tenable(const RegistryEntries& entries, const RegistryEntries& own) {
   const auth::RegistryLists lists = lists_of(entries);

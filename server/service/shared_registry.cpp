@@ -57,7 +57,7 @@ std::string SharedRegistry::merged(const std::string& name) const {
   if (unreadable(name)) return local;
   if (local == before) return stored;
   if (stored == before || local == stored) return local;
-  return local.empty() ? local : stored;  // both changed: a revocation wins, else the directory
+  return local.empty() || stored.empty() ? kNone : merged_entry(before, local, stored);  // a revocation wins
 }
 
 std::vector<std::string> SharedRegistry::names() const {

@@ -239,6 +239,23 @@ TEST(SharedRegistry, LeavesAloneWhatItCannotRead) {
   EXPECT_EQ(desks.store.entries().at("/t/registry/a").value, "newer form");
 }
 
+// Otherwise a workstation that one server has just accepted would be gone when another server issues a code for it.
+TEST(SharedRegistry, KeepsAnEnrolmentBesideACodeThatAnotherServerIssuesAtOnce) {
+  Desks desks(2);
+  desks[0].issue("a", 7);
+  desks.pass(1s);
+  desks[1].directory.cut = true;
+  desks[0].enroll("a", 1);  // uses the code
+  desks[1].issue("a", 8);
+  desks.pass(1s);
+  desks[1].directory.cut = false;
+  desks.pass(3s);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(desks[i].key_of("a"), 1);
+    EXPECT_EQ(desks[i].lists.codes, std::vector{code("a", 8)});
+  }
+}
+
 // Servers that are cut off enrol one workstation under two names; the files of a server cannot hold its key twice.
 TEST(SharedRegistry, KeepsTheFirstNameOfAKeyThatTwoServersEnrolledUnderTwoNames) {
   Desks desks(3);
