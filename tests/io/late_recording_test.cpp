@@ -164,6 +164,17 @@ TEST(LiveLateRecording, SaysWhyItHasNoInputs) {
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer"), trainee = client(address, "trainee");
+  // Beside it a server that keeps none.
+  const std::string other =
+      folder.write("n.textproto", "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + none.file("") +
+                                      "\" recording { from_start: false inputs_mib: 0 }\n"
+                                      "session { name: \"lab\" scene: \"one_axis\" duration_s: 4 restart: false }\n");
+  Process second = server({"serve", other});
+  ASSERT_TRUE(second.wait_for("Ctrl-C ends")) << second.err();
+  Process hand = client(address_of(second), "trainer");
+  ASSERT_TRUE(second.wait_for("the session runs")) << second.err();
+  std::this_thread::sleep_for(1s);
+  order(address_of(second), "start");
   EXPECT_TRUE(host.wait_for("a recording that begins from now on has no inputs")) << host.err();
   order(address, "start");
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
@@ -182,16 +193,6 @@ TEST(LiveLateRecording, SaysWhyItHasNoInputs) {
   EXPECT_EQ(told, 1u) << host.err();
   EXPECT_EQ(netsim({"score", files[0]}).code, 0);
 
-  const std::string other =
-      folder.write("n.textproto", "version: 1 listen: \"127.0.0.1:0\"\nrecord: \"" + none.file("") +
-                                      "\" recording { from_start: false inputs_mib: 0 }\n"
-                                      "session { name: \"lab\" scene: \"one_axis\" duration_s: 4 restart: false }\n");
-  Process second = server({"serve", other});
-  ASSERT_TRUE(second.wait_for("Ctrl-C ends")) << second.err();
-  Process hand = client(address_of(second), "trainer");
-  ASSERT_TRUE(second.wait_for("the session runs")) << second.err();
-  std::this_thread::sleep_for(1s);
-  order(address_of(second), "start");
   EXPECT_EQ(hand.wait(), 0) << hand.err();
   EXPECT_EQ(second.wait(), 0) << second.err();
   files = recordings_in(none);
