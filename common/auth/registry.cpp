@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace tandem::auth {
-namespace {
-
-constexpr std::size_t kRowsMax = 4096;  // proto/schema/registry.proto
-
-}  // namespace
 
 bool is_valid_name(std::string_view name) noexcept {
   const auto legal = [](char c) {
@@ -63,7 +58,7 @@ std::expected<WorkstationRow, EnrollError> enroll(std::vector<WorkstationRow>& b
     return std::unexpected(EnrollError::kKeyTaken);
   const std::string name = given->workstation;
   const auto old = std::ranges::find(book, name, &WorkstationRow::name);
-  if (old == book.end() && book.size() >= kRowsMax) return std::unexpected(EnrollError::kBookFull);
+  if (old == book.end() && book.size() >= kRegistryRowsMax) return std::unexpected(EnrollError::kBookFull);
   WorkstationRow row{name, fingerprint.sha256, now};
   if (old == book.end()) {
     book.push_back(row);

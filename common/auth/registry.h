@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <expected>
 #include <optional>
@@ -22,6 +23,9 @@ struct RegistryLists {
   std::vector<CodeRow> codes;
   friend bool operator==(const RegistryLists&, const RegistryLists&) = default;
 };
+
+/// Most workstations, and most codes, of a server (proto/schema/registry.proto).
+inline constexpr std::size_t kRegistryRowsMax = 4096;
 
 /// Returns whether a name has 1 to 32 characters of A-Z a-z 0-9 _ -
 [[nodiscard]] bool is_valid_name(std::string_view name) noexcept;

@@ -1,8 +1,16 @@
 #include "server/directory/prefix_follower.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tandem::directory {
+
+namespace {
+
+/// The next revision; the store may send any number.
+Revision after(Revision revision) { return std::min(revision, std::numeric_limits<Revision>::max() - 1) + 1; }
+
+}  // namespace
 
 std::optional<Request> PrefixFollower::poll_request(Time now, OperationId operation, Duration retry_after) {
   if (state_ == State::kReading && now - began_ >= retry_after) state_ = State::kStale;
@@ -29,14 +37,14 @@ std::optional<PrefixFollower::News> PrefixFollower::on_reply(const Reply& reply)
     news.all = true;
     if (!reply.found.empty())
       for (const KeyValue& entry : reply.found.front()) news.changes.push_back({entry, false});
-    next_ = reply.revision + 1;
+    next_ = after(reply.revision);
     ++readings_;
     state_ = State::kRead;
   } else {
     // A stream that was built again may repeat changes.
     for (const Change& change : reply.changes)
       if (change.entry.modified >= next_) news.changes.push_back(change);
-    if (!reply.changes.empty()) next_ = std::max(next_, reply.changes.back().entry.modified + 1);
+    if (!reply.changes.empty()) next_ = std::max(next_, after(reply.changes.back().entry.modified));
   }
   return news;
 }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "common/auth/key_fingerprint.h"
 #include "common/base/hex.h"
@@ -16,6 +17,8 @@ struct Rows {
   std::optional<CodeRow> code;
 };
 
+constexpr std::int64_t kTimeMax = 1'000'000'000'000;  // [s] proto/schema/registry.proto
+
 /// Reads `{"KEY": "64 digits", "TIME": seconds}`.
 bool read_pair(const Json& in, const char* key, const char* time, Sha256& digest, std::int64_t& seconds) {
   if (!in.is_object()) return false;
@@ -23,7 +26,7 @@ bool read_pair(const Json& in, const char* key, const char* time, Sha256& digest
   if (hex == in.end() || at == in.end() || !hex->is_string() || !at->is_number_integer()) return false;
   if (!auth::from_hex(hex->get<std::string>(), digest)) return false;
   seconds = at->get<std::int64_t>();
-  return true;
+  return seconds >= 0 && seconds <= kTimeMax;
 }
 
 std::optional<Rows> parse_entry(std::string_view text) {
@@ -40,6 +43,13 @@ std::optional<Rows> parse_entry(std::string_view text) {
     if (!read_pair(*found, "hash", "not_after", row.hash, row.not_after)) return std::nullopt;
   }
   return rows;
+}
+
+/// The value that changed; `stored` if both did.
+template <class Row>
+std::optional<Row> changed(const std::optional<Row>& before, const std::optional<Row>& local,
+                           const std::optional<Row>& stored) {
+  return stored == before ? local : stored;
 }
 
 }  // namespace
@@ -72,25 +82,46 @@ auth::RegistryLists lists_of(const RegistryEntries& entries) {
   return lists;
 }
 
-std::string merged_entry(const std::string& before, const std::string& local, const std::string& stored) {
-  const auto was = parse_entry(before), here = parse_entry(local), there = parse_entry(stored);
-  if (local.empty() || stored.empty() || !here || !there) return local.empty() ? local : stored;
-  // A workstation that one of them has revoked stays revoked. A code that one of them has used or replaced counts no
-  // more, but another one that was issued since does.
-  std::optional<WorkstationRow> workstation = there->workstation;
-  std::optional<CodeRow> code = there->code;
-  const bool knew_key = was && was->workstation, knew_code = was && was->code;
-  if (!workstation && !knew_key) workstation = here->workstation;
-  if (!here->workstation && knew_key) workstation.reset();
-  if (!code && here->code && !(knew_code && was->code == here->code)) code = here->code;
-  if (!here->code && knew_code && code == was->code) code.reset();
+bool readable_entry(std::string_view text) { return parse_entry(text).has_value(); }
+
+std::string merged_entry(std::string_view before, std::string_view local, std::string_view stored) {
+  const Rows old = parse_entry(before).value_or(Rows{}), own = parse_entry(local).value_or(Rows{}),
+             other = parse_entry(stored).value_or(Rows{});
+  auto workstation = changed(old.workstation, own.workstation, other.workstation);
+  auto code = changed(old.code, own.code, other.code);
+  if (!code && own.code != old.code) code = own.code;  // issued here, while the one before was used elsewhere
   auth::RegistryLists lists;
-  if (workstation) lists.workstations.push_back(*workstation);
-  if (code) lists.codes.push_back(*code);
-  const RegistryEntries entries = entries_of(lists);
-  return entries.empty() ? std::string{} : entries.begin()->second;
+  if (workstation) lists.workstations.push_back(std::move(*workstation));
+  if (code) lists.codes.push_back(std::move(*code));
+  const RegistryEntries entries = entries_of(lists);  // of the name "", as the rows have none
+  return entries.empty() ? std::string(stored) : entries.begin()->second;
 }
 
-bool readable_entry(std::string_view text) { return parse_entry(text).has_value(); }
+RegistryEntries tenable(const RegistryEntries& entries, const RegistryEntries& own) {
+  const auth::RegistryLists lists = lists_of(entries);
+  std::map<Sha256, std::pair<std::int64_t, std::string>> keys;
+  for (const WorkstationRow& row : lists.workstations) {
+    std::pair held{row.enrolled_at, row.name};
+    if (const auto [first, made] = keys.try_emplace(row.spki, held); !made && held < first->second)
+      first->second = std::move(held);
+  }
+  std::map<Sha256, std::string> codes;
+  for (const CodeRow& row : lists.codes) codes.try_emplace(row.hash, row.workstation);  // sorted by name
+  std::size_t workstations_left = auth::kRegistryRowsMax, codes_left = auth::kRegistryRowsMax;
+  RegistryEntries kept;
+  const auto take = [&](const std::string& name, const std::string& text) {
+    const auto rows = parse_entry(text);
+    if (!rows || (rows->workstation && (workstations_left == 0 || keys.at(rows->workstation->spki).second != name)) ||
+        (rows->code && (codes_left == 0 || codes.at(rows->code->hash) != name)))
+      return;
+    if (rows->workstation) --workstations_left;
+    if (rows->code) --codes_left;
+    kept[name] = text;
+  };
+  for (const bool in_files : {true, false})
+    for (const auto& [name, text] : entries)
+      if (own.contains(name) == in_files) take(name, text);
+  return kept;
+}
 
 }  // namespace tandem::server

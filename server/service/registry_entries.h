@@ -18,11 +18,17 @@ inline constexpr std::size_t kRegistryEntryMax = 1024;  ///< [bytes] of a text t
 [[nodiscard]] RegistryEntries entries_of(const auth::RegistryLists& lists);
 /// Texts that cannot be read have no rows.
 [[nodiscard]] auth::RegistryLists lists_of(const RegistryEntries& entries);
-/// Text of a name that the files and the directory have both changed since `before`. A revocation wins, and nothing
-/// that only one of them has added is lost: a key that one server enrols while another issues a code. Else the
-/// directory wins. Empty texts: no row.
-[[nodiscard]] std::string merged_entry(const std::string& before, const std::string& local, const std::string& stored);
 /// Whether another server's text can be read, whatever its bytes are.
 [[nodiscard]] bool readable_entry(std::string_view text);
+/// Merges two texts of one name that were both changed since `before`, key and code apart: a change of one of them on
+/// one side stays. If both sides changed the key, `stored` counts; of two changed codes that of `stored`, if it has
+/// one.
+/// @pre `local` and `stored` can be read; `before` may be empty
+[[nodiscard]] std::string merged_entry(std::string_view before, std::string_view local, std::string_view stored);
+/// Returns those of the entries that the files of one server can hold together. Of several names with one key the one
+/// enrolled first stays, then the first by name; of several names with one code the first by name. Beyond
+/// auth::kRegistryRowsMax rows of a list, names that are not in `own` are left out.
+/// @param own  entries that the files have
+[[nodiscard]] RegistryEntries tenable(const RegistryEntries& entries, const RegistryEntries& own);
 
 }  // namespace tandem::server

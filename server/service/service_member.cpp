@@ -1,6 +1,7 @@
 #include "server/service/service_member.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tandem::server {
 

@@ -1,5 +1,6 @@
 #include "server/service/shared_registry.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -14,6 +15,12 @@ const std::string& text_in(const RegistryEntries& entries, const std::string& na
   return found == entries.end() ? kNone : found->second;
 }
 
+/// Whether a text can be the mark of a directory: printable ASCII, so that the file of the agreement holds it.
+bool valid_mark(std::string_view text) {
+  constexpr std::size_t kMarkMax = 64;
+  return text.size() <= kMarkMax && std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
+}
+
 }  // namespace
 
 std::string to_text(const RegistryAgreement& agreed) {
@@ -26,6 +33,7 @@ std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text)
       !in["entries"].is_object())
     return std::nullopt;
   RegistryAgreement agreed{in["mark"].get<std::string>(), {}};
+  if (!valid_mark(agreed.mark)) return std::nullopt;
   for (const auto& [name, value] : in["entries"].items()) {
     if (!value.is_string() || !readable_entry(value.get<std::string>())) return std::nullopt;
     agreed.entries[name] = value.get<std::string>();
@@ -49,7 +57,7 @@ std::string SharedRegistry::merged(const std::string& name) const {
   if (unreadable(name)) return local;
   if (local == before) return stored;
   if (stored == before || local == stored) return local;
-  return merged_entry(before, local, stored);
+  return local.empty() || stored.empty() ? kNone : merged_entry(before, local, stored);  // a revocation wins
 }
 
 std::vector<std::string> SharedRegistry::names() const {
@@ -122,7 +130,8 @@ void SharedRegistry::apply(const directory::Change& change) {
     stored_.erase(name);
     return;
   }
-  const bool readable = name == kMark || readable_entry(change.entry.value);
+  const bool readable =
+      name == kMark ? valid_mark(change.entry.value) : auth::is_valid_name(name) && readable_entry(change.entry.value);
   if (!readable) ++rejected_;
   stored_[name] = {readable ? change.entry.value : "", change.entry.modified};
 }
@@ -151,6 +160,7 @@ std::optional<RegistryEntries> SharedRegistry::wanted() const {
   RegistryEntries all;
   for (const std::string& name : names())
     if (std::string text = merged(name); !text.empty()) all[name] = std::move(text);
+  if (all != local_) all = tenable(all, local_);
   return all == local_ ? std::nullopt : std::optional(std::move(all));
 }
 

@@ -24,7 +24,8 @@ struct RegistryAgreement {
 /// Keeps the workstations and codes of a server equal to those of its service: an enrolment, code or revocation
 /// of one server holds at all. Each server has its own files, which its commands change; this class compares three
 /// states of each name: as of the last agreement, in the files, in the directory. A change on one side goes to the
-/// other. If both sides changed, `merged_entry` decides.
+/// other. If both sides changed, a revocation wins, else key and code are merged (`merged_entry`). The files take only
+/// what they can hold (`tenable`); of one key under two names the later enrolment is revoked.
 ///
 /// While the directory does not answer, the files hold as they are. A directory that was begun from nothing gets the
 /// content of the files: a mark in it, drawn at random, tells it from the one of the last agreement. Pure: no clock,

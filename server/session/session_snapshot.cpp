@@ -7,6 +7,7 @@
 
 #include "common/base/raw_bytes.h"
 #include "common/transport/digest.h"
+#include "proto/rpc/rpc_texts.h"
 
 namespace tandem::server {
 namespace {
@@ -94,7 +95,8 @@ std::expected<SessionSnapshot, std::string> decode_snapshot(std::span<const std:
   if (persons > kSeatsMax) return std::unexpected("it names too many persons");
   for (std::size_t i = 0; i < persons && whole; ++i) {
     kept.persons.push_back(text());
-    if (kept.persons.back().size() > kPersonMaximum) return std::unexpected("the name of a person in it is too long");
+    const std::string& person = kept.persons.back();
+    if (!person.empty() && !rpc::is_name(person)) return std::unexpected("the name of a person in it is not valid");
   }
   if (!whole || kept.name.empty()) return std::unexpected("it is cut off");
   const auto checkpoint = decode_checkpoint(rest);

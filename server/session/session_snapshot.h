@@ -26,7 +26,7 @@ struct SessionSnapshot {
   /// Fingerprints of removed workstations: the session's code does not admit them again. At most
   /// kRemovedWorkstationsMax.
   std::vector<std::array<std::byte, 32>> removed_workstations{};
-  /// Names of the persons at the seats, from their tickets, at most 32 bytes each; empty: not named. At most kSeatsMax.
+  /// Names of the persons at the seats, from their tickets (rpc::is_name); empty: not named. At most kSeatsMax.
   std::vector<std::string> persons{};
 };
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "common/base/format.h"
-#include "common/io/tcp_listener.h"
 #include "server/directory/io/etcd_directory.h"
+#include "tests/io/free_address.h"
 #include "tests/io/programs.h"
 
 namespace tandem::test {
@@ -43,10 +43,11 @@ inline directory::Reply wait_for_reply(directory::Directory& in, directory::Oper
   return {};
 }
 
-/// A port that is free at this moment; etcd takes no port 0.
+/// A port of free_address(); etcd takes no port 0. With an ephemeral port, a server that looks for an etcd that was
+/// ended could get this port itself, connect to itself, and so keep etcd from starting again.
 inline int free_port() {
-  const auto listener = io::listen_tcp(io::parse_address("127.0.0.1:0", 0).value());
-  return listener ? listener->local.port() : 0;
+  const std::string address = free_address();
+  return std::stoi(address.substr(address.find(':') + 1));
 }
 
 /// A member of etcd on loopback, with its own ports and data folder, ended at the end of the test.

@@ -84,7 +84,7 @@ TEST(FailureLive, ChangesNoForceWhenWallClocksJump) {
   std::this_thread::sleep_for(10s);  // both hands press and rest by now
   for (const char* jump : {"+3600", "+0", "-3600", "+0", "+10y", "+0", "-10y"}) {
     folder.write("clock", std::string(jump) + "\n");
-    std::this_thread::sleep_for(1500ms);
+    std::this_thread::sleep_for(800ms);
   }
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0) << host.err();

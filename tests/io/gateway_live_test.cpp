@@ -249,7 +249,7 @@ TEST(GatewayLive, KilledAndFloodedItMakesNoTickOfTheServerLate) {
       const TickCounts after = ticks_of(metrics);
       return TickCounts{after.late - before.late, after.all - before.all};
     };
-    const TickCounts quiet = phase([] { std::this_thread::sleep_for(std::chrono::seconds(4)); });
+    const TickCounts quiet = phase([] { std::this_thread::sleep_for(std::chrono::seconds(2)); });
     const TickCounts flooded = phase([&four] {
       WebGateway gateway(four.address, {"--session", "a"});
       gateway.open_url();

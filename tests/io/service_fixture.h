@@ -95,10 +95,19 @@ class LiveService {
     }
     return taken();
   }
-  /// Enrols a workstation at all servers. @return the folder of its keys
+  /// Enrols a workstation at the first server, and waits until all have it. @return the folder of its keys
   [[nodiscard]] std::string enrolled(const std::string& workstation) const {
-    for (const auto& [name, process] : servers_) static_cast<void>(enrolled_at(name, workstation));
-    return folder_.file("own-" + workstation);
+    const std::string own = enrolled_at(servers_.begin()->first, workstation);
+    for (const auto& [name, process] : servers_) {
+      const std::string list = folder_.file(name) + "/workstations.textproto";
+      const auto has = [&] {
+        return std::filesystem::exists(list) &&
+               folder_.read(name + "/workstations.textproto").find(workstation) != std::string::npos;
+      };
+      for (int i = 0; i < 1500 && !has(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      EXPECT_TRUE(has()) << name << " does not learn the workstation: " << process->err();
+    }
+    return own;
   }
   /// Enrols a workstation at one server, which tells the others within a second. @return the folder of its keys
   [[nodiscard]] std::string enrolled_at(const std::string& name, const std::string& workstation) const {

@@ -6,6 +6,7 @@
 
 #include "common/io/realtime.h"
 #include "server/app/process/shard.h"
+#include "tests/common/base/counts.h"
 #include "tests/server/app/process/table_rig.h"
 #include "tests/support/alloc_guard.h"
 
@@ -32,8 +33,8 @@ struct Ticks {
   }
 };
 
-/// Capacity exhausted and freed a hundred times: neither sessions, slots, registry nor heap grow, and the ticks of the
-/// other session are not later than in a time of the same run without changes.
+/// Capacity exhausted and freed forty times, with --full a hundred times: neither sessions, slots, registry nor heap
+/// grow, and the ticks of the other session are not later than in a time of the same run without changes.
 TEST(SessionChurn, GrowsNothingAndDelaysNoTick) {
   ServerOptions options = options_with({lesson("first")});
   options.created_max = 2;
@@ -41,9 +42,11 @@ TEST(SessionChurn, GrowsNothingAndDelaysNoTick) {
   io::lock_memory();  // as the server does
   rig.start();
   const Shard& shard = *rig.shards.all()[0];
+  constexpr std::size_t kWarm = 10;
+  const std::size_t rounds = tandem::test::draws(40, 100, 400);
   std::size_t warm = 0;
   const Ticks began(shard);
-  for (int round = 0; round < 100; ++round) {
+  for (std::size_t round = 0; round < rounds; ++round) {
     SCOPED_TRACE(round);
     const rpc::Id first = rig.create("a"), second = rig.create("b");
     const rpc::Body full = rig.order(rpc::CreateSession{.name = "c", .scene = "lesson"});
@@ -59,14 +62,15 @@ TEST(SessionChurn, GrowsNothingAndDelaysNoTick) {
     }
     ASSERT_EQ(ended, 1);
     ASSERT_EQ(rig.names(), std::vector<std::string>{"first"});
-    if (round == 19) warm = heap_bytes();
+    if (round + 1 == kWarm) warm = heap_bytes();
   }
   const Ticks changed(shard);
-  constexpr std::size_t kSlack = 256 * 1024;  // far less than the 160 sessions since
+  constexpr std::size_t kSlack = 256 * 1024;  // far less than the 60 sessions since
   const std::size_t now = heap_bytes();
   EXPECT_LT(now, warm + kSlack);
-  std::printf("[ FIGURES ] heap after 20 rounds %zu bytes, after 100 %zu; a session has %zu of its own\n", warm, now,
-              sizeof(LiveSession));
+  EXPECT_GT(2 * (rounds - kWarm) * sizeof(LiveSession), 10 * kSlack);
+  std::printf("[ FIGURES ] heap after %zu rounds %zu bytes, after %zu %zu; a session has %zu of its own\n", kWarm, warm,
+              rounds, now, sizeof(LiveSession));
   std::size_t entries = 0;
   rig.control->change([&](SessionRegistry& registry, const auto& ready) {
     entries = registry.entries().size();
@@ -83,10 +87,10 @@ TEST(SessionChurn, GrowsNothingAndDelaysNoTick) {
            static_cast<double>(std::max<std::uint64_t>(1, to.all - from.all));
   };
   const double with = share(began, changed), without = share(changed, quiet);
-  std::printf("[ FIGURES ] ticks that began more than 1 ms late: %.4f %% of %llu with 300 orders, %.4f %% without\n",
-              100 * with, static_cast<unsigned long long>(span), 100 * without);
+  std::printf("[ FIGURES ] ticks that began more than 1 ms late: %.4f %% of %llu with %zu orders, %.4f %% without\n",
+              100 * with, static_cast<unsigned long long>(span), 3 * rounds, 100 * without);
   // A machine that is busy with other programs says nothing. A shard that built sessions itself would be late in each
-  // of the 200 creations, which is a share of 1 %.
+  // of the creations, which is a share of 1 %.
   if (without > 0.001) {
     std::printf("[ NOT JUDGED ] ticks are late on this machine without any order\n");
   } else {

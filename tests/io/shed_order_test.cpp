@@ -2,6 +2,7 @@
 // full.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "common/io/clock.h"
 #include "server/app/process/shard.h"
 #include "tests/bench/bench_clients.h"
+#include "tests/io/machine_witness.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem::bench {
@@ -114,17 +116,23 @@ struct Sent {
   }
 };
 
-TEST(ShedOrderLive, RaisesTheLevelInOrderAndServesTheTraineeEveryTick) {
+/// Adds sessions until all load is shed. @return whether the order and the shares could be judged
+bool raise_all_levels() {
+  const tandem::test::MachineWitness witness;
   Crowded crowd;
   const Time begin = io::monotonic_now();
   while (!crowd.engaged() && io::monotonic_now() - begin < kTimeout) {
     crowd.exchange();
     std::this_thread::sleep_for(500us);
   }
-  ASSERT_TRUE(crowd.engaged());
+  EXPECT_TRUE(crowd.engaged());
+  if (!crowd.engaged()) return true;
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-  if (crowd.rung() != ShedLevel::kNone)
-    GTEST_SKIP() << "under this sanitizer one session fills the ticks already; a release build climbs all rungs";
+  if (crowd.rung() != ShedLevel::kNone) {
+    std::printf(
+        "[ NOT RUN ] under this sanitizer one session fills the ticks already; a release build climbs all rungs\n");
+    return true;
+  }
 #endif
 
   std::vector<ShedLevel> order{ShedLevel::kNone};
@@ -169,7 +177,12 @@ TEST(ShedOrderLive, RaisesTheLevelInOrderAndServesTheTraineeEveryTick) {
       ShedLevel::kNone,          ShedLevel::kTelemetry,          ShedLevel::kObservers20Hz,
       ShedLevel::kObservers10Hz, ShedLevel::kEvaluatorsEvery2nd, ShedLevel::kEvaluatorsEvery3rd,
       ShedLevel::kNewJoins};
-  ASSERT_EQ(order, expected) << "one after the other, none back";
+  EXPECT_EQ(order.back(), ShedLevel::kNewJoins) << "the whole load is shed in the end";
+  EXPECT_TRUE(std::ranges::is_sorted(order)) << "no level falls while the load grows";
+  // A machine that stands still skips levels between two looks, and takes ticks from their counts.
+  if (witness.machine_stood_still()) return false;
+  EXPECT_EQ(order, expected) << "one after the other";
+  if (order != expected) return true;
   const auto of = [&](ShedLevel rung) -> const Sent& { return sent[static_cast<std::size_t>(rung)]; };
   for (const ShedLevel rung : expected) {
     SCOPED_TRACE(to_text(rung));
@@ -189,6 +202,11 @@ TEST(ShedOrderLive, RaisesTheLevelInOrderAndServesTheTraineeEveryTick) {
                             kTickHz;
     EXPECT_LT(of(rung).share(kObserver), 1.5 * observer + 4.0 / static_cast<double>(of(rung).datagrams[kTrainee]));
   }
+  return true;
+}
+
+TEST(ShedOrderLive, RaisesTheLevelInOrderAndServesTheTraineeEveryTick) {
+  tandem::test::repeat_disturbed("the order of load shedding", raise_all_levels);
 }
 
 }  // namespace

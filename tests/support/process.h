@@ -13,7 +13,8 @@
 namespace tandem::test {
 
 /// A child process with its output. Every wait has a generous limit, so that a hanging program fails the test instead
-/// of hanging it. No test may assert durations.
+/// of hanging it. No test may assert durations. In a build with sanitizers the test fails if the process printed a
+/// report of one, also if the test kills it or expects an error of it.
 class Process {
  public:
   static constexpr std::chrono::seconds kTimeout{30};
@@ -40,11 +41,14 @@ class Process {
  private:
   /// Reads the output that arrives within `slice`. @return false once both pipes are closed
   bool read_some(std::chrono::milliseconds slice);
+  /// Fails the test if standard error has a report of a sanitizer, once.
+  void expect_no_report();
 
   pid_t pid_ = 0;
   std::optional<int> code_;
   io::Fd out_fd_, err_fd_;
   std::string out_, err_;
+  bool reported_ = false;
 };
 
 }  // namespace tandem::test

@@ -1,6 +1,7 @@
 #include "server/app/service/service_thread.h"
 
 #include <chrono>
+#include <utility>
 
 #include "common/io/clock.h"
 #include "common/io/thread_without_signals.h"

@@ -13,6 +13,7 @@
 #include "server/export/io/hdf5_file.h"
 #include "server/export/io/hdf5_id.h"
 #include "server/export/lesson_signals.h"
+#include "tests/common/base/counts.h"
 #include "tests/io/programs.h"
 #include "tests/support/lesson_run.h"
 
@@ -272,16 +273,16 @@ TEST(Hdf5Import, SurvivesCutFilesAndFlippedBytes) {
   const std::string file = folder.file("a.h5");
   ASSERT_EQ(export_hdf5(lesson, file, kGoOn), "");
   const std::string whole = folder.read("a.h5");
-  constexpr std::size_t kCuts = 100, kFlips = 200;
-  for (std::size_t k = 0; k < kCuts; ++k) {
-    folder.write("a.h5", whole.substr(0, whole.size() * k / kCuts));
+  const std::size_t cuts = test::draws(40, 100, 400), flips = test::draws(80, 200, 2000);
+  for (std::size_t k = 0; k < cuts; ++k) {
+    folder.write("a.h5", whole.substr(0, whole.size() * k / cuts));
     const auto read = import_hdf5(file);
-    ASSERT_FALSE(read) << "cut at " << whole.size() * k / kCuts;
+    ASSERT_FALSE(read) << "cut at " << whole.size() * k / cuts;
     EXPECT_TRUE(read.error().starts_with(file)) << read.error();
   }
   RandomStream random(7);
   std::size_t refused = 0;
-  for (std::size_t k = 0; k < kFlips; ++k) {
+  for (std::size_t k = 0; k < flips; ++k) {
     SCOPED_TRACE(k);
     std::string bytes = whole;
     for (std::size_t n = 0; n <= k % 4; ++n) {
@@ -294,7 +295,7 @@ TEST(Hdf5Import, SurvivesCutFilesAndFlippedBytes) {
     EXPECT_TRUE(read ? read->rows() == lesson.rows() : read.error().starts_with(file)) << read.error();
   }
   // Half of the file is space that HDF5 keeps free, or text without a checksum.
-  EXPECT_GT(refused, kFlips / 4);
+  EXPECT_GT(refused, flips / 4);
 }
 
 }  // namespace

@@ -55,6 +55,17 @@ TEST(SessionSnapshot, SurvivesEncodingAndDecoding) {
   EXPECT_EQ(encode_snapshot(*back), bytes);
 }
 
+// A program that can write to the directory of a service can compute the digests too.
+TEST(SessionSnapshot, RejectsNamesThatNoTicketHas) {
+  for (const char* name : {"a\nb", "\xff", "a b", "a\"b"}) {
+    SessionSnapshot kept = sample(test::shipped("contact"));
+    kept.persons[0] = name;
+    const auto back = decode_snapshot(encode_snapshot(kept));
+    ASSERT_FALSE(back) << name;
+    EXPECT_EQ(back.error(), "the name of a person in it is not valid");
+  }
+}
+
 TEST(SessionSnapshot, RejectsEveryTruncationAndEveryFlippedBit) {
   const auto bytes = encode_snapshot(sample(test::shipped("contact")));
   for (std::size_t size = 0; size < bytes.size(); ++size)

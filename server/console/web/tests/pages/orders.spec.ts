@@ -229,12 +229,16 @@ test('another session is watched: alarms of the one before are gone', async ({ s
   await expect(page.locator('.alarms-panel')).toContainText('Session stopped by ina. tissue torn');
   await expect(page.locator('.alarms-panel')).toContainText('lasting');
   // A session that has not begun: its clock shows 0:00.0.
+  // The page asks for its session again 1.5 s after it has connected, so the gateway has only this one from now on.
   const { session } = gateway;
-  const scene = session.scene.bind(session);
-  session.scene = () => ({ ...scene(), session: 'f'.repeat(32), name: 'other' });
+  const other = { id: 'f'.repeat(32), name: 'other' };
   session.step = () => undefined;
   Object.assign(session, { t: 0, stop: null });
-  for (const socket of gateway.pages) socket.send(session.scene());
+  gateway.sessions = [other];
+  for (const socket of gateway.pages) {
+    socket.watched = other;
+    socket.sendScene();
+  }
   await expect(page.locator('.time').first()).toHaveText('0:00.0');
   await expect(page.locator('.alarms-panel')).toContainText('No alarm so far.');
   // The same session begins again while a stop lasts: the alarm ends at a time of its own run.
