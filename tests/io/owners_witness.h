@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <deque>
 #include <map>
 #include <mutex>
@@ -22,10 +23,9 @@ class OwnersWitness {
   struct Seen {
     std::chrono::steady_clock::time_point asked{}, answered{};
     bool answers = false;
-    bool held = false;        ///< its sessions are HELD; an older state of a gate is no engagement
-    std::size_t engaged = 0;  ///< taken seats whose gate is active or ramps in
+    std::size_t engaged = 0;  ///< taken seats whose gate is active or ramps in, as a fresh report says
     std::size_t active = 0;   ///< those whose gate is wholly active
-    [[nodiscard]] bool acts() const { return engaged > 0 && !held; }
+    [[nodiscard]] bool acts() const { return engaged > 0; }
   };
 
   OwnersWitness() = default;
@@ -88,11 +88,15 @@ class OwnersWitness {
   [[nodiscard]] static Seen read(const std::string& text) {
     Seen seen;
     seen.answers = !text.empty();
-    seen.held = text.find("\ntandem_service_held 1\n") != std::string::npos;
     const std::string name = "\ntandem_gate_state";
     for (auto at = text.find(name + "{"); at != std::string::npos; at = text.find(name + "{", at + 1)) {
       const std::string labels = text.substr(at + name.size(), text.find('}', at) - at - name.size());
       if (text.find("\ntandem_seat_taken" + labels + "} 1\n") == std::string::npos) continue;
+      // The page keeps the last state of a silent client, whose own gate has released the hand long ago.
+      const std::string age = "\ntandem_loop_age_seconds" + labels + "} ";
+      if (const auto found = text.find(age);
+          found != std::string::npos && std::strtod(text.c_str() + found + age.size(), nullptr) > kFreshMax)
+        continue;
       const auto gate = static_cast<Gate>(text[text.find("} ", at) + 2] - '0');
       seen.engaged += gate == kRampIn || gate == kActive ? 1 : 0;
       seen.active += gate == kActive ? 1 : 0;
@@ -102,6 +106,7 @@ class OwnersWitness {
 
  private:
   static constexpr std::chrono::milliseconds kPause{25}, kContinuous{200};
+  static constexpr double kFreshMax = 0.5;  // [s] the gates of the clients release after 20 ms of silence
 
   static Seen look(const std::string& metrics) {
     const auto asked = std::chrono::steady_clock::now();
