@@ -175,6 +175,13 @@ std::string maker_of(const rpc::StatusStop& stop) {
 
 }  // namespace
 
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
 std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::string> words) {
   const auto found = std::ranges::find(
       kCommandNames, words.empty() ? std::string_view() : std::string_view(words.front()), &CommandName::word);

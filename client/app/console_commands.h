@@ -30,6 +30,9 @@ using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::P
                                     AuthorityCommand, rpc::RemoveParticipant, rpc::Drain, CreateCommand, EndCommand,
                                     SessionsCommand, rpc::Note, rpc::RecordSession, HelpCommand, QuitCommand>;
 
+/// Words of a line, separated by white space.
+[[nodiscard]] std::vector<std::string> words_of(const std::string& line);
+
 /// Parses a console command. @return the command, or the error with the expected form
 [[nodiscard]] std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::string> words);
 /// Returns all commands with their arguments, one per line.

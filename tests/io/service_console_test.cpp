@@ -53,7 +53,7 @@ TEST_F(ServiceConsole, FollowsItsSessionWhenItMovesAndWhenItsServerEnds) {
   TypedConsole console(service.folder(), connection);
   console.type("status");
   ASSERT_TRUE(console.process().wait_for("lab: waiting")) << console.process().err();
-  // The ticket is used: nobody else joins by it.
+  // The ticket is used: no other console joins by it.
   Words again{TANDEM_CLIENT, "control"};
   again.insert(again.end(), connection.begin(), connection.end());
   again.push_back("status");

@@ -2,13 +2,13 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "client/app/commands/client_commands.h"
 #include "client/app/commands/connection_options.h"
 #include "client/app/console_commands.h"
+#include "client/app/console_follow.h"
 #include "client/app/console_lines.h"
 #include "client/app/console_sessions.h"
 #include "common/auth/io/control_client.h"
@@ -26,7 +26,6 @@
 namespace tandem::client {
 namespace {
 
-constexpr Duration kFollow = std::chrono::seconds(15);  // of a session that a service moves
 constexpr int kPollIntervalMs = ConsoleLines::kIdleMs;  // between two polls of the session status
 
 struct ControlArguments {
@@ -65,26 +64,18 @@ class ConsoleClient {
     return PollResult::kChanged;
   }
 
-  /// Joins again at the server of the service that has the session now. The former one makes tickets of consoles valid
-  /// again when it hands a session over. @return false: not within kFollow, or a signal ended it
+  /// Follows the session to another server of its service. @return false: it is not there, or a signal came
   bool follow() {
     if (!console_.service) return false;
-    const Time until = io::monotonic_now() + kFollow;
-    while (true) {
-      auto again = join_console(asked_);
-      if (again) {
-        console_ = std::move(*again);
-        seen_.reset();
-        say("this console has followed session " + welcome().session_name + " to its new server");
-        return true;
-      }
-      pollfd signal{asked_.signals, POLLIN, 0};
-      if (again.error().interrupted || poll(&signal, 1, kPollIntervalMs / 2) > 0) return false;
-      if (io::monotonic_now() >= until) {
-        complain(again.error().reason);
-        return false;
-      }
+    auto again = follow_session(asked_);
+    if (!again) {
+      if (!again.error().empty()) complain(again.error());
+      return false;
     }
+    console_ = std::move(*again);
+    seen_.reset();
+    say("this console has followed session " + welcome().session_name + " to its new server");
+    return true;
   }
 
   /// Shows the progress of a drain until the server has ended or a signal arrives. @return exit code
@@ -264,13 +255,6 @@ class ConsoleClient {
   bool json_;
   bool looked_ = false, acted_ = false, refused_ = false;  ///< a status was read; others were accepted; one was refused
 };
-
-std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream in(line);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
-}
 
 int tell_gone(bool person, int worst) {
   io::print_formatted(
