@@ -118,9 +118,9 @@ ErrorReply SessionRedirect::draining() const {
   return {ErrorCode::kDraining,
           locator_ == nullptr
               ? "this server is draining and rejects new joins; wait until it has restarted, or ask its operator"
-              : "this server is draining and rejects new joins. When it has ended, another server of the service takes "
-                "the session over, if there is one; try again in some seconds, or ask the operator",
-          kDrainAgainS};
+              : "this server is draining and rejects new joins. Its sessions move to other servers of the service, if "
+                "one has room; try again in some seconds, or ask the operator",
+          locator_ == nullptr ? kDrainAgainS : kAskAgainS};
 }
 
 std::vector<SessionLocator::Elsewhere> SessionRedirect::others() const {

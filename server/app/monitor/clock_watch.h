@@ -27,8 +27,7 @@ class ClockWatch {
     if (std::abs(step) <= kStepMax) return {};
     return "the clock of this computer was set " + span(std::abs(step)) + (step > 0 ? " forward" : " back") +
            " while the server runs. Sessions that run go on. Tickets, enrolment codes and vouchers are judged by the "
-           "new "
-           "time: if it is wrong, joins are refused until the clock is set (`timedatectl`)";
+           "new time: if it is wrong, joins are refused until the clock is set (`timedatectl`)";
   }
 
  private:
