@@ -128,7 +128,7 @@ TEST(SessionRedirect, RefusesUnknownSessionsWithThoseOfTheService) {
   const rpc::ErrorReply own{ErrorCode::kNoSession, "no session is open on this server", 0};
   EXPECT_EQ(alone.refusal(std::monostate{}, own), own);
   EXPECT_EQ(r.redirect.refusal(id_of(3), {ErrorCode::kSessionOver, "over", 0}).text, "over");
-  EXPECT_NE(r.redirect.draining().text.find("another server of the service"), std::string::npos);
+  EXPECT_NE(r.redirect.draining().text.find("other servers of the service"), std::string::npos);
   EXPECT_NE(alone.draining().text.find("until it has restarted"), std::string::npos);
 }
 
