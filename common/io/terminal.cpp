@@ -77,7 +77,7 @@ StatusLine::StatusLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILE
 void StatusLine::show(std::span<const ScreenItem> items, std::size_t rows) {
   if (quiet_) return;
   if (!terminal_) {
-    std::fprintf(stderr, "%s\n", join_items(items).c_str());
+    if (const std::string line = join_items(items); !line.empty()) std::fprintf(stderr, "%s\n", line.c_str());
     return;
   }
   const ScreenSize size = screen_size(STDERR_FILENO);

@@ -41,7 +41,7 @@ class StatusLine {
   [[nodiscard]] int interval_ms() const noexcept { return terminal_ ? 250 : 5000; }
   [[nodiscard]] bool wanted() const noexcept { return !quiet_; }
   /// Shows a status on standard error: on a terminal in at most `rows` lines laid out for its present width, elsewhere
-  /// in one line.
+  /// in one line, and nothing if there is no text.
   void show(std::span<const ScreenItem> items, std::size_t rows = 2);
   void show(const std::string& text) { show(std::array<ScreenItem, 1>{{{text, "", 0}}}); }
   /// Returns the number of lines that fit the terminal in addition to one line of other text.

@@ -156,6 +156,11 @@ class ServiceMember {
   [[nodiscard]] bool empty() const noexcept { return entries_.empty(); }
   /// Time from which no hand of any session of this server may be engaged.
   [[nodiscard]] Time act_until() const noexcept { return ownership_.keeper().hold_at(); }
+  /// The same for the sessions that this server serves now; nullopt while an order waits: it may be to give a session
+  /// up, and hands of that session must not act by the time of a newer lease.
+  [[nodiscard]] std::optional<Time> served_until() const noexcept {
+    return has_event() ? std::nullopt : std::optional(act_until());
+  }
 
  private:
   enum class Phase : std::uint8_t {

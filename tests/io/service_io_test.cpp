@@ -64,6 +64,9 @@ TEST_F(Service, EndedServerHandsItsSessionsOverAtOnce) {
   std::this_thread::sleep_for(milliseconds(2500));  // until the standby is named
   a.signal(SIGTERM);
   EXPECT_EQ(a.wait(), 0) << a.err();
+  EXPECT_NE(a.out().find("lab: free_motion: did not begin here: it waited for"), std::string::npos) << a.out();
+  EXPECT_NE(a.out().find("; it stays in the service;"), std::string::npos) << a.out();
+  EXPECT_EQ(a.out().find("never began"), std::string::npos) << a.out();
   const double taken = service.wait_for_sessions("b", 2);
   std::printf("[  figures ] sessions of an ended server served again after %.2f s\n", taken);
   EXPECT_EQ(service.etcd().etcdctl({"get", "/tandem/v1/live/servers/a"}), "");

@@ -1,6 +1,7 @@
 // The server's screen of its sessions, and the reasons for a braked tool.
 #include <gtest/gtest.h>
 
+#include "common/io/terminal.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
 #include "server/app/control/control_plane.h"
@@ -113,6 +114,16 @@ TEST(SessionScreen, NamesTheResumeCommandOrTheRolesInAStop) {
   const std::string two =
       shown(40, {{"a", s, &spec, " --server h:1 --session a"}, {"b", s, &spec, " --server h:1 --session b"}});
   EXPECT_NE(two.find("STOPPED"), std::string::npos) << two;
+}
+
+// A server of a service may have no session for hours; its log has no empty lines.
+TEST(SessionScreen, OfNoSessionWritesNothingToALog) {
+  testing::internal::CaptureStderr();
+  io::StatusLine line{false};
+  line.show(screen_items({}, "", 2, ""), 2);
+  line.show(screen_items({}, "DRAINING, 5 s left", 2, ""), 2);
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(log, "DRAINING, 5 s left\n");
 }
 
 }  // namespace

@@ -125,7 +125,10 @@ int ticket_command(const TicketArguments& arguments) {
   if (!book) return print_error("ticket", book.error());
   const WorkstationRow* const workstation = auth::find_workstation(*book, arguments.workstation);
   if (workstation == nullptr)
-    errors.add("--workstation: " + unknown_workstation_text(arguments.workstation, *book, state->folder()->path()));
+    errors.add("--workstation: " + unknown_workstation_text(arguments.workstation, *book, state->folder()->path()) +
+               (state->membership() == nullptr
+                    ? ""
+                    : "; if another server of the service has just enrolled it, try again in a second"));
   std::expected<std::optional<ServiceList>, std::string> service;
   if (*serving) service = read_service_list(*state->folder());
   if (!service) return print_error("ticket", service.error());

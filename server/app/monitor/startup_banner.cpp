@@ -12,11 +12,11 @@
 namespace tandem::server {
 namespace {
 
-/// The client command as the user would type it: with a path if this program was started with one.
-std::string client_command() {
+/// A program of this folder as the user would type it: with a path if this program was started with one.
+std::string command(const char* program) {
   const std::string own = program_invocation_name;
   const auto slash = own.rfind('/');
-  return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + "tandem-client";
+  return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + program;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ std::string startup_banner(const SessionInstance& run, const io::SocketAddress& 
     }
     const bool ticket = !ephemeral_keys && (!by_code || seat.role == Role::kInstructor);
     (seat.required ? required : optional) +=
-        format("  %s join --server %s --seat %s --device sim%s\n", client_command().c_str(), dialled.c_str(),
+        format("  %s join --server %s --seat %s --device sim%s\n", command("tandem-client").c_str(), dialled.c_str(),
                seat.name.c_str(), ticket ? " --ticket-file FILE" : which.c_str());
   }
   if (!replayed.empty()) text += "recorded hands play " + replayed + (required.empty() && optional.empty() ? "" : "; ");
@@ -50,9 +50,10 @@ std::string startup_banner(const SessionInstance& run, const io::SocketAddress& 
   text += required.empty() ? ", for optional seats\n" : "\n" + required;
   if (!required.empty() && !optional.empty()) text += "and for optional seats\n";
   text += optional;
-  return ephemeral_keys ? text
-                        : text + "a ticket FILE is written by\n  tandem-server ticket --session " + name +
-                              " --seat SEAT --workstation NAME" + auth::server_state_option(folder) + " > FILE\n";
+  return ephemeral_keys
+             ? text
+             : text + "a ticket FILE is written by\n  " + command("tandem-server") + " ticket --session " + name +
+                   " --seat SEAT --workstation NAME" + auth::server_state_option(folder) + " > FILE\n";
 }
 
 }  // namespace tandem::server

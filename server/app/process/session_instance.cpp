@@ -146,9 +146,13 @@ void SessionInstance::keep_inputs(Time start, InputKeeper& keeper, const Session
 }
 
 std::string SessionInstance::outcome_text(const RunReport& report) const {
-  if (report.duration_s > 0) return format("%s, %.1f s", report.verdict_text(), report.duration_s);
-  return std::string(snapshot_ ? "did not resume after the restart" : "never began") +
-         (missing_seats.empty() ? "" : ": it waited for " + missing_seats);
+  const std::string stays = end == EndReason::kGivenUp ? "; it stays in the service" : "";
+  if (report.duration_s > 0)
+    return format("%s, %.1f s", report.verdict_text(), report.duration_s) + (stays.empty() ? "" : " here") + stays;
+  return std::string(on_over()   ? "did not begin here"
+                     : snapshot_ ? "did not resume after the restart"
+                                 : "never began") +
+         (missing_seats.empty() ? "" : ": it waited for " + missing_seats) + stays;
 }
 
 std::string SessionInstance::start_recording() {

@@ -109,7 +109,8 @@ class SessionInstance {
     int code = 0;         ///< exit code if this were the only session
   };
   [[nodiscard]] Verdict finish();
-  /// Outcome in words: `pass, 12.3 s`, or that the session never began and which seats were missing.
+  /// Outcome in words: `pass, 12.3 s`, or that the session never began and which seats were missing. A session that its
+  /// service goes on with says so.
   [[nodiscard]] std::string outcome_text(const RunReport& report) const;
 
  private:

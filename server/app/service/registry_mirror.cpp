@@ -1,18 +1,11 @@
 #include "server/app/service/registry_mirror.h"
 
-#include <chrono>
 #include <optional>
 #include <utility>
 
 #include "common/base/raw_bytes.h"
-#include "common/io/thread_without_signals.h"
 
 namespace tandem::server {
-namespace {
-
-constexpr auto kInterval = std::chrono::milliseconds(200);  // between two looks at the files
-
-}  // namespace
 
 RegistryAgreement RegistryMirror::read_agreement(const auth::StateDirectory& folder) {
   const auto bytes = folder.read(kFile);
@@ -22,27 +15,7 @@ RegistryAgreement RegistryMirror::read_agreement(const auth::StateDirectory& fol
 
 void RegistryMirror::start() {
   stored_ = read_agreement(*keys_.folder());
-  thread_ = io::thread_without_signals([this] { run(); });
-}
-
-void RegistryMirror::stop() {
-  if (!thread_.joinable()) return;
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
-}
-
-void RegistryMirror::run() {
-  while (true) {
-    std::string problem = compare();
-    if (!problem.empty() && problem != trouble_) on_trouble_(problem);
-    trouble_ = std::move(problem);
-    std::unique_lock lock(mutex_);
-    if (wake_.wait_for(lock, kInterval, [this] { return stopping_; })) return;
-  }
+  task_.start();
 }
 
 std::string RegistryMirror::compare() {

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <condition_variable>
+#include <chrono>
 #include <expected>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "common/auth/io/server_keystore.h"
+#include "server/app/service/repeated_task.h"
 #include "server/app/service/service_thread.h"
 
 namespace tandem::server {
@@ -28,27 +27,22 @@ class RegistryMirror {
   /// @param service  must outlive this
   /// @param trouble  receives errors of the files, each once until it is over; on the thread
   RegistryMirror(auth::ServerKeystore keys, ServiceThread& service, std::function<void(const std::string&)> trouble)
-      : keys_(std::move(keys)), service_(service), on_trouble_(std::move(trouble)) {}
-  ~RegistryMirror() { stop(); }
+      : keys_(std::move(keys)), service_(service), task_(kInterval, [this] { return compare(); }, std::move(trouble)) {}
 
   void start();
-  void stop();
+  void stop() { task_.stop(); }
 
  private:
-  void run();
+  static constexpr Duration kInterval = std::chrono::milliseconds(200);  ///< between two looks at the files
+
   /// Compares files and directory once. @return the error
   [[nodiscard]] std::string compare();
 
   auth::ServerKeystore keys_;
   ServiceThread& service_;
-  std::function<void(const std::string&)> on_trouble_;
   std::optional<auth::RegistryLists> lists_;  ///< as last read; nullopt: not yet, or they could not be
   RegistryAgreement stored_;
-  std::string trouble_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool stopping_ = false;
-  std::thread thread_;
+  RepeatedTask task_;
 };
 
 }  // namespace tandem::server

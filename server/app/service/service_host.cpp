@@ -257,10 +257,7 @@ bool ServiceHost::take(SessionOrder& order) {
 }
 
 void ServiceHost::set_act_until() {
-  // An order that waits may be to give a session up: its hands must not act by the time of a newer lease.
-  const auto until = thread_->quietly([](const ServiceMember& member, Time) {
-    return member.has_event() ? std::nullopt : std::optional(member.act_until());
-  });
+  const auto until = thread_->quietly([](const ServiceMember& member, Time) { return member.served_until(); });
   if (!until) return;
   for (const auto& session : parts_.sessions.all())
     if (session->on_over() && session->end != EndReason::kGivenUp) session->live_session().set_act_until(*until);

@@ -1,44 +1,22 @@
 #include "server/app/service/service_list_file.h"
 
-#include <chrono>
 #include <string_view>
 #include <utility>
 
 #include "common/auth/io/serving_file.h"
 #include "common/base/raw_bytes.h"
-#include "common/io/thread_without_signals.h"
 
 namespace tandem::server {
 namespace {
 
-constexpr auto kLookInterval = std::chrono::seconds(1);
 constexpr const char* kListFile = auth::ServingFile::kServiceFile;
 
 }  // namespace
 
-void ServiceListFile::start() {
-  thread_ = io::thread_without_signals([this] { run(); });
-}
-
 void ServiceListFile::stop() {
-  if (!thread_.joinable()) return;
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
+  if (!task_.running()) return;
+  task_.stop();
   if (folder_.has(kListFile)) static_cast<void>(folder_.remove(kListFile));
-}
-
-void ServiceListFile::run() {
-  while (true) {
-    std::string problem = update();
-    if (!problem.empty() && problem != trouble_) on_trouble_(problem);
-    trouble_ = std::move(problem);
-    std::unique_lock lock(mutex_);
-    if (wake_.wait_for(lock, kLookInterval, [this] { return stopping_; })) return;
-  }
 }
 
 std::string ServiceListFile::update() {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -95,6 +96,7 @@ class ServiceTest : public testing::Test {
         server.member.on_given_up(event->session);
       } else if (event->kind == ServiceEvent::Kind::kHandOver) {
         server.open.erase(event->session);
+        if (on_hand_over) on_hand_over(server);
         server.member.set_snapshot(event->session, "state at the hand-over");
         server.member.on_handed_over(event->session);
       } else if (event->kind == ServiceEvent::Kind::kOpen && !server.opens) {
@@ -126,7 +128,8 @@ class ServiceTest : public testing::Test {
     std::map<std::string, std::string> acting;
     for (const auto& server : servers_)
       for (const auto& [name, event] : server->open) {
-        if (now_ >= server->member.act_until()) continue;
+        const auto until = server->member.served_until();
+        if (!until || now_ >= *until) continue;
         EXPECT_TRUE(acting.emplace(name, "").second) << name << " has two owners at " << seconds(now_);
       }
   }
@@ -141,6 +144,7 @@ class ServiceTest : public testing::Test {
   }
   static rpc::SessionChoice named(const std::string& name) { return {name}; }
 
+  std::function<void(Server&)> on_hand_over;
   directory::ModelStore store_;
   std::vector<std::unique_ptr<Server>> servers_;
   Time now_{};

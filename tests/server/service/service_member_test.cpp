@@ -104,6 +104,27 @@ TEST_F(ServiceTest, GivesASessionUpWhenAnotherServerMayOwnIt) {
   EXPECT_EQ(a.member.locate(named("lab")).server, "b");
 }
 
+TEST_F(ServiceTest, NoSessionActsByANewerLeaseWhileTheOrderToGiveItUpWaits) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  a.directory.cut = true;
+  pass(6s);
+  ASSERT_TRUE(b.open.contains("lab"));
+  a.directory.cut = false;
+  a.runs = false;  // its main loop is late
+  for (int n = 0; n < 150; ++n) {
+    pass(20ms);
+    a.member.step(now_);
+  }
+  ASSERT_TRUE(a.member.has_event());
+  EXPECT_GT(a.member.act_until(), now_) << "it has a lease again";
+  EXPECT_FALSE(a.member.served_until());
+  act(a);
+  EXPECT_FALSE(a.open.contains("lab"));
+  EXPECT_EQ(a.member.served_until(), a.member.act_until());
+}
+
 TEST_F(ServiceTest, CreatesASessionOnceInTheWholeService) {
   Server& a = start("a");
   Server& b = start("b");
@@ -227,6 +248,27 @@ TEST_F(ServiceTest, MovesASessionWithItsLastSnapshotWithoutWaitingForALease) {
   EXPECT_EQ(value("catalogue/lab/move"), "") << "it moves once";
   EXPECT_TRUE(b.open.contains("lab"));
   EXPECT_TRUE(has("live/sessions/lab/standby"));
+}
+
+TEST_F(ServiceTest, MovesASessionOnlyWhenTheTicketsOfItsConsolesAreValidAgain) {
+  constexpr int kConsoles = 40;
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  const auto ticket = [](int n) { return "ticket" + std::to_string(n); };
+  for (int n = 0; n < kConsoles; ++n)
+    a.member.tickets().use(now_, "lab", ticket(n), 1h, static_cast<std::uint64_t>(n) + 1);
+  pass(1s);
+  for (int n = 0; n < kConsoles; ++n) {
+    ASSERT_EQ(a.member.tickets().poll_result()->outcome, ServiceTickets::Outcome::kAccepted);
+    ASSERT_TRUE(has("tickets/" + ticket(n)));
+  }
+  on_hand_over = [&](Server& server) {
+    for (int n = 0; n < kConsoles; ++n) server.member.tickets().restore("lab", ticket(n));
+  };
+  order_move("lab", "b");
+  for (int n = 0; n < 100 && !b.open.contains("lab"); ++n) pass(20ms);
+  ASSERT_TRUE(b.open.contains("lab"));
+  for (int n = 0; n < kConsoles; ++n) EXPECT_FALSE(has("tickets/" + ticket(n))) << n;
 }
 
 TEST_F(ServiceTest, StaysWhereItIsIfTheTargetIsUnknownOrGone) {
