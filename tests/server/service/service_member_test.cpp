@@ -251,13 +251,13 @@ TEST_F(ServiceTest, MovesASessionWithItsLastSnapshotWithoutWaitingForALease) {
 }
 
 TEST_F(ServiceTest, MovesASessionOnlyWhenTheTicketsOfItsConsolesAreValidAgain) {
-  constexpr int kConsoles = 40;
+  constexpr int kConsoles = 400;  // their tickets take longer than the ramp-out
   Server& a = start("a", {{"lab", session_spec(1)}});
   Server& b = start("b");
   const auto ticket = [](int n) { return "ticket" + std::to_string(n); };
   for (int n = 0; n < kConsoles; ++n)
     a.member.tickets().use(now_, "lab", ticket(n), 1h, static_cast<std::uint64_t>(n) + 1);
-  pass(1s);
+  pass(10s);
   for (int n = 0; n < kConsoles; ++n) {
     ASSERT_EQ(a.member.tickets().poll_result()->outcome, ServiceTickets::Outcome::kAccepted);
     ASSERT_TRUE(has("tickets/" + ticket(n)));
@@ -266,7 +266,7 @@ TEST_F(ServiceTest, MovesASessionOnlyWhenTheTicketsOfItsConsolesAreValidAgain) {
     for (int n = 0; n < kConsoles; ++n) server.member.tickets().restore("lab", ticket(n));
   };
   order_move("lab", "b");
-  for (int n = 0; n < 100 && !b.open.contains("lab"); ++n) pass(20ms);
+  for (int n = 0; n < 500 && !b.open.contains("lab"); ++n) pass(20ms);
   ASSERT_TRUE(b.open.contains("lab"));
   for (int n = 0; n < kConsoles; ++n) EXPECT_FALSE(has("tickets/" + ticket(n))) << n;
 }
