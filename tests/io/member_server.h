@@ -21,6 +21,7 @@
 #include "server/app/control/control_thread.h"
 #include "server/app/control/session_joins.h"
 #include "tests/common/auth/io/temporary_folder.h"
+#include "tests/io/free_address.h"
 
 namespace tandem::server::test {
 
@@ -47,7 +48,8 @@ class MemberServer {
   static constexpr auth::Id16 kId{std::byte{1}, std::byte{2}, std::byte{3}};
 
   /// @param service  folder of the service that vouches for this server; empty: it belongs to none
-  MemberServer(std::string name, const std::string& service, const std::string& at = "127.0.0.1:0")
+  /// @param at       free for datagrams and for connections
+  MemberServer(std::string name, const std::string& service, const std::string& at = tandem::test::free_address())
       : name_(std::move(name)), scene_(*parse_scene(find_shipped_scene("free_motion")->text, "free_motion")) {
     const std::int64_t now = auth::wall_seconds();
     key = auth::ServerKeystore::init(folder.path("server"), now).value();

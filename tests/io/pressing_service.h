@@ -41,7 +41,7 @@ class PressingService {
   /// Both hands join at an address of a server, and press. @param more  further arguments of both clients
   void join(const std::string& address, const Words& more = {}) {
     const Folder& folder = service_.folder();
-    const std::string own = service_.enrolled_at(names_.front(), "desk");
+    const std::string own = service_.enrolled("desk");
     for (const char* seat : kSeats) {
       const std::string ticket = folder.write(std::string(seat) + ".ticket", ticket_of(seat));
       Words words{"--session",     "lab",

@@ -27,7 +27,7 @@ class ServiceJoin : public testing::Test {
     EXPECT_TRUE(auth::ServiceKeystore::init(folder.path("other")));
   }
   std::unique_ptr<MemberServer> member(const std::string& name, const char* service = "service",
-                                       const std::string& at = "127.0.0.1:0") {
+                                       const std::string& at = tandem::test::free_address()) {
     auto made = std::make_unique<MemberServer>(name, folder.path(service), at);
     made->enrol(own().identity());
     return made;
