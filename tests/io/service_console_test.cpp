@@ -63,6 +63,7 @@ TEST_F(ServiceConsole, FollowsItsSessionWhenItMovesAndWhenItsServerEnds) {
 
   LiveService::run({"move", "lab", "--to", "b", "--config", service.folder().file("a.textproto")});
   ASSERT_TRUE(console.process().wait_for("has followed session lab")) << console.process().err();
+  EXPECT_NE(service.folder().read("a/audit.log").find("ticket_restored"), std::string::npos);
   Process refused_there(again);
   EXPECT_EQ(refused_there.wait(), 1);
   EXPECT_NE(refused_there.err().find("used"), std::string::npos) << refused_there.err();

@@ -205,16 +205,16 @@ std::expected<auth::Ticket, ErrorReply> SessionJoins::redeem(const SessionEntry&
 }
 
 void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry,
-                                  const std::string& person) {
+                                  const std::string& person, const char* event) {
   if (!ticket) return;
   const std::string problem = trust_.tickets().restore(*ticket);
   if (ticket_uses_ != nullptr) ticket_uses_->restore(entry.registration.name, *ticket);
-  trust_.audit(auth::wall_seconds(), "ticket_unused", entry.registration.name,
+  trust_.audit(auth::wall_seconds(), event, entry.registration.name,
                auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem) + by_person(person));
 }
 
 void SessionJoins::release_consoles(SessionEntry& entry) {
-  for (const auth::Id16& ticket : entry.consoles.take_all()) restore_ticket(ticket, entry, "");
+  for (const auth::Id16& ticket : entry.consoles.take_all()) restore_ticket(ticket, entry, "", "ticket_restored");
 }
 
 // ---- Consoles and link tests ----

@@ -63,8 +63,9 @@ class SessionJoins final : public JoinHandler {
                                                                     const rpc::TicketCredential& ticket,
                                                                     std::optional<AccessRole> role);
   void stop_watching(SessionEntry& entry, const rpc::Welcome& joined);
-  /// @param person  name in the ticket, for the audit log
-  void restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry, const std::string& person);
+  /// @param person  name in the ticket, for the audit log  @param event  of the audit log
+  void restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry, const std::string& person,
+                      const char* event = "ticket_unused");
   /// Error reply if the shard or the machine is too busy for a new join; nullopt if not.
   [[nodiscard]] std::optional<rpc::ErrorReply> overload_reply(const SessionEntry& entry) const;
 
