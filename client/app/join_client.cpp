@@ -19,16 +19,53 @@ namespace tandem::client {
 namespace {
 
 constexpr int kOwnerRetryMs = 300;
+constexpr Duration kComingMax = std::chrono::seconds(4);      // at one server, which may not see the directory
 constexpr Duration kMemberTimeout = std::chrono::seconds(1);  // for one of several servers of a service
 
 struct Accepted {
   rpc::Hello hello;
   rpc::Welcome welcome;
 };
-/// Waits before the next request for a session that a server of the service is about to serve. @return false: a signal
-bool wait_for_owner(const JoinOptions& options) {
+/// Whether another server is about to serve the session: it says so, or the one that had it does not answer.
+bool is_coming(const std::expected<rpc::Body, JoinError>& reply) {
+  if (!reply) return reply.error().owner_unreachable;
+  const auto* rejected = std::get_if<rpc::ErrorReply>(&*reply);
+  return rejected != nullptr && rejected->code == rpc::ErrorCode::kNotNow;
+}
+/// Waits before the next request for such a session. A server of this version has waited itself before it answered.
+/// @param asked  time of the last request  @return false: a signal
+bool wait_for_owner(const JoinOptions& options, Time asked) {
+  const auto waited = std::chrono::duration_cast<std::chrono::milliseconds>(io::monotonic_now() - asked).count();
   pollfd signals{options.signals, POLLIN, 0};
-  return ::poll(&signals, 1, kOwnerRetryMs) <= 0;
+  return ::poll(&signals, 1, std::max(0, kOwnerRetryMs - static_cast<int>(waited))) <= 0;
+}
+
+/// Asks for the session at its owner, to which the servers of the service send this client. While a server is about to
+/// serve it, the same connection asks again: a new one each time would soon exceed what a server accepts from an
+/// address.
+/// @param seen    as `ServerConnection::follow`
+/// @param until   end of the waiting
+/// @param wanted  whether to go on waiting
+/// @return `is_coming` if the time is over, or the server has closed the connection
+std::expected<rpc::Body, JoinError> ask_owner(ServerConnection& server, const rpc::Hello& hello, std::uint64_t seen,
+                                              Time until, const std::function<bool()>& wanted) {
+  std::optional<std::expected<rpc::Body, JoinError>> coming;
+  while (true) {
+    const Time asked = io::monotonic_now();
+    auto reply = server.ask(hello);
+    if (!reply && coming && !reply.error().interrupted) return std::move(*coming);
+    if (const auto* elsewhere = reply ? std::get_if<rpc::Elsewhere>(&*reply) : nullptr) {
+      auto followed = server.follow(*elsewhere, seen);
+      if (followed) {
+        coming.reset();
+        continue;
+      }
+      reply = std::unexpected(std::move(followed.error()));
+    }
+    if (!is_coming(reply) || io::monotonic_now() >= until || !wanted() || !wait_for_owner(server.options(), asked))
+      return reply;
+    coming = std::move(reply);
+  }
 }
 
 /// The control connection of a console that was accepted.
@@ -46,18 +83,12 @@ std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
   auto hello = make_hello(server);
   if (!hello) return std::unexpected(hello.error());
   while (true) {
-    auto reply = server.ask(*hello);
-    if (!reply) return std::unexpected(reply.error());
-    if (const auto* elsewhere = std::get_if<rpc::Elsewhere>(&*reply)) {
-      if (auto followed = server.follow(*elsewhere); !followed) return std::unexpected(followed.error());
-      continue;
-    }
-    const auto* rejected = std::get_if<rpc::ErrorReply>(&*reply);
-    if (rejected != nullptr && rejected->code == rpc::ErrorCode::kNotNow && io::monotonic_now() < until &&
-        wait_for_owner(server.options())) {
+    auto reply = ask_owner(server, *hello, 0, until, [] { return true; });
+    if (is_coming(reply) && io::monotonic_now() < until) {
       if (auto connected = server.connect(); !connected) return std::unexpected(connected.error());
       continue;
     }
+    if (!reply) return std::unexpected(reply.error());
     auto welcome = server.expect<rpc::Welcome>(std::move(*reply));
     if (!welcome) return std::unexpected(welcome.error());
     server.remember(welcome->members);
@@ -189,24 +220,6 @@ std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options)
 
 namespace {
 
-/// Asks for the seat with one secret, and follows the servers of the service to the owner of the session.
-std::expected<rpc::Body, ResumeError> ask_for_seat(ServerConnection& server, const rpc::Hello& hello,
-                                                   const ResumeState& own) {
-  while (true) {
-    auto reply = server.ask(hello);
-    const auto* elsewhere = reply ? std::get_if<rpc::Elsewhere>(&*reply) : nullptr;
-    const JoinError* failure = reply ? nullptr : &reply.error();
-    std::expected<void, JoinError> followed;
-    if (elsewhere != nullptr) followed = server.follow(*elsewhere, own.epoch);
-    if (!followed) failure = &followed.error();
-    if (failure != nullptr)
-      return std::unexpected(
-          ResumeError{.kind = failure->interrupted ? ResumeError::Kind::kInterrupted : ResumeError::Kind::kAgain,
-                      .reason = failure->reason});
-    if (elsewhere == nullptr) return std::move(*reply);
-  }
-}
-
 /// Tries to resume a seat at one address.
 std::expected<JoinedSeat, ResumeError> resume_at(const io::SocketAddress& at, const JoinOptions& options,
                                                  const ResumeState& own, const std::function<bool()>& wanted) {
@@ -218,8 +231,11 @@ std::expected<JoinedSeat, ResumeError> resume_at(const io::SocketAddress& at, co
     rpc::Hello hello = base_hello(options);
     hello.session = own.session;
     hello.credential = rpc::ResumeCredential{secret};
-    const auto reply = ask_for_seat(server, hello, own);
-    if (!reply) return std::unexpected(reply.error());
+    const auto reply = ask_owner(server, hello, own.epoch, io::monotonic_now() + kComingMax, wanted);
+    if (!reply)
+      return std::unexpected(
+          ResumeError{.kind = reply.error().interrupted ? ResumeError::Kind::kInterrupted : ResumeError::Kind::kAgain,
+                      .reason = reply.error().reason});
     const auto* rejected = std::get_if<rpc::ErrorReply>(&*reply);
     if (rejected == nullptr) {
       auto given = accept_resume(server, *reply, hello, own);

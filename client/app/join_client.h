@@ -76,6 +76,8 @@ struct JoinedWatcher {
 struct JoinError {
   bool interrupted = false;  ///< a signal ended it
   std::string reason;        ///< cause and remedy, or the name of the signal
+  /// No server answers where the connected one sends this client. The connection is still that of the connected one.
+  bool owner_unreachable = false;
 };
 
 /// Joins a seat, or starts a link test, over a TLS connection. Both ends prove their keys. The client presents a ticket

@@ -162,7 +162,9 @@ std::expected<void, JoinError> ServerConnection::follow(const rpc::Elsewhere& to
     if (connected.error().kind == Kind::kInterrupted) return std::unexpected(interrupted(options_));
     why += (why.empty() ? "" : "; ") + connected.error().text;
   }
-  return join_failure(from + ": " + why);
+  keys_->set_address(io::to_text(address_));  // of the connection that stays
+  --hops_;
+  return std::unexpected(JoinError{.reason = from + ": " + why, .owner_unreachable = true});
 }
 
 void ServerConnection::remember(const std::vector<std::string>& members) const {
@@ -189,17 +191,17 @@ JoinError ServerConnection::to_join_error(const auth::ClientError& error, const 
   if (error.kind == Kind::kInterrupted) return interrupted(options_);
   const std::string server = io::to_text(at), timeout = format("%g s", seconds(options_.timeout));
   if (error.kind == Kind::kUnreachable)
-    return {false, "no server at " + server + ": nothing listens there (tried for " + timeout + "). Start " +
-                       start_command() + ", and use the address it prints as `listening on`"};
+    return {.reason = "no server at " + server + ": nothing listens there (tried for " + timeout + "). Start " +
+                      start_command() + ", and use the address it prints as `listening on`"};
   if (error.kind == Kind::kStream && error.end == auth::StreamErrorCode::kDeadline)
-    return {false, "no answer from " + server + " within " + timeout +
-                       "; check that a tandem-server of this version listens there, and that the network (or "
-                       "tandem-netsim proxy) is up"};
+    return {.reason = "no answer from " + server + " within " + timeout +
+                      "; check that a tandem-server of this version listens there, and that the network (or "
+                      "tandem-netsim proxy) is up"};
   if (error.kind == Kind::kStream && error.end == auth::StreamErrorCode::kClosed)
-    return {false, error.text + ", again and again for " + timeout +
-                       ": too many clients join from this address, or the program at " + server +
-                       " is not tandem-server"};
-  return {false, complete_commands(error.text, options_)};
+    return {.reason = error.text + ", again and again for " + timeout +
+                      ": too many clients join from this address, or the program at " + server +
+                      " is not tandem-server"};
+  return {.reason = complete_commands(error.text, options_)};
 }
 
 std::string ServerConnection::rejection_text(const rpc::ErrorReply& reply) const {

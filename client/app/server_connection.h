@@ -16,7 +16,7 @@
 namespace tandem::client {
 
 [[nodiscard]] inline std::unexpected<JoinError> join_failure(std::string reason) {
-  return std::unexpected(JoinError{false, std::move(reason)});
+  return std::unexpected(JoinError{.reason = std::move(reason)});
 }
 
 /// Control connection from a client to the server of its options, before it becomes that of a seat or console: keys,

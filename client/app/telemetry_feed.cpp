@@ -26,7 +26,7 @@ std::expected<TelemetryFeed, JoinError> TelemetryFeed::open(const JoinOptions& o
   auto joined = join_watcher(options);
   if (!joined) return std::unexpected(joined.error());
   auto socket = io::connect_udp(joined->udp);
-  if (!socket) return std::unexpected(JoinError{false, "--server: " + socket.error()});
+  if (!socket) return std::unexpected(JoinError{.reason = "--server: " + socket.error()});
   return TelemetryFeed(std::move(*joined), std::move(*socket));
 }
 

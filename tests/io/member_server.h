@@ -49,7 +49,9 @@ class MemberServer {
 
   /// @param service  folder of the service that vouches for this server; empty: it belongs to none
   /// @param at       free for datagrams and for connections
-  MemberServer(std::string name, const std::string& service, const std::string& at = tandem::test::free_address())
+  /// @param accept   limits of connections
+  MemberServer(std::string name, const std::string& service, const std::string& at = tandem::test::free_address(),
+               const auth::AcceptLimits& accept = {1e4, 1e4, 1e4, 1e4})
       : name_(std::move(name)), scene_(*parse_scene(find_shipped_scene("free_motion")->text, "free_motion")) {
     const std::int64_t now = auth::wall_seconds();
     key = auth::ServerKeystore::init(folder.path("server"), now).value();
@@ -68,7 +70,7 @@ class MemberServer {
     joins_->set_locator(&directory, name_);
     registry_->requests().watch(*shard_);
     ControlLimits limits;
-    limits.accept = {1e4, 1e4, 1e4, 1e4};
+    limits.accept = accept;
     plane_.emplace(thread_.context(), *trust_, *joins_, limits);
     address = *plane_->listen(shard_->address());  // datagrams and connections have one port
     thread_.start();

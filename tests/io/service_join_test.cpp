@@ -186,6 +186,31 @@ TEST_F(ServiceJoin, WaitsForASessionThatIsAboutToBeServed) {
   later.join();
 }
 
+/// A class behind one address: its clients may open 100 connections at once, then 10 a second.
+TEST_F(ServiceJoin, ThirtyClientsOfOneAddressWaitForTheirSessionWithinItsLimitOfConnections) {
+  auto gone = member("desk-b");
+  const ServerLocation owner = gone->location(5);
+  gone.reset();
+  for (const SessionLocator::Found& found : {SessionLocator::Found{SessionLocator::Coming{}}, {owner}}) {
+    SCOPED_TRACE(found.index());
+    MemberServer a("desk-a", folder.path("service"), tandem::test::free_address(), auth::AcceptLimits{});
+    a.enrol(own().identity());
+    know(a);
+    point(a, found);
+    const JoinOptions asking = options({&a}, 3s);
+    std::vector<std::thread> clients;
+    for (int i = 0; i < 30; ++i)
+      clients.emplace_back([&] {
+        const std::string why = reason(asking);
+        EXPECT_TRUE(why.find("about to serve") != why.npos || why.find(owner.address) != why.npos) << why;
+      });
+    for (std::thread& client : clients) client.join();
+    EXPECT_EQ(a.count(ControlEvent::kTooFast), 0U);
+    // Each asks again over its connection. The server closes some of these, because all have the same key.
+    EXPECT_LE(a.count(ControlEvent::kAccepted), 60U);
+  }
+}
+
 TEST_F(ServiceJoin, ResumesAtTheNewOwnerInOneAttemptOnceItServes) {
   auto a = member("desk-a");
   const auto b = member("desk-b"), c = member("desk-c");

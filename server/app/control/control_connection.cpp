@@ -19,6 +19,10 @@ constexpr std::string_view kUnknown =
     "this workstation is not enrolled here, or was revoked; ask its administrator for `tandem-server enroll NAME` and "
     "run the command that it prints";
 
+/// Longest wait of a request for a session that a server is about to serve, and time between two looks. A client may
+/// wait only 0.5 s for its answer.
+constexpr auto kComingWait = std::chrono::milliseconds(400), kComingLook = std::chrono::milliseconds(100);
+
 std::uint32_t whole_seconds(Duration d) noexcept {
   return static_cast<std::uint32_t>(std::clamp(seconds(d) + 1.0, 1.0, 86400.0));
 }
@@ -33,7 +37,8 @@ ControlConnection::ControlConnection(ControlServices& services, auth::PendingSlo
       origin_(origin),
       source_(auth::Source::of(origin)),
       address_(std::move(address)),
-      on_change_(std::move(on_change)) {}
+      on_change_(std::move(on_change)),
+      look_again_(services.context) {}
 
 void ControlConnection::record(ControlEvent event, std::string detail) const {
   services_.events.record(event, address_, workstation_ ? workstation_->name : "", std::move(detail),
@@ -206,26 +211,45 @@ void ControlConnection::on_hello(rpc::Hello hello) {
   }
   const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *workstation_, address_, version});
   if (!pending_) set_deadline(services_.limits.frame_deadline);
+  admit(request, now + kComingWait);
+}
+
+// All clients of a lost server come at once, often from one address. If each of them connected again until the session
+// is served, they would exceed the limit of connections per address.
+void ControlConnection::admit(const std::shared_ptr<JoinRequest>& request, Time until) {
+  if (services_.now() < until && services_.join_handler.is_coming(request->hello.session))
+    return look_again(request, until);
   // The reply may come from another thread, or after this connection has ended.
-  services_.join_handler.admit(*request, [weak = weak_from_this(), request, &context = services_.context,
+  services_.join_handler.admit(*request, [weak = weak_from_this(), request, until, &context = services_.context,
                                           &admissions = services_.join_handler](JoinReply admission) {
-    asio::dispatch(context, [weak, request, &admissions, admission = std::move(admission)]() mutable {
+    asio::dispatch(context, [weak, request, until, &admissions, admission = std::move(admission)]() mutable {
       if (const auto self = weak.lock(); self && !self->finished_)
-        return self->on_join_reply(request, std::move(admission));
+        return self->on_join_reply(request, std::move(admission), until);
       if (const auto* welcome = std::get_if<rpc::Welcome>(&admission)) admissions.on_join_failed(*welcome);
     });
   });
 }
 
-void ControlConnection::on_join_reply(const std::shared_ptr<JoinRequest>& request, JoinReply admission) {
+void ControlConnection::look_again(const std::shared_ptr<JoinRequest>& request, Time until) {
+  look_again_.expires_after(kComingLook);
+  look_again_.async_wait([weak = weak_from_this(), request, until](const asio::error_code& stopped) {
+    if (const auto self = weak.lock(); self && !stopped && !self->finished_) self->admit(request, until);
+  });
+}
+
+void ControlConnection::on_join_reply(const std::shared_ptr<JoinRequest>& request, JoinReply admission, Time until) {
   if (auto* refused = std::get_if<rpc::ErrorReply>(&admission)) {
     if (refused->code == ErrorCode::kCode) services_.attempts.record_failure(source_, pin_, services_.now());
     record(ControlEvent::kRefused, refused->text);
-    return answer(std::move(*refused), true);
+    const bool last = refused->code != ErrorCode::kNotNow;  // the client may ask again over this connection
+    return answer(std::move(*refused), last);
   }
   if (auto* elsewhere = std::get_if<rpc::Elsewhere>(&admission)) {
+    // A client that is back from there did not reach that server: perhaps another one is about to serve the session.
+    if (sent_to_ == *elsewhere && services_.now() < until) return look_again(request, until);
+    sent_to_ = *elsewhere;
     record(ControlEvent::kElsewhere, elsewhere->session + " at " + elsewhere->address);
-    return answer(std::move(*elsewhere), true);
+    return answer(std::move(*elsewhere));
   }
   rpc::Welcome& welcome = std::get<rpc::Welcome>(admission);
   welcome.version = request->version;
@@ -334,6 +358,7 @@ void ControlConnection::finish() {
   if (finished_) return;
   finished_ = true;
   const auto self = shared_from_this();
+  look_again_.cancel();
   stream_->close();
   if (welcome_) services_.join_handler.on_disconnected(*welcome_, refused_ && !acted_);
   on_change_(*this, ConnectionChange::kEnded);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <asio/steady_timer.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -47,7 +48,10 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   void on_enrol(const rpc::Enroll& enrol);
   void on_hello(rpc::Hello hello);
   void on_command(rpc::Body command);
-  void on_join_reply(const std::shared_ptr<JoinRequest>& request, JoinReply admission);
+  /// Has a request decided. One for a session that a server is about to serve waits for it, at most until `until`.
+  void admit(const std::shared_ptr<JoinRequest>& request, Time until);
+  void look_again(const std::shared_ptr<JoinRequest>& request, Time until);
+  void on_join_reply(const std::shared_ptr<JoinRequest>& request, JoinReply admission, Time until);
   /// Sends a reply, then reads the next frame, or ends the connection if `last`.
   void answer(rpc::Body body, bool last = false);
   void refuse(rpc::ErrorCode reason, std::string text, bool last, std::uint32_t retry_after_s = 0);
@@ -78,7 +82,9 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   auth::KeyFingerprint pin_;
   std::optional<WorkstationRow> workstation_;
   std::optional<rpc::Welcome> welcome_;
+  std::optional<rpc::Elsewhere> sent_to_;
   CommandRates rates_;
+  asio::steady_timer look_again_;       ///< at a request that waits for its session
   TokenBucket forbidden_events_{1, 1};  ///< audit events of forbidden commands
   std::uint32_t request_ = 0;
   bool acted_ = false, refused_ = false;  ///< a command was executed; a command was rejected

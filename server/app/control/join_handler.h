@@ -40,6 +40,8 @@ class JoinHandler {
   /// A Welcome could not be sent: the seat is free again.
   virtual void on_join_failed(const rpc::Welcome& welcome) = 0;
 
+  /// Whether a server of the service is about to serve this session: a request for it is better decided a moment later.
+  [[nodiscard]] virtual bool is_coming(const rpc::SessionChoice&) { return false; }
   /// One page of the list of sessions.
   [[nodiscard]] virtual rpc::SessionList list(const rpc::SessionListRequest& request) = 0;
   /// Addresses of the servers of the service, at most rpc::kMembersMax; empty: this server belongs to none.

@@ -35,6 +35,7 @@ class SessionJoins final : public JoinHandler {
   void on_joined(const JoinRequest& request, const rpc::Welcome& welcome,
                  const Secret<auth::kExportSize>& secrets) override;
   void on_join_failed(const rpc::Welcome& welcome) override;
+  [[nodiscard]] bool is_coming(const rpc::SessionChoice& session) override { return redirect_.is_coming(session); }
   [[nodiscard]] rpc::SessionList list(const rpc::SessionListRequest& request) override {
     return redirect_.list(request);
   }

@@ -29,6 +29,10 @@ std::string some_of(const std::vector<std::string>& names) {
   return text;
 }
 
+bool says_coming(const SessionLocator::Found& found) {
+  return std::holds_alternative<SessionLocator::Here>(found) || std::holds_alternative<SessionLocator::Coming>(found);
+}
+
 rpc::Elsewhere elsewhere_of(const ServerLocation& at, const rpc::SessionChoice& choice) {
   const auto* const id = std::get_if<rpc::Id>(&choice);
   return {.address = at.address,
@@ -49,10 +53,19 @@ ErrorReply being_taken_over() {
 std::optional<SessionRedirect::Reply> SessionRedirect::find(const rpc::SessionChoice& choice, bool understands) {
   if (locator_ == nullptr) return std::nullopt;
   if (std::holds_alternative<std::monostate>(choice)) return only_session(understands);
-  const auto chosen = registry_.choose(choice);
-  if (const auto* const here = std::get_if<SessionEntry*>(&chosen); here != nullptr && !(*here)->given_up)
-    return std::nullopt;
+  if (is_served_here(choice)) return std::nullopt;
   return located(choice, understands);
+}
+
+bool SessionRedirect::is_served_here(const rpc::SessionChoice& choice) {
+  const auto chosen = registry_.choose(choice);
+  const auto* const here = std::get_if<SessionEntry*>(&chosen);
+  return here != nullptr && !(*here)->given_up;
+}
+
+bool SessionRedirect::is_coming(const rpc::SessionChoice& choice) {
+  if (locator_ == nullptr || std::holds_alternative<std::monostate>(choice) || is_served_here(choice)) return false;
+  return says_coming(locator_->locate(choice));
 }
 
 /// A client that names no session gets the only one of the whole service.
@@ -96,8 +109,7 @@ ErrorReply SessionRedirect::refusal(const rpc::SessionChoice& choice, const Erro
 std::optional<SessionRedirect::Reply> SessionRedirect::located(const rpc::SessionChoice& choice, bool understands) {
   const SessionLocator::Found found = locator_->locate(choice);
   if (std::holds_alternative<SessionLocator::None>(found)) return std::nullopt;
-  if (std::holds_alternative<SessionLocator::Here>(found) || std::holds_alternative<SessionLocator::Coming>(found))
-    return being_taken_over();
+  if (says_coming(found)) return being_taken_over();
   if (const auto* const unknown = std::get_if<SessionLocator::Unknown>(&found))
     return ErrorReply{ErrorCode::kInternal,
                       bounded_text("this server cannot tell which server of the service has the session: " +

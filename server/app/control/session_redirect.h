@@ -34,6 +34,8 @@ class SessionRedirect {
   /// @param understands  the client follows an Elsewhere; others get its address in the text of an error
   /// @return nullopt: this server decides alone
   [[nodiscard]] std::optional<Reply> find(const rpc::SessionChoice& choice, bool understands);
+  /// Whether a server of the service, perhaps this one, is about to serve the session.
+  [[nodiscard]] bool is_coming(const rpc::SessionChoice& choice);
   /// The reply to a join by a choice that names no session of this server (`own`), with the sessions of the service in
   /// its text. A wrong code counts as an attempt also at a server without a session.
   [[nodiscard]] rpc::ErrorReply refusal(const rpc::SessionChoice& choice, const rpc::ErrorReply& own) const;
@@ -45,6 +47,7 @@ class SessionRedirect {
   [[nodiscard]] std::vector<std::string> members() const;
 
  private:
+  [[nodiscard]] bool is_served_here(const rpc::SessionChoice& choice);
   [[nodiscard]] std::optional<Reply> only_session(bool understands);
   [[nodiscard]] std::optional<Reply> located(const rpc::SessionChoice& choice, bool understands);
   [[nodiscard]] std::vector<SessionLocator::Elsewhere> others() const;

@@ -78,8 +78,12 @@ TEST(SessionRedirect, LetsClientsAskAgainWhileASessionComesOrTheDirectoryIsSilen
     r.locator.found = found;
     EXPECT_EQ(r.error(id_of(2)).code, ErrorCode::kNotNow);
     EXPECT_EQ(r.error(id_of(2)).retry_after_s, 1U);
+    EXPECT_TRUE(r.redirect.is_coming(id_of(2)));
+    EXPECT_FALSE(r.redirect.is_coming(id_of(1))) << "it is served here";
+    EXPECT_FALSE(r.redirect.is_coming(rpc::SessionChoice{})) << "none is named";
   }
   r.locator.found = SessionLocator::Unknown{"etcd does not answer"};
+  EXPECT_FALSE(r.redirect.is_coming(id_of(2)));
   EXPECT_EQ(r.error(id_of(2)).code, ErrorCode::kInternal);
   EXPECT_NE(r.error(id_of(2)).text.find("etcd does not answer"), std::string::npos);
   r.locator.found = SessionLocator::Unknown{std::string(1000, 'x')};
