@@ -74,8 +74,8 @@ class WebServer {
         return;
       }
       if (state_.http < kHttpMax + state_.gateway.audience_max()) {
-        socket.set_option(Tcp::no_delay{true}, error);
-        socket.set_option(net::socket_base::send_buffer_size{kSendBuffer}, error);
+        static_cast<void>(socket.set_option(Tcp::no_delay{true}, error));
+        static_cast<void>(socket.set_option(net::socket_base::send_buffer_size{kSendBuffer}, error));
         const auth::Source from = source_of(socket);
         boost::beast::tcp_stream plain(std::move(socket));
         serve_http(tls_ != nullptr ? WebStream(std::move(plain), *tls_) : WebStream(std::move(plain)), state_, from);
@@ -121,10 +121,10 @@ std::expected<Tcp::acceptor, std::string> open_port(net::io_context& context, co
   endpoint.resize(listen.size);
   Error error;
   Tcp::acceptor acceptor{context};
-  acceptor.open(endpoint.protocol(), error);
-  if (!error) acceptor.set_option(net::socket_base::reuse_address{true}, error);
-  if (!error) acceptor.bind(endpoint, error);
-  if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
+  static_cast<void>(acceptor.open(endpoint.protocol(), error));
+  if (!error) static_cast<void>(acceptor.set_option(net::socket_base::reuse_address{true}, error));
+  if (!error) static_cast<void>(acceptor.bind(endpoint, error));
+  if (!error) static_cast<void>(acceptor.listen(net::socket_base::max_listen_connections, error));
   if (error)
     return std::unexpected("--listen: " + io::to_text(listen) + " cannot be opened: " + error.message() +
                            "; choose another port, or 0 for a free one");
