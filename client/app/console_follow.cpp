@@ -17,9 +17,9 @@ std::expected<Console, std::string> follow_session(const JoinOptions& options) {
   while (true) {
     auto again = join_console(options);
     if (again) return std::move(*again);
+    if (again.error().ticket_refused || io::monotonic_now() >= until) return std::unexpected(again.error().reason);
     pollfd signal{options.signals, POLLIN, 0};
     if (again.error().interrupted || poll(&signal, 1, kRetryMs) > 0) return std::unexpected(std::string{});
-    if (io::monotonic_now() >= until) return std::unexpected(again.error().reason);
   }
 }
 

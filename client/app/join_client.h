@@ -78,6 +78,7 @@ struct JoinError {
   std::string reason;        ///< cause and remedy, or the name of the signal
   /// No server answers where the connected one sends this client. The connection is still that of the connected one.
   bool owner_unreachable = false;
+  bool ticket_refused = false;  ///< the ticket does not admit, now or later
 };
 
 /// Joins a seat, or starts a link test, over a TLS connection. Both ends prove their keys. The client presents a ticket

@@ -180,8 +180,10 @@ std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
   const bool moved = resumed->joined.server != resume_state_.server && resumed->joined.service;
   o_.line.note(moved
                    ? "the server at " + io::to_text(resumed->joined.udp) + " has the session now and gave the seat back"
-               : welcome.epoch > resume_state_.epoch ? "the server was restarted and gave the seat back"
-                                                     : "the server gave the seat back");
+               : welcome.epoch > resume_state_.epoch
+                   ? (resumed->joined.service ? "the server has the session again and gave the seat back"
+                                              : "the server was restarted and gave the seat back")
+                   : "the server gave the seat back");
   resume_state_.epoch = welcome.epoch;
   resume_state_.server = resumed->joined.server;
   resume_state_.last = resumed->joined.udp;

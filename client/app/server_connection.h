@@ -52,7 +52,9 @@ class ServerConnection {
   /// Returns a reply of type `Reply`. Error for any other, such as an ErrorReply.
   template <class Reply>
   [[nodiscard]] std::expected<Reply, JoinError> expect(rpc::Body reply) const {
-    if (const auto* rejected = std::get_if<rpc::ErrorReply>(&reply)) return join_failure(rejection_text(*rejected));
+    if (const auto* rejected = std::get_if<rpc::ErrorReply>(&reply))
+      return std::unexpected(
+          JoinError{.reason = rejection_text(*rejected), .ticket_refused = rejected->code == rpc::ErrorCode::kTicket});
     if (auto* expected = std::get_if<Reply>(&reply)) return std::move(*expected);
     return join_failure(kUnexpectedReply);
   }

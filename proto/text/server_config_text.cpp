@@ -48,12 +48,10 @@ LocatedText not_empty(bool written, const std::string& value, MessageValidator& 
   return placed(value, validator, key);
 }
 
-/// Whether `name` has 1 to 64 of A-Z a-z 0-9 . _ -
+/// Whether `name` can stand in a member file: 1 to 32 of A-Z a-z 0-9 _ -
 bool is_server_name(std::string_view name) {
-  constexpr std::string_view kOthers = "._-";
-  return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, [&](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           kOthers.find(c) != std::string_view::npos;
+  return !name.empty() && name.size() <= 32 && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
 }
 
@@ -98,7 +96,7 @@ DirectorySpec directory_from(const pb::DirectoryConfig& in, MessageValidator& va
     validator.error(key("name_in_certificate"), "needs TLS: add authority, certificate and private_key");
   out.server = placed(in.server(), validator, key("server"));
   if (in.has_server() && !is_server_name(in.server()))
-    validator.error(key("server"), "must have 1 to 64 of A-Z a-z 0-9 . _ -");
+    validator.error(key("server"), "must have 1 to 32 of A-Z a-z 0-9 _ -, as in the member file of the server");
   out.address = not_empty(in.has_address(), in.address(), validator, key("address"),
                           "write HOST:PORT at which clients reach this server, or leave the key out");
   out.zone = in.zone();

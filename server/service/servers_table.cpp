@@ -113,7 +113,9 @@ std::string servers_table(const directory::DirectoryView& view, const ServiceCat
   for (const auto& [name, entry] : catalogue.entries()) {
     const auto* const seen = view.session(name);
     if (entry.spec && (seen == nullptr || !seen->owner))
-      text += "session " + name + " has no server; one takes it over when a client asks for it\n";
+      text += "session " + name +
+              (view.servers().empty() ? " has no server; it begins again when one starts\n"
+                                      : " has no server; one takes it over when a client asks for it\n");
     else if (entry.spec && !seen->standby && view.servers().size() > 1)
       text += "session " + name + " has no standby now: its server names one within some seconds\n";
   }

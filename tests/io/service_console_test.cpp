@@ -80,5 +80,36 @@ TEST_F(ServiceConsole, FollowsItsSessionWhenItMovesAndWhenItsServerEnds) {
   EXPECT_EQ(console.process().wait(), 0) << console.process().err();
 }
 
+/// Its ticket stays used, and so the console cannot follow. It says so before a person relies on an order.
+TEST_F(ServiceConsole, SaysAtOnceThatItsServerDiedAndThatAnOrderAfterThatWasNotCarriedOut) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const std::string own = service.enrolled("desk");
+  const std::string ticket = service.folder().write(
+      "operator.ticket",
+      first_line(LiveService::run({"ticket", "--session", "lab", "--role", "operator", "--workstation", "desk",
+                                   "--state", service.folder().file("a")})));
+  TypedConsole console(service.folder(), {"--server", address_of(a) + "," + address_of(b), "--session", "lab",
+                                          "--state", own, "--ticket-file", ticket});
+  console.type("status");
+  ASSERT_TRUE(console.process().wait_for("lab: waiting")) << console.process().err();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // until the standby is named
+  a.signal(SIGKILL);
+  ASSERT_EQ(a.wait(), -SIGKILL);
+  EXPECT_TRUE(console.process().wait_for("it carries out no order")) << console.process().err();
+  console.type("stop danger");
+  EXPECT_EQ(console.process().wait(), 1);
+  EXPECT_NE(console.process().err().find("used before"), std::string::npos) << console.process().err();
+  EXPECT_NE(console.process().err().find("Orders after that were not carried out"), std::string::npos);
+  // It asks once by its ticket, and does not try again.
+  ASSERT_TRUE(b.wait_for("used before")) << b.err();
+  const std::string log = b.err();
+  const auto refused = log.find("used before");
+  EXPECT_EQ(log.find("used before", refused + 1), std::string::npos) << log;
+}
+
 }  // namespace
 }  // namespace tandem::test

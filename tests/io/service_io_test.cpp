@@ -246,8 +246,8 @@ TEST_F(Service, MovedSessionTakesItsHandsAlong) {
   const std::string config = pressed.service().folder().file("a.textproto");
   EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}), "session lab is at server b now\n");
   pressed.wait_until_active("b");
-  for (const Words& wrong :
-       {Words{"move", "lab", "--to", "c"}, Words{"move", "nothing", "--to", "a"}, Words{"move", "lab", "--to", "b"}}) {
+  EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}), "session lab is at server b already\n");
+  for (const Words& wrong : {Words{"move", "lab", "--to", "c"}, Words{"move", "nothing", "--to", "a"}}) {
     Words words = wrong;
     words.insert(words.end(), {"--config", config});
     Process refused = server(words);

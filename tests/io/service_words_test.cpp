@@ -79,6 +79,17 @@ TEST_F(ServiceWords, AServerWhoseConfigurationDiffersSaysSo) {
       << b.err();
 }
 
+TEST_F(ServiceWords, AMemberWithoutADirectoryInItsConfigurationSaysThatItIsAlone) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  service.start("a").signal(SIGTERM);
+  service.of("a").wait();
+  const std::string config = service.folder().write(
+      "alone.textproto",
+      "version: 1 listen: \"127.0.0.1:0\" state: \"a\" session { name: \"lab\" scene: \"free_motion\" }");
+  Process alone = server({"serve", config});
+  EXPECT_TRUE(alone.wait_for("no block `directory`: it serves its sessions alone")) << alone.err();
+}
+
 TEST_F(ServiceWords, AServerTakesOverASessionOfATickRateThatItHasNotConfigured) {
   LiveService service("session { name: \"lab\" scene: \"slow.textproto\" }");
   std::string scene(find_shipped_scene("free_motion")->text);

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/app/commands/client_commands.h"
@@ -51,8 +52,9 @@ class ConsoleClient {
   enum class PollResult { kNothing, kChanged, kGone };
   PollResult poll_status() {
     const auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, timeout_);
-    if (const auto* moved = answer ? std::get_if<rpc::Elsewhere>(&*answer) : nullptr) complain(moved_text(*moved));
-    if (!answer || std::holds_alternative<rpc::Elsewhere>(*answer)) return PollResult::kGone;
+    const auto* const moved = answer ? std::get_if<rpc::Elsewhere>(&*answer) : nullptr;
+    if (moved_ = moved != nullptr; moved_) complain(moved_text(*moved));
+    if (!answer || moved_) return PollResult::kGone;
     const auto* said = std::get_if<rpc::Status>(&*answer);
     if (said == nullptr) return PollResult::kNothing;  // rate limit or end of the session; the next command reports it
     looked_ = true;
@@ -67,6 +69,9 @@ class ConsoleClient {
   /// Follows the session to another server of its service. @return false: it is not there, or a signal came
   bool follow() {
     if (!console_.service) return false;
+    if (!std::exchange(moved_, false))
+      complain("the server has ended this connection. This console looks for session " + welcome().session_name +
+               " at the other servers; until it has found it, it carries out no order");
     auto again = follow_session(asked_);
     if (!again) {
       if (!again.error().empty()) complain(again.error());
@@ -253,6 +258,7 @@ class ConsoleClient {
   std::optional<Time> drain_due_;  ///< earliest drain requested on this console
   std::chrono::milliseconds timeout_;
   bool json_;
+  bool moved_ = false;                                     ///< the server has said that the session is at another one
   bool looked_ = false, acted_ = false, refused_ = false;  ///< a status was read; others were accepted; one was refused
 };
 
@@ -261,7 +267,8 @@ int tell_gone(bool person, int worst) {
       stderr,
       "%standem-client control: the server ended this connection: it was stopped, is being restarted, or withdrew its "
       "rights.\n"
-      "To continue, start again, with a new ticket if you joined with one (`tandem-server ticket` on the server)\n",
+      "Orders after that were not carried out. To continue, start again, with a new ticket if you joined with one "
+      "(`tandem-server ticket` on the server)\n",
       person ? "\n" : "");
   return std::max(worst, io::kExitTrouble);
 }

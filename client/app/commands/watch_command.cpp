@@ -43,7 +43,7 @@ int end_watch(const std::string& why) {
 std::string text_of(wire::CloseReason why) {
   switch (why) {
     case wire::CloseReason::kServerReturns:
-      return "the server is being restarted; watch again in a moment";
+      return "the server ends, or gave the session to another server of its service; watch again in a moment";
     case wire::CloseReason::kRevoked:
     case wire::CloseReason::kRemoved:
       return "the server withdrew the right to watch; ask its operator";

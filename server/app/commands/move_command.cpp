@@ -30,7 +30,6 @@ std::string move_problem(const ServiceQuery& service, const MoveArguments& argum
   const auto* const seen = service.view().session(arguments.session);
   if (seen == nullptr || !seen->owner)
     return "session " + arguments.session + " has no server now; a server takes it over when a client asks for it";
-  if (seen->owner->name == arguments.to) return "session " + arguments.session + " is at server " + arguments.to;
   return {};
 }
 
@@ -43,6 +42,10 @@ int move_command(const MoveArguments& arguments) {
   ServiceQuery& service = **opened;
   if (const std::string problem = move_problem(service, arguments); !problem.empty())
     return print_error("move", problem);
+  if (service.view().session(arguments.session)->owner->name == arguments.to) {
+    std::printf("session %s is at server %s already\n", arguments.session.c_str(), arguments.to.c_str());
+    return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
+  }
   service.begin({{}, {directory::Put{service.keys().move(arguments.session), arguments.to, 0}}, {}});
   const bool moved = service.wait(kMoveMax, [&] {
     const auto* const seen = service.view().session(arguments.session);

@@ -72,8 +72,12 @@ int stop_command(const StopArguments& arguments) {
     return print_error("stop", problem);
   record_command("stop", *state, auth::wall_seconds(), "stop_requested", "", format("in %u s", grace_s));
   io::print_formatted(stdout,
-                      "server at %s: new joins are rejected; all hands are released in %u s, then the server ends\n",
-                      (*serving)->address.c_str(), grace_s);
+                      "server at %s: new joins are rejected; %sall hands are released in %u s, then the server ends\n",
+                      (*serving)->address.c_str(),
+                      state->membership() == nullptr ? ""
+                                                     : "its sessions move to other servers of the service, and it ends "
+                                                       "when it has none; of those that find no room ",
+                      grace_s);
   std::fflush(stdout);
   return arguments.no_wait ? 0 : wait_for_drain(*state, grace_s);
 }

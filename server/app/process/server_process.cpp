@@ -81,6 +81,10 @@ class ServerProcess {
       auto service = ServiceHost::open({options_, *sessions_, shards_, *control_, output_});
       if (!service) return trouble(service.error());
       service_ = std::move(*service);
+    } else if (const auto* const membership = control_->membership(); membership != nullptr) {
+      const std::string alone = "this server has the member file of a service (name " + membership->name +
+                                "), and its configuration no block `directory`: it serves its sessions alone";
+      output_.report(io::Level::kWarn, {.event = "service_unused", .text = alone}, alone);
     }
     leftovers_.emplace(recording_folders(), [this](const RecordingRepair& repair) { report_repair(repair); });
     if (const int code = sessions_->open(); code != 0) return code;

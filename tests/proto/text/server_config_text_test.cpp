@@ -127,7 +127,7 @@ TEST(ServerConfig, ReadsTheDirectoryOfAService) {
   const auto all = parse_server_config(
       std::string(kSmall) +
           "directory { endpoint: \"a:2379\" endpoint: \"b:65535\" prefix: \"/school/\" authority: \"ca.pem\"\n"
-          "certificate: \"c.pem\" private_key: \"k.pem\" name_in_certificate: \"etcd\" server: \"desk-a.lab\"\n"
+          "certificate: \"c.pem\" private_key: \"k.pem\" name_in_certificate: \"etcd\" server: \"desk-a_lab\"\n"
           "address: \"10.0.0.7:7000\" zone: \"north\" ttl_s: 60 balance: false }",
       "s.textproto");
   ASSERT_TRUE(all) << to_text(all.error());
@@ -137,7 +137,7 @@ TEST(ServerConfig, ReadsTheDirectoryOfAService) {
   EXPECT_EQ(got.prefix, "/school/");
   EXPECT_EQ(got.private_key.text, "k.pem");
   EXPECT_EQ(got.name_in_certificate, "etcd");
-  EXPECT_EQ(got.server.text, "desk-a.lab");
+  EXPECT_EQ(got.server.text, "desk-a_lab");
   EXPECT_EQ(got.address.text, "10.0.0.7:7000");
   EXPECT_EQ(got.address.line, 6);
   EXPECT_EQ(got.zone, "north");
@@ -165,6 +165,7 @@ TEST(ServerConfig, ReportsMistakesInTheDirectoryOfAService) {
                             "name_in_certificate: \"etcd\"",
                             "server: \"\"",
                             "server: \"a b\"",
+                            "server: \"a.b\"",
                             "address: \"\"",
                             "zone: \"a b\"",
                             "ttl_s: 1",

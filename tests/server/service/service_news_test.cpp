@@ -118,10 +118,8 @@ TEST_F(ServiceNewsTest, TableHasEveryServerAndSessionsWithoutOne) {
   a.open.clear();
   now_ += 10s;
   store_.advance(now_);
-  EXPECT_EQ(
-      table(),
-      "no server is registered in this service\nsession lab has no server; one takes it over when a client asks for "
-      "it\n");
+  EXPECT_EQ(table(),
+            "no server is registered in this service\nsession lab has no server; it begins again when one starts\n");
 }
 
 }  // namespace
