@@ -1,5 +1,6 @@
 // Texts of servers of one service over etcd for their users: real programs on loopback. Texts and results are asserted,
 // never durations.
+#include "common/auth/io/state_directory.h"
 #include "proto/text/scenes_embedded.h"
 #include "tests/io/metrics_page.h"
 #include "tests/io/service_fixture.h"
@@ -120,6 +121,24 @@ TEST_F(ServiceWords, AServerIsReadyWhileItIsAMemberAndItsDirectoryAnswers) {
   EXPECT_TRUE(contains(page(metrics, "/healthz"), "200 OK")) << "a restart would not help";
   service.etcd().start();
   wait_until_readiness_says(metrics, "200 OK");
+}
+
+TEST_F(ServiceWords, AServerWhoseVoucherExpiresSoonWarnsAndTellsTheTime) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  service.set("a", {.vouch = {"--days", "20"}});
+  const std::string warning = "the voucher of this server expires on ",
+                    metric = "\ntandem_service_voucher_expiry_seconds ";
+  for (const std::int64_t days : {20, 400}) {
+    const std::string name = days == 20 ? "a" : "b";
+    const std::int64_t before = auth::wall_seconds();
+    Process& started = service.start(name);
+    EXPECT_EQ(contains(started.err(), warning), days == 20) << started.err();
+    EXPECT_EQ(contains(started.err(), "service vouch FOLDER --name a --key "), days == 20) << started.err();
+    const std::string text = page(service.metrics(name));
+    ASSERT_TRUE(contains(text, metric)) << text;
+    const std::int64_t left = std::stoll(text.substr(text.find(metric) + metric.size())) - before;
+    EXPECT_NEAR(static_cast<double>(left), static_cast<double>(days * 86400 - 3600), 120) << "an hour is in the past";
+  }
 }
 
 TEST(ServiceClients, NameTheAddressThatAnswered) {

@@ -107,6 +107,9 @@ void describe_service(Families& page, const ServiceStatus& service) {
              static_cast<double>(service.writes.written));
   page.count("tandem_service_refused_total", "Snapshots and lists that came after the end of an ownership", {},
              static_cast<double>(service.writes.refused));
+  page.gauge("tandem_service_voucher_expiry_seconds",
+             "Last second at which the voucher of this server is valid, since 1970, UTC", {},
+             static_cast<double>(service.voucher_ends));
 }
 
 std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, const AuditState& audit,

@@ -59,6 +59,12 @@ TEST(MonitoringPage, IsNotReadyWhileItsSessionsAreHeld) {
   EXPECT_NE(server.page("/metrics", &status).body.find("\ntandem_service_held 0\n"), std::string::npos);
 }
 
+TEST(MonitoringPage, ShowsTheEndOfTheVoucherToTheSecond) {
+  const ServiceStatus status = status_of_member();
+  EXPECT_NE(IdleServer{}.page("/metrics", &status).body.find("\ntandem_service_voucher_expiry_seconds 1798761599\n"),
+            std::string::npos);
+}
+
 TEST(MonitoringPage, NamesTheOldReasonsFirst) {
   IdleServer server;
   server.audit.trouble = "No space left on device";
