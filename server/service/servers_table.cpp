@@ -7,6 +7,7 @@
 
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
+#include "common/base/utc_date.h"
 #include "proto/rpc/service_codec.h"
 #include "server/directory/placement/server_record.h"
 
@@ -16,15 +17,6 @@ namespace {
 
 using Row = std::array<std::string, 9>;
 
-/// Date of a time in seconds since 1970, UTC, by the proleptic Gregorian calendar. Source: Howard Hinnant,
-/// "chrono-Compatible Low-Level Date Algorithms", civil_from_days.
-std::string date_text(std::int64_t at) {
-  const std::chrono::year_month_day day{
-      std::chrono::sys_days{std::chrono::floor<std::chrono::days>(std::chrono::sys_seconds{std::chrono::seconds(at)})}};
-  return format("%04d-%02u-%02u", static_cast<int>(day.year()), static_cast<unsigned>(day.month()),
-                static_cast<unsigned>(day.day()));
-}
-
 std::string voucher_end(const std::string& hex) {
   std::vector<std::byte> bytes;
   for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
@@ -32,7 +24,7 @@ std::string voucher_end(const std::string& hex) {
   const auto credential = rpc::decode_member_credential(bytes);
   const auto statement = rpc::decode_service_statement(credential ? credential->voucher : bytes);
   const auto content = statement ? rpc::decode_voucher_content(statement->content) : std::nullopt;
-  return content ? date_text(content->not_after) : "?";
+  return content ? utc_date(content->not_after) : "?";
 }
 
 bool is_hex(const std::string& text) {

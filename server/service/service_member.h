@@ -86,6 +86,10 @@ struct ServiceStatus {
   std::uint64_t unanswered = 0;  ///< requests without an answer
   std::uint64_t moves = 0;       ///< sessions that this server has begun to move to others
   FencedWriter::Counters writes{};
+  std::int64_t voucher_ends = 0;  ///< last second of this server's voucher, since 1970, UTC; 0: unknown
+
+  /// Sessions of this server are HELD by the directory.
+  [[nodiscard]] bool held() const noexcept { return holding && owned > 0; }
 };
 
 /// One server's part of a service: which sessions it serves, from which state, and where the others are. It runs the

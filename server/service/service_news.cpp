@@ -57,7 +57,7 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
                            "; end it, or give this server a member file with another name (`tandem-server service "
                            "vouch --name NAME`, then `tandem-server service join`). This server goes on trying"});
   }
-  const bool held = status.holding && status.owned > 0;
+  const bool held = status.held();
   if (held != std::exchange(held_, held))
     lines.push_back(
         held ? Line{true, "service_held",

@@ -11,6 +11,7 @@
 
 #include "tests/io/metrics_page.h"
 #include "tests/io/programs.h"
+#include "tests/server/app/monitor/idle_server.h"
 
 namespace tandem::test {
 namespace {
@@ -40,6 +41,13 @@ Metrics named_in(const std::string& text) {
   return found;
 }
 
+/// Adds the metrics of a member of a service.
+Metrics with_service(Metrics metrics) {
+  const server::ServiceStatus status = server::test::status_of_member();
+  metrics.merge(named_in(server::test::IdleServer{}.page("/metrics", &status).body));
+  return metrics;
+}
+
 /// The metrics page of a server with two seats that records, once the recording has begun.
 Metrics served() {
   const Folder folder;
@@ -60,7 +68,7 @@ Metrics served() {
 }
 
 TEST(Monitoring, NamesMetricsAndLabelsThatTheServerHas) {
-  const Metrics metrics = served();
+  const Metrics metrics = with_service(served());
   ASSERT_GT(metrics.size(), 30u);
   for (const char* file : {"alerts.yml", "dashboard.json"}) {
     const Metrics used = named_in(text_of(file));

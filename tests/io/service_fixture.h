@@ -20,6 +20,7 @@ struct MemberSetup {
   std::string address{};                 ///< where clients reach it; empty: where it listens
   std::vector<std::string> endpoints{};  ///< of etcd; empty: all members
   std::string directory{};               ///< further fields of block `directory`
+  Words vouch{};                         ///< further arguments of `service vouch`, for the first start
 };
 
 /// Servers of one service over etcd, all on loopback: `a`, `b` and so on. Each has its own keys and a voucher.
@@ -52,7 +53,9 @@ class LiveService {
     if (!std::filesystem::exists(folder_.file(name))) {
       const std::string init = run({"init", "--state", folder_.file(name)});
       const std::string member = folder_.file(name + ".member");
-      run({"service", "vouch", folder_.file("service"), "--name", name, "--key", key_in(init), "--out", member});
+      Words vouch{"service", "vouch", folder_.file("service"), "--name", name, "--key", key_in(init), "--out", member};
+      vouch.insert(vouch.end(), setups_[name].vouch.begin(), setups_[name].vouch.end());
+      run(std::move(vouch));
       run({"service", "join", member, "--state", folder_.file(name)});
     }
     const MemberSetup& setup = setups_[name];

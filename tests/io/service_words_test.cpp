@@ -1,6 +1,8 @@
 // Texts of servers of one service over etcd for their users: real programs on loopback. Texts and results are asserted,
 // never durations.
+#include "common/auth/io/state_directory.h"
 #include "proto/text/scenes_embedded.h"
+#include "tests/io/metrics_page.h"
 #include "tests/io/service_fixture.h"
 
 namespace tandem::test {
@@ -104,6 +106,50 @@ TEST_F(ServiceWords, AServerTakesOverASessionOfATickRateThatItHasNotConfigured) 
   EXPECT_EQ(a.wait(), -SIGKILL);
   service.wait_for_sessions("b", 1);
   EXPECT_TRUE(b.wait_for("session lab RESTORED from its checkpoint")) << b.err();
+}
+
+/// Asks for `/readyz` until the answer has these words; the test fails after 30 s.
+void wait_until_readiness_says(const std::string& metrics, const std::string& wanted) {
+  std::string text;
+  for (int i = 0; i < 300; ++i) {
+    text = page(metrics, "/readyz");
+    if (contains(text, wanted)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  ADD_FAILURE() << "no \"" << wanted << "\" in " << text;
+}
+
+TEST_F(ServiceWords, AServerIsReadyWhileItIsAMemberAndItsDirectoryAnswers) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  service.start("a");
+  service.wait_for_sessions("a", 1);
+  const std::string metrics = service.metrics("a");
+  wait_until_readiness_says(metrics, "200 OK");
+  service.etcd().process().signal(SIGKILL);
+  ASSERT_EQ(service.etcd().process().wait(), -SIGKILL);
+  wait_until_readiness_says(metrics, "the directory of the service does not answer, and the sessions are HELD");
+  EXPECT_TRUE(contains(page(metrics, "/readyz"), "503 ")) << page(metrics, "/readyz");
+  EXPECT_TRUE(contains(page(metrics, "/healthz"), "200 OK")) << "a restart would not help";
+  service.etcd().start();
+  wait_until_readiness_says(metrics, "200 OK");
+}
+
+TEST_F(ServiceWords, AServerWhoseVoucherExpiresSoonWarnsAndTellsTheTime) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  service.set("a", {.vouch = {"--days", "20"}});
+  const std::string warning = "the voucher of this server expires on ",
+                    metric = "\ntandem_service_voucher_expiry_seconds ";
+  for (const std::int64_t days : {20, 400}) {
+    const std::string name = days == 20 ? "a" : "b";
+    const std::int64_t before = auth::wall_seconds();
+    Process& started = service.start(name);
+    EXPECT_EQ(contains(started.err(), warning), days == 20) << started.err();
+    EXPECT_EQ(contains(started.err(), "service vouch FOLDER --name a --key "), days == 20) << started.err();
+    const std::string text = page(service.metrics(name));
+    ASSERT_TRUE(contains(text, metric)) << text;
+    const std::int64_t left = std::stoll(text.substr(text.find(metric) + metric.size())) - before;
+    EXPECT_NEAR(static_cast<double>(left), static_cast<double>(days * 86400 - 3600), 120) << "an hour is in the past";
+  }
 }
 
 TEST(ServiceClients, NameTheAddressThatAnswered) {

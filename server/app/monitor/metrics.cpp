@@ -92,7 +92,7 @@ void describe_service(Families& page, const ServiceStatus& service) {
     page.gauge("tandem_service_lease_age_seconds", "Time since the newest renewal of the lease was sent", {},
                *service.lease_age_s);
   page.gauge("tandem_service_held", "1: the sessions are HELD, because the lease was not renewed in time", {},
-             service.holding && service.owned > 0 ? 1 : 0);
+             service.held() ? 1 : 0);
   page.gauge("tandem_service_owned_sessions", "Sessions of the service that this server serves", {},
              static_cast<double>(service.owned));
   page.gauge("tandem_service_sessions", "Sessions of the service, as far as this server knows", {},
@@ -107,6 +107,9 @@ void describe_service(Families& page, const ServiceStatus& service) {
              static_cast<double>(service.writes.written));
   page.count("tandem_service_refused_total", "Snapshots and lists that came after the end of an ownership", {},
              static_cast<double>(service.writes.refused));
+  page.gauge("tandem_service_voucher_expiry_seconds",
+             "Last second at which the voucher of this server is valid, since 1970, UTC", {},
+             static_cast<double>(service.voucher_ends));
 }
 
 std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, const AuditState& audit,
@@ -202,6 +205,16 @@ std::string stalled_text(const SessionRegistry& registry) {
   return {};
 }
 
+/// Why a member of a service can take no clients now; empty: it can.
+const char* unready_text(const ServiceStatus& service) {
+  if (!service.answers)
+    return service.held() ? "the directory of the service does not answer, and the sessions are HELD\n"
+                          : "the directory of the service does not answer\n";
+  if (service.name_taken) return "another server is registered in the service under the name of this one\n";
+  if (!service.registered) return "this server is not registered in its service\n";
+  return service.held() ? "the sessions are HELD: the lease of this server was not renewed in time\n" : "";
+}
+
 }  // namespace
 
 HttpResponse monitoring_page(std::string_view path, const SessionRegistry& registry, const ControlPlane& plane,
@@ -214,6 +227,8 @@ HttpResponse monitoring_page(std::string_view path, const SessionRegistry& regis
   if (path == "/readyz" && registry.drain().active()) return {503, "text/plain", "draining\n"};
   if (path == "/readyz" && !audit.trouble.empty())
     return {503, "text/plain", "the audit log fails; the server's own log has the cause\n"};
+  if (path == "/readyz" && service != nullptr)
+    if (const std::string unready = unready_text(*service); !unready.empty()) return {503, "text/plain", unready};
   return {200, "text/plain", "ok\n"};
 }
 

@@ -12,8 +12,9 @@
 namespace tandem::server {
 
 /// Response to `/metrics` (Prometheus text), `/healthz` and `/readyz`. `/healthz` is 200 while every shard ticked less
-/// than a second ago. `/readyz` also requires that joins are accepted and the audit log can be written. Counters are
-/// copied at each request. Call it on the control plane's thread.
+/// than a second ago. `/readyz` also requires that joins are accepted and the audit log can be written, and of a member
+/// of a service that it is registered, its directory answers and no session is HELD. Otherwise both are 503 with the
+/// reason. Counters are copied at each request. Call it on the control plane's thread.
 /// @param service  of a member of a service; null: the server is alone
 [[nodiscard]] HttpResponse monitoring_page(std::string_view path, const SessionRegistry& registry,
                                            const ControlPlane& plane, const AuditState& audit = {},

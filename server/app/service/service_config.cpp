@@ -1,8 +1,14 @@
 #include "server/app/service/service_config.h"
 
+#include "common/base/utc_date.h"
 #include "proto/io/scene_file.h"
 
 namespace tandem::server {
+namespace {
+
+constexpr std::int64_t kVoucherWarning = 30 * auth::Voucher::kDay;  // [s] before its end
+
+}  // namespace
 
 std::optional<ServiceOptions> service_options_from(const ServerConfigSpec& config,
                                                    const std::optional<io::SocketAddress>& listen,
@@ -57,6 +63,14 @@ std::string membership_error(const ServiceOptions& options, const auth::ServerKe
     return "directory { server: \"" + options.server + "\" }: the member file of this server has the name " +
            membership->name + "; use that name, or ask for a member file with the other one";
   return {};
+}
+
+std::string voucher_warning(const auth::ServiceMembership& membership, const auth::KeyFingerprint& server,
+                            std::int64_t now) {
+  if (membership.not_after - now > kVoucherWarning) return {};
+  return "the voucher of this server expires on " + utc_date(membership.not_after) +
+         " (UTC); then clients reject this server, and it does not start. Renew it: " +
+         auth::renewal(membership.name, server) + ", while this server is stopped";
 }
 
 }  // namespace tandem::server

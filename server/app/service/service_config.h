@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -20,5 +21,10 @@ namespace tandem::server {
 
 /// Why a server with these keys cannot be the member that `options` state, with the remedy; empty: it can.
 [[nodiscard]] std::string membership_error(const ServiceOptions& options, const auth::ServerKeystore& keys);
+
+/// Warning for the operator from 30 days before the voucher expires on: date and the commands to run. Empty before.
+/// @param server  key of this server  @param now  seconds since 1970, UTC
+[[nodiscard]] std::string voucher_warning(const auth::ServiceMembership& membership, const auth::KeyFingerprint& server,
+                                          std::int64_t now);
 
 }  // namespace tandem::server

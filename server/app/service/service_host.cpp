@@ -54,6 +54,7 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
                          auth::ServerKeystore keys)
     : parts_(parts),
       server_(std::move(server)),
+      voucher_ends_(parts.control.trust().membership()->not_after),
       record_(std::move(record)),
       news_(server_, joined_endpoints(parts.options.directory->etcd), parts.options.directory->times,
             !parts.options.directory->etcd.authority.empty()) {
@@ -88,6 +89,11 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
 }
 
 void ServiceHost::start() {
+  auto& trust = parts_.control.trust();
+  if (const std::string text =
+          voucher_warning(*trust.membership(), trust.identity().fingerprint(), auth::wall_seconds());
+      !text.empty())
+    parts_.output.report(io::Level::kWarn, {.event = "service_voucher_expires", .text = text}, text);
   thread_->start([this](const ServiceTickets::Result& result) { ticket_uses_->on_result(result); });
   registry_->start();
   list_file_->start();

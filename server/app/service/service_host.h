@@ -56,7 +56,9 @@ class ServiceHost {
   [[nodiscard]] SessionLocator& locator() noexcept { return *locator_; }
   [[nodiscard]] TicketUses& ticket_uses() noexcept { return *ticket_uses_; }
   [[nodiscard]] ServiceStatus status() {
-    return thread_->quietly([](const ServiceMember& member, Time now) { return member.status(now); });
+    auto status = thread_->quietly([](const ServiceMember& member, Time now) { return member.status(now); });
+    status.voucher_ends = voucher_ends_;
+    return status;
   }
 
  private:
@@ -83,6 +85,7 @@ class ServiceHost {
 
   Parts parts_;
   std::string server_;
+  std::int64_t voucher_ends_;  ///< last second of the voucher, since 1970, UTC
   directory::ServerRecord record_;
   DirectorySnapshots snapshots_;
   std::unique_ptr<ServiceThread> thread_;
