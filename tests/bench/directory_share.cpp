@@ -18,7 +18,7 @@
 namespace tandem::bench {
 namespace {
 
-constexpr std::array<std::size_t, 2> kSessions{4, 15};
+constexpr std::array<std::size_t, 2> kSessions{4, 8};
 constexpr std::size_t kRounds = 5;
 constexpr int kRoundMs = 6000;
 
