@@ -19,7 +19,7 @@ namespace tandem::client {
 namespace {
 
 constexpr int kOwnerRetryMs = 300;
-constexpr Duration kComingMax = std::chrono::seconds(4);      // at one server, which may not see the directory
+constexpr Duration kComingMax = std::chrono::seconds(4);      // at one server: it may be cut off from the directory
 constexpr Duration kMemberTimeout = std::chrono::seconds(1);  // for one of several servers of a service
 
 struct Accepted {

@@ -76,7 +76,8 @@ struct JoinedWatcher {
 struct JoinError {
   bool interrupted = false;  ///< a signal ended it
   std::string reason;        ///< cause and remedy, or the name of the signal
-  /// No server answers where the connected one sends this client. The connection is still that of the connected one.
+  /// Where the connected server sends this client, no server answers that the service vouches for. The connection is
+  /// still that of the connected one.
   bool owner_unreachable = false;
   bool ticket_refused = false;  ///< the ticket does not admit, now or later
 };

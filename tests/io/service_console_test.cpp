@@ -12,7 +12,24 @@ class ServiceConsole : public ::testing::Test {
  protected:
   void SetUp() override {
     if (etcd_program("etcd").empty() || etcd_program("etcdctl").empty()) GTEST_SKIP() << kNoEtcd;
+    service_.emplace("session { name: \"lab\" scene: \"free_motion\" }");
+    service_->start("a");
+    service_->wait_for_sessions("a", 1);
+    Process& b = service_->start("b");
+    ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+    const std::string own = service_->enrolled("desk");
+    const std::string ticket = service_->folder().write(
+        "operator.ticket",
+        first_line(LiveService::run({"ticket", "--session", "lab", "--role", "operator", "--workstation", "desk",
+                                     "--state", service_->folder().file("a")})));
+    connection_ = {"--server",      address_of(service_->of("a")) + "," + address_of(b),
+                   "--session",     "lab",
+                   "--state",       own,
+                   "--ticket-file", ticket};
   }
+
+  std::optional<LiveService> service_;  ///< servers a, which has session lab, and b
+  Words connection_;                    ///< arguments of an operator's console
 };
 
 /// `tandem-client control` that reads the commands of this test.
@@ -37,25 +54,14 @@ class TypedConsole {
 };
 
 TEST_F(ServiceConsole, FollowsItsSessionWhenItMovesAndWhenItsServerEnds) {
-  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
-  Process& a = service.start("a");
-  service.wait_for_sessions("a", 1);
-  Process& b = service.start("b");
-  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
-  const std::string own = service.enrolled("desk");
-  const std::string addresses = address_of(a) + "," + address_of(b);
-  const auto ticket_of = [&](const char* role) {
-    return first_line(LiveService::run({"ticket", "--session", "lab", "--role", role, "--workstation", "desk",
-                                        "--state", service.folder().file("a")}));
-  };
-  const std::string ticket = service.folder().write("operator.ticket", ticket_of("operator"));
-  const Words connection{"--server", addresses, "--session", "lab", "--state", own, "--ticket-file", ticket};
-  TypedConsole console(service.folder(), connection);
+  LiveService& service = *service_;
+  Process& b = service.of("b");
+  TypedConsole console(service.folder(), connection_);
   console.type("status");
   ASSERT_TRUE(console.process().wait_for("lab: waiting")) << console.process().err();
   // The ticket is used: no other console joins by it.
   Words again{TANDEM_CLIENT, "control"};
-  again.insert(again.end(), connection.begin(), connection.end());
+  again.insert(again.end(), connection_.begin(), connection_.end());
   again.push_back("status");
   Process refused(again);
   EXPECT_EQ(refused.wait(), 1);
@@ -82,18 +88,9 @@ TEST_F(ServiceConsole, FollowsItsSessionWhenItMovesAndWhenItsServerEnds) {
 
 /// Its ticket stays used, and so the console cannot follow. It says so before a person relies on an order.
 TEST_F(ServiceConsole, SaysAtOnceThatItsServerDiedAndThatAnOrderAfterThatWasNotCarriedOut) {
-  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
-  Process& a = service.start("a");
-  service.wait_for_sessions("a", 1);
-  Process& b = service.start("b");
-  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
-  const std::string own = service.enrolled("desk");
-  const std::string ticket = service.folder().write(
-      "operator.ticket",
-      first_line(LiveService::run({"ticket", "--session", "lab", "--role", "operator", "--workstation", "desk",
-                                   "--state", service.folder().file("a")})));
-  TypedConsole console(service.folder(), {"--server", address_of(a) + "," + address_of(b), "--session", "lab",
-                                          "--state", own, "--ticket-file", ticket});
+  LiveService& service = *service_;
+  Process &a = service.of("a"), &b = service.of("b");
+  TypedConsole console(service.folder(), connection_);
   console.type("status");
   ASSERT_TRUE(console.process().wait_for("lab: waiting")) << console.process().err();
   std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // until the standby is named
