@@ -40,6 +40,7 @@ std::expected<std::unique_ptr<LiveSeat>, std::string> LiveSeat::join(const LiveS
 }
 
 hal::Command LiveSeat::tick(const hal::State& state) noexcept { return parts_->runner.tick(state); }
+Duration LiveSeat::next_shift() noexcept { return parts_->runner.next_shift(); }
 void LiveSeat::lost(hal::Errc why) noexcept { parts_->runner.lost(why); }
 
 const SeatSetup& LiveSeat::setup() const noexcept { return parts_->seat.setup(); }

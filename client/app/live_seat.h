@@ -46,6 +46,8 @@ class LiveSeat final : public hal::ServoClient {
   /// Advances the seat when a tick is due: receives, computes, sends. Real-time safe.
   /// @return joint effort [N m or N] after the force gate, with its expiry; finite for every input
   hal::Command tick(const hal::State& state) noexcept override;
+  /// Returns the shift of the next exchange that lets the STATE arrive shortly before the server's tick.
+  [[nodiscard]] Duration next_shift() noexcept override;
   /// Reports that the device is lost; the seat then counts as closed.
   void lost(hal::Errc why) noexcept override;
 

@@ -20,6 +20,7 @@ SeatRunner::SeatRunner(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* si
       sim_(sim),
       samples_(samples),
       pace_(from_seconds(1.0 / seat.setup().tick_hz), exchange),
+      phase_(from_seconds(1.0 / seat.setup().tick_hz)),
       recorder_(seat.setup().tick_hz) {}
 
 hal::Command SeatRunner::tick(const hal::State& state) noexcept {
@@ -28,6 +29,7 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
   if (ticks_++ == 0) first_tick_ = now;
   swap_connection(now);
   socket_.receive(now, *seat_);
+  record_phase(now);
   if (commands_.apply(*seat_)) script_.cancel_retry();
   request_scripted_authority(now);
   const auto session_time = seat_->clock().session_time(now);
@@ -41,12 +43,23 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
   return command_;
 }
 
+void SeatRunner::record_phase(Time now) noexcept {
+  const transport::LinkTiming& timing = seat_->link().timing();
+  if (timing.rtt_samples() == 0 || timing.arrived() == heard_) return;
+  heard_ = timing.arrived();
+  phase_.record(timing.peer_silence(), timing.loop_age(now));
+}
+
+/// If only some exchanges are ticks, a shift of the exchange would not shift the tick.
+Duration SeatRunner::next_shift() noexcept { return pace_.takes_all() ? phase_.next_shift() : Duration{}; }
+
 void SeatRunner::swap_connection(Time now) noexcept {
   std::unique_ptr<ConnectionSwap> swap = connections_.take_next();
   if (!swap) return;
   recorder_.on_reconnect(now, *seat_);
   socket_.swap(swap->socket);
   seat_->reconnect(swap->connection);
+  phase_.restart();
   connections_.return_old(std::move(swap));
   close_signalled_ = seat_->closed();
 }

@@ -13,6 +13,7 @@
 #include "client/app/user_commands.h"
 #include "client/seat/seat.h"
 #include "client/seat/tick_decimator.h"
+#include "client/seat/tick_phase.h"
 #include "common/io/event_fd.h"
 #include "common/io/published.h"
 #include "hal/sim/sim_device.h"
@@ -35,6 +36,7 @@ class SeatRunner final : public hal::ServoClient {
              SampleQueue* samples, Duration exchange = Duration::zero());
 
   hal::Command tick(const hal::State& state) noexcept override;
+  [[nodiscard]] Duration next_shift() noexcept override;
   void lost(hal::Errc why) noexcept override;
 
   // Called on the main thread.
@@ -52,6 +54,7 @@ class SeatRunner final : public hal::ServoClient {
   [[nodiscard]] const ClientStatus& final_status() const noexcept { return recorder_.status(); }
 
  private:
+  void record_phase(Time now) noexcept;
   void swap_connection(Time now) noexcept;
   void request_scripted_authority(Time now) noexcept;
   void record(Time now, const std::optional<double>& session_time) noexcept;
@@ -64,6 +67,8 @@ class SeatRunner final : public hal::ServoClient {
   hal::sim::SimDevice* sim_;
   SampleQueue* samples_;
   TickDecimator pace_;
+  TickPhase phase_;
+  Time heard_{};            ///< arrival of the FORCE that `phase_` has recorded
   hal::Command command_{};  ///< command of the last tick
   std::uint64_t ticks_ = 0;
   Time first_tick_{};

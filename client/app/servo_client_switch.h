@@ -29,6 +29,10 @@ class ServoClientSwitch final : public hal::ServoClient {
     client->tick(adapter_->integrate(state));
     return {};
   }
+  [[nodiscard]] Duration next_shift() noexcept override {
+    hal::ServoClient* const client = client_.load(std::memory_order_acquire);
+    return client == nullptr ? Duration{} : client->next_shift();
+  }
   void lost(hal::Errc why) noexcept override {
     lost_ = true;
     if (hal::ServoClient* const client = client_.load(std::memory_order_acquire)) client->lost(why);

@@ -15,9 +15,11 @@ class TickDecimator {
   TickDecimator(Duration tick, Duration exchange) noexcept
       : tick_(tick), exchange_(2 * exchange > tick ? Duration::zero() : exchange) {}
 
+  /// Returns whether every exchange is a tick.
+  [[nodiscard]] bool takes_all() const noexcept { return exchange_ == Duration::zero(); }
   /// @param now  time of an exchange, ascending  @return true if this exchange is a tick
   [[nodiscard]] bool due(Time now) noexcept {
-    if (exchange_ == Duration::zero()) return true;
+    if (takes_all()) return true;
     if (begun_ && now < due_ - exchange_ / 2) return false;
     due_ = (begun_ && now < due_ + tick_ ? due_ : now) + tick_;
     begun_ = true;

@@ -168,6 +168,10 @@ struct ServoClient {
   virtual ~ServoClient() = default;
   /// Takes a new reading and returns the command that answers it. Real-time.
   virtual Command tick(const State&) noexcept = 0;
+  /// Returns by how much the next exchange shall begin later than one period after this one; negative: earlier. Called
+  /// once after each tick, on the same thread. A servo that a timer of this machine paces follows by at most 1 % of
+  /// its period; a device with a clock of its own cannot.
+  [[nodiscard]] virtual Duration next_shift() noexcept { return {}; }
   /// Reports that the device is gone; no further tick follows.
   virtual void lost(Errc) noexcept = 0;
 };

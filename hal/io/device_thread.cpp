@@ -68,6 +68,7 @@ void DeviceThread::run(ServoClient& client) noexcept {
       static_cast<void>(core_->bring_up(watcher));  // the phase shows the result
     }
     if (!core_->step(now, client)) break;
+    pace_.shift(client.next_shift());
     show_life(core_->motors_enabled());
     core_->record_round_trip(clock.now() - now);
     if (core_->counts().ticks % kPublishEvery == 1 && stats_lock_.try_lock()) {

@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <sys/prctl.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <ctime>
 
@@ -33,6 +34,11 @@ bool request_realtime() noexcept {
 }
 
 void PeriodicTimer::begin() noexcept { due_ = last_ = io::monotonic_now(); }
+
+void PeriodicTimer::shift(Duration by) noexcept {
+  const Duration most = period_ / 100;
+  due_ += std::clamp(by, -most, most);
+}
 
 PeriodicTimer::WakeUp PeriodicTimer::next() noexcept {
   due_ += period_;

@@ -27,6 +27,8 @@ class PeriodicTimer {
     std::uint64_t missed = 0;  ///< skipped periods; the timer does not make up for them in a burst
   };
   void begin() noexcept;
+  /// Moves the next wake-up and all after it. @param by  negative: earlier; at most 1 % of the period counts
+  void shift(Duration by) noexcept;
   /// Sleeps until the next period.
   WakeUp next() noexcept;
   /// Writes late, missed and period statistics to `stats`; the caller counts the ticks.

@@ -109,6 +109,7 @@ void SimServo::run(ServoClient& client) noexcept {
   // The device has its own time; the client sees it shifted to the host's clock.
   Duration shift = MonotonicClock{}.now() - device_->state().sampled_at;
   Command command;
+  Time last = MonotonicClock{}.now();
   while (!stop_.load(std::memory_order_relaxed)) {
     const auto [due, behind] = pace_.next();
     if (unplugged_.load(std::memory_order_relaxed)) break;
@@ -117,14 +118,18 @@ void SimServo::run(ServoClient& client) noexcept {
     const bool rejected = command.kind != CommandKind::kNone && !finite(command);
     Command shifted = command;
     shifted.expires = command.expires > Time{} + shift ? command.expires - shift : Time{};
-    const auto steps = 1 + std::min(behind, static_cast<std::uint64_t>(kCatchUpMax / period_));
-    for (std::uint64_t i = 0; i < steps; ++i) device_->advance(shifted, period_);
+    // The client may have shifted this period, and the device's time follows the host's.
+    const auto periods = static_cast<std::int64_t>(1 + behind);
+    const auto steps = std::min<std::int64_t>(periods, 1 + kCatchUpMax / period_);
+    for (std::int64_t i = 0; i < steps; ++i) device_->advance(shifted, (due - last) / periods);
+    last = due;
     const bool expired = command.kind != CommandKind::kNone && shifted.expires < device_->state().sampled_at;
     shift = due - device_->state().sampled_at;
 
     State seen = device_->state();
     seen.sampled_at = due;
     command = client.tick(seen);
+    pace_.shift(client.next_shift());
     count(expired, rejected);
   }
   device_->advance(Command{}, period_);

@@ -63,6 +63,7 @@ class HostedShard {
   }
   [[nodiscard]] server::Shard& shard() { return seated_.shard(); }
   [[nodiscard]] server::LiveSession& session(std::size_t s) { return seated_.session(s); }
+  [[nodiscard]] server::TickQueue& records(std::size_t s) { return seated_.records(s); }
   [[nodiscard]] const io::SocketAddress& address() const { return seated_.address(); }
 
  private:

@@ -39,6 +39,7 @@ class SeatedShard {
 
   [[nodiscard]] server::Shard& shard() { return *shard_; }
   [[nodiscard]] server::LiveSession& session(std::size_t s) { return *hosted_[s]; }
+  [[nodiscard]] server::TickQueue& records(std::size_t s) { return *queues_[s]; }
   [[nodiscard]] std::vector<std::unique_ptr<BareClient>>& clients() { return clients_; }
   [[nodiscard]] const std::vector<std::unique_ptr<BareClient>>& clients() const { return clients_; }
   [[nodiscard]] const io::SocketAddress& address() const { return address_; }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "hal/io/sim_servo.h"
 #include "tests/io/programs.h"
 
@@ -107,6 +109,36 @@ TEST(LiveSeat, CountsAsClosedWhenItsDeviceIsLost) {
   ASSERT_TRUE(own.seat);
   own.device->unplug();
   EXPECT_TRUE(own.seat->wait_until_closed(kTimeout));
+}
+
+/// Passes a device's exchanges on to a seat, and moves its phase itself while the seat is content with it.
+class Witness final : public hal::ServoClient {
+ public:
+  explicit Witness(LiveSeat& seat) : seat_(seat) {}
+  hal::Command tick(const hal::State& state) noexcept override { return seat_.tick(state); }
+  void lost(hal::Errc why) noexcept override { seat_.lost(why); }
+  Duration next_shift() noexcept override {
+    const Duration asked = seat_.next_shift();
+    if (asked != Duration{}) shifted = true;
+    return ++ticks_ % 500 < 50 ? 10us : asked;
+  }
+  std::atomic<bool> shifted{false};
+
+ private:
+  LiveSeat& seat_;
+  int ticks_ = 0;
+};
+
+TEST(LiveSeat, ShiftsItsTicksTowardsThoseOfTheServer) {
+  test::Process server = test::hosting("one_axis", {"--duration", "600", "--quiet"});
+  auto handle = std::make_unique<Handle>();
+  auto seat = LiveSeat::join({.server = test::address_of(server), .seat = "trainer"}, handle->caps());
+  ASSERT_TRUE(seat) << seat.error();
+  Witness witness{**seat};
+  hal::SimServo device{std::move(handle), hal::DeviceId{"handle", "1"}, 1ms};
+  ASSERT_TRUE(device.start(witness));
+  for (Duration t{}; t < kTimeout && !witness.shifted; t += 10ms) static_cast<void>((*seat)->wait_until_closed(10ms));
+  EXPECT_TRUE(witness.shifted);
 }
 
 TEST(LiveSeat, ReportsWhyAJoinFailed) {

@@ -15,8 +15,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kPriority = 70;            // above the device threads, because a late server delays all participants
-constexpr Duration kReadingMax = 200us;  // limit of receiving per tick, so that a flood cannot delay the tick
+constexpr int kPriority = 70;  // above the device threads, because a late server delays all participants
+// Limit of receiving per tick, so that a flood cannot delay the tick: for others' datagrams, and for each seat's.
+constexpr Duration kReadingMax = 200us, kReadingPerSeat = 1500ns;
 constexpr std::size_t kRequestsMax = 256;
 constexpr std::uint64_t kMeasuredTicks = 4;
 constexpr Duration kIdle = 20ms;  // between two ticks without a session
@@ -44,6 +45,7 @@ bool Shard::add_session(LiveSession& session) noexcept {
 
 void Shard::serve(LiveSession& session) noexcept {
   sessions_[session.slot()] = served_[count_++] = &session;
+  seats_ += session.scene().seats.size();
   served_count_.store(count_, std::memory_order_relaxed);
 }
 
@@ -52,6 +54,7 @@ void Shard::forget(const LiveSession& session) noexcept {
   const auto end = served_.begin() + static_cast<std::ptrdiff_t>(count_--);
   const auto gone = std::find(served_.begin(), end, &session);
   std::copy(gone + 1, end, gone);
+  seats_ -= session.scene().seats.size();
   served_count_.store(count_, std::memory_order_relaxed);
 }
 
@@ -106,6 +109,7 @@ void Shard::run() noexcept {
     }
     Time now = io::monotonic_now();
     if (now < time_of(next_tick())) continue;
+    reading_left_ = kReadingMax + static_cast<std::int64_t>(seats_) * kReadingPerSeat;
     receive();
     now = io::monotonic_now();
     const std::uint64_t next = next_tick();
@@ -131,7 +135,7 @@ void Shard::wait_until(Time due) noexcept {
 void Shard::receive() noexcept {
   std::uint64_t unmatched = 0;
   const Time began = io::monotonic_now();
-  for (Time now = began; now - began < kReadingMax; now = io::monotonic_now()) {
+  for (Time now = began; now - began < reading_left_; now = io::monotonic_now()) {
     const int count = in_.receive(socket_.fd.get());
     const Duration wall = io::read_clock(CLOCK_REALTIME);
     const Time read = io::monotonic_now();  // the same time on the monotonic clock
@@ -152,6 +156,7 @@ void Shard::receive() noexcept {
       break;
     }
   }
+  reading_left_ -= io::monotonic_now() - began;
   if (unmatched > 0) unmatched_datagrams_.fetch_add(unmatched, std::memory_order_relaxed);
 }
 
@@ -230,6 +235,13 @@ void Shard::tick(Time now) noexcept {
     if (missed) step(now, *missed, live, measures && i == measured_);
     if (!missed || !live.session().over()) {
       ++i;
+      // The sessions after this one get what has arrived meanwhile, and their clients send just before their turn
+      // (client::TickPhase). The last one served is then as fresh as the first.
+      if (2 * out_.size() >= kSendMax) {
+        flush();
+        receive();
+        now = io::monotonic_now();
+      }
       continue;
     }
     forget(live);

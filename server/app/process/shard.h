@@ -101,6 +101,7 @@ class Shard {
   std::array<LiveSession*, kSessionsMax> sessions_{};  ///< by slot
   std::array<LiveSession*, kSessionsMax> served_{};    ///< the first `count_`: the same without gaps, in their order
   std::size_t count_ = 0;
+  std::size_t seats_ = 0;                     ///< of these sessions
   std::size_t measured_ = 0;                  ///< place in `served_` of the session whose cost this tick measures
   std::atomic<std::size_t> served_count_{0};  ///< `count_` for other threads
   ShardRequest* moving_ = nullptr;            ///< kMoveSession in progress
@@ -113,7 +114,8 @@ class Shard {
 
   static constexpr std::size_t kSendMax = io::SendBatch::kMax;
   io::ReceiveBatch in_;
-  Time read_until_{};  ///< time at which the socket was last empty
+  Duration reading_left_{};  ///< time that this tick may still spend on receiving
+  Time read_until_{};        ///< time at which the socket was last empty
   io::SendBatch out_;
   std::array<std::array<std::byte, transport::kDatagramMax>, kSendMax> buffers_;
   std::array<io::SocketAddress, kSendMax> addresses_;

@@ -16,6 +16,7 @@ struct Seen final : hal::ServoClient {
     last = state;
     return {1, state.sampled_at + 5ms, hal::CommandKind::kJointEffort, {1, 1, 1}};
   }
+  Duration next_shift() noexcept override { return 7us; }
   void lost(hal::Errc why) noexcept override { losses.push_back(why); }
 };
 
@@ -29,12 +30,13 @@ hal::State moving(Time at) {
 TEST(ServoClientSwitch, GivesNoForceWithoutAClient) {
   ServoClientSwitch to;
   EXPECT_EQ(to.tick(moving(Time{1ms})).kind, hal::CommandKind::kNone);
+  EXPECT_EQ(to.next_shift(), Duration{});
   EXPECT_FALSE(to.was_lost());
   to.lost(hal::Errc::kUnplugged);
   EXPECT_TRUE(to.was_lost());
 }
 
-TEST(ServoClientSwitch, ForwardsStatesCommandsAndTheLossOfADevice) {
+TEST(ServoClientSwitch, ForwardsStatesCommandsShiftsAndTheLossOfADevice) {
   for (const bool as_seat : {false, true}) {
     ServoClientSwitch to;
     Seen client;
@@ -45,6 +47,7 @@ TEST(ServoClientSwitch, ForwardsStatesCommandsAndTheLossOfADevice) {
     }
     EXPECT_EQ(to.tick(moving(Time{1ms})).kind, hal::CommandKind::kJointEffort);
     EXPECT_EQ(client.last.x[0], 0) << "not integrated";
+    EXPECT_EQ(to.next_shift(), 7us);
     to.lost(hal::Errc::kUnplugged);
     EXPECT_EQ(client.losses.size(), 1U);
   }

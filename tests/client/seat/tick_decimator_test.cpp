@@ -25,6 +25,12 @@ TEST(TickDecimator, TakesOneExchangePerTickOfTheScene) {
   EXPECT_NEAR(ticks_in(Duration{3'333'333}, 1ms, 1000), 300, 1);
 }
 
+TEST(TickDecimator, TellsWhetherItTakesEveryExchange) {
+  EXPECT_TRUE(TickDecimator(1ms, 0ms).takes_all());
+  EXPECT_TRUE(TickDecimator(1ms, 1ms).takes_all());
+  EXPECT_FALSE(TickDecimator(1ms, 500us).takes_all());
+}
+
 TEST(TickDecimator, TakesEveryExchangeOfADeviceAsFastAsTheScene) {
   TickDecimator pace(1ms, 1ms);
   Time now{1h};

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <limits>
+#include <memory>
 #include <thread>
+#include <utility>
 
 #include "hal/core/port_map.h"
 #include "hal/io/open_sim_device.h"
@@ -122,6 +125,56 @@ TEST(SimServo, KeepsDeviceTimeOnSchedule) {
   const auto s = sim.device->stats();
   // Every period was stepped, including those the machine missed, plus one at the end with zero effort.
   EXPECT_EQ(sim.sim->counts().ticks, s.ticks + s.missed + 1);
+}
+
+/// Device that only counts its time.
+class Clockwork final : public SteppedDevice {
+ public:
+  const DeviceCaps& caps() const noexcept override { return caps_; }
+  const State& state() const noexcept override { return state_; }
+  void advance(const Command&, Duration dt) noexcept override { state_.sampled_at += dt; }
+
+ private:
+  DeviceCaps caps_;
+  State state_;
+};
+
+/// Client that asks for a shift of every period, and compares each period with the one before.
+class Shifter final : public ServoClient {
+ public:
+  Shifter(const Clockwork& device, Duration asked, Duration granted)
+      : device_(device), asked_(asked), granted_(granted) {}
+  Command tick(const State& s) noexcept override {
+    const Duration period = s.sampled_at - last_, stepped = device_.state().sampled_at - last_device_;
+    last_ = s.sampled_at, last_device_ = device_.state().sampled_at;
+    if (ticks > 0 && (period - granted_) % 1ms != Duration{}) wrong.fetch_add(1);
+    if (ticks > 0 && period < 200ms && std::chrono::abs(stepped - period) > 200ns) wrong.fetch_add(1);
+    ticks.fetch_add(1);
+    ticks.notify_all();
+    return {};
+  }
+  Duration next_shift() noexcept override { return asked_; }
+  void lost(Errc) noexcept override {}
+
+  std::atomic<int> ticks{0}, wrong{0};
+
+ private:
+  const Clockwork& device_;
+  Duration asked_, granted_;
+  Time last_{}, last_device_{};
+};
+
+TEST(SimServo, ShiftsItsPeriodAsItsClientAsksByAtMostOnePercent) {
+  const std::pair<Duration, Duration> cases[] = {{4us, 4us}, {-4us, -4us}, {1ms, 10us}, {-1s, -10us}};
+  for (const auto& [asked, granted] : cases) {
+    auto device = std::make_unique<Clockwork>();
+    Shifter client{*device, asked, granted};
+    SimServo servo{std::move(device), DeviceId{"clockwork", "1"}, 1ms};
+    ASSERT_TRUE(servo.start(client));
+    for (int t = 0; t < 50; t = client.ticks.load()) client.ticks.wait(t);
+    servo.close();
+    EXPECT_EQ(client.wrong.load(), 0) << asked;
+  }
 }
 
 }  // namespace
