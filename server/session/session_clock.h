@@ -11,8 +11,8 @@
 
 namespace tandem::server {
 
-/// Two counts of ticks. The server's ticks follow the time that the caller passes. The session's ticks begin when all
-/// required seats are engaged, and rest while the session is stopped.
+/// Two counts of ticks. The server's ticks follow the time that the caller passes, to within one. The session's ticks
+/// begin when all required seats are engaged, and rest while the session is stopped.
 class SessionClock {
  public:
   static constexpr std::uint32_t kCatchUpMax = 50;  ///< missed ticks that are run after a stall; more are dropped
@@ -29,9 +29,15 @@ class SessionClock {
   /// @param missed  ticks whose time passed without a call
   /// @return number of missed ticks to run now, at most kCatchUpMax
   std::uint32_t begin_tick(Time now, std::uint32_t missed) noexcept {
-    if (!started_) started_ = now;
+    if (started_) {
+      // A turn near the middle between two ticks may be rounded to the number of the tick before. What is due to be
+      // sent follows the number, so each is given once.
+      const auto by_time = static_cast<std::uint32_t>(std::llround(seconds(now - *started_) / dt_));
+      tick_ += static_cast<std::uint32_t>(std::max(1, static_cast<std::int32_t>(by_time - tick_)));
+    } else {
+      started_ = now;
+    }
     last_tick_ = now;
-    tick_ = static_cast<std::uint32_t>(std::llround(seconds(now - *started_) / dt_));
     const std::uint32_t run = std::min(missed, kCatchUpMax);
     dropped_ticks_ += missed - run;
     return run;

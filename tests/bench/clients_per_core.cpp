@@ -67,7 +67,7 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
-/// What the clients saw in one round.
+/// One round, as its clients saw it.
 struct Seen {
   double share = 0;         ///< processor time of the server's thread / length
   double p50 = 0, p99 = 0;  ///< of the loop [us]
@@ -315,8 +315,7 @@ int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 5;
   std::vector<std::size_t> sessions;
   for (int i = 2; i < argc; ++i) sessions.push_back(static_cast<std::size_t>(std::atoi(argv[i])));
-  if (sessions.empty())
-    for (std::size_t s = 10; s <= 90; s += 5) sessions.push_back(s);
+  if (sessions.empty()) sessions = {20, 40, 50, 55, 60, 65, 70, 75, 80};
   bench::find_limit(test::shipped("contact_remote"), on, rounds, sessions);
   return 0;
 }

@@ -44,6 +44,23 @@ struct Stoppable : SessionFixture {
   ReportBuilder builder{scene};
 };
 
+TEST(SessionClock, GivesEachTickANumberOfItsOwnAtAnyTurnWithinTheTick) {
+  for (const Duration turn : {100us, 500us, 900us}) {
+    SessionClock clock{1000};
+    const Time begin{1h};
+    clock.begin_tick(begin, 0);
+    EXPECT_EQ(clock.tick(), 0U);
+    for (std::uint32_t n = 1; n <= 1000; ++n) {
+      const std::uint32_t before = clock.tick();
+      clock.begin_tick(begin + n * 1ms + turn + (n % 2 == 0 ? 20us : -20us), 0);
+      EXPECT_GT(clock.tick(), before) << n;
+      EXPECT_LE(clock.tick(), n + 1);
+    }
+    clock.begin_tick(begin + 2s, 999);
+    EXPECT_EQ(clock.tick(), 2000U) << "it follows the time";
+  }
+}
+
 TEST(SessionClock, StopsWithItsTimelineWhileTheSessionIsStopped) {
   for (const bool paused : {false, true}) {
     SCOPED_TRACE(paused ? "paused" : "stopped");
