@@ -12,6 +12,7 @@ namespace tandem::server {
 ///     catalogue/SESSION/move     server to which an operator moves the session; empty: none
 ///     catalogue/SESSION/home     server to which an operator has moved it, so that it stays there; empty: any
 ///     snapshots/SESSION          newest snapshot; apart from the catalogue, which all servers follow
+///     consoles/SESSION           its consoles (ServiceConsoles); apart from the snapshot, which older servers write
 class ServiceKeys {
  public:
   /// @param prefix  begins and ends with "/"
@@ -26,6 +27,9 @@ class ServiceKeys {
   [[nodiscard]] std::string home(std::string_view session) const { return catalogue() + std::string(session) + kHome; }
   [[nodiscard]] std::string snapshot(std::string_view session) const {
     return prefix_ + "snapshots/" + std::string(session);
+  }
+  [[nodiscard]] std::string consoles(std::string_view session) const {
+    return prefix_ + "consoles/" + std::string(session);
   }
 
   static constexpr const char* kSpec = "/spec";
