@@ -97,7 +97,13 @@ TEST_F(ServiceConsole, ComesBackByItsTicketWhenItsServerDiesAndNoOtherConsoleDoe
   a.signal(SIGKILL);
   ASSERT_EQ(a.wait(), -SIGKILL);
   EXPECT_TRUE(console.process().wait_for("it carries out no order")) << console.process().err();
+  // Orders of this time come too late: the next stop is the first. An empty line is none.
+  console.type("stop early");
+  console.type("");
+  console.type("authority trainee=1");
   ASSERT_TRUE(console.process().wait_for("has followed session lab")) << console.process().err() << b.err();
+  EXPECT_TRUE(console.process().wait_for("this console was not connected: stop early\n")) << console.process().err();
+  EXPECT_TRUE(console.process().wait_for("this console was not connected: authority trainee=1\n"));
   console.type("stop danger");
   EXPECT_TRUE(console.process().wait_for("STOPPED")) << console.process().out() << console.process().err();
   const auto refused = [&](Words words) {
@@ -124,18 +130,42 @@ TEST_F(ServiceConsole, ComesBackByItsTicketWhenItsServerDiesAndNoOtherConsoleDoe
   b.signal(SIGKILL);
   ASSERT_EQ(b.wait(), -SIGKILL);
   const std::string followed = "this console has followed session lab to its new server\n";
-  const auto twice = [&] {
-    const std::string text = console.process().out();
-    const auto first = text.find(followed);
-    return first != std::string::npos && text.find(followed, first + 1) != std::string::npos;
-  };
-  for (int i = 0; i < 1000 && !twice(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  ASSERT_TRUE(twice()) << console.process().out() << console.process().err() << a_again.err();
+  ASSERT_TRUE(console.process().wait_for("`resume 1` ends it\n" + followed))
+      << console.process().out() << console.process().err() << a_again.err();
   console.type("quit");
-  EXPECT_EQ(console.process().wait(), 0) << console.process().err();
+  EXPECT_EQ(console.process().wait(), 1) << "two orders were not carried out";
 
   // A console that has left does not come back, also not when its server dies after that.
   EXPECT_NE(refused(connection_).find("used"), std::string::npos);
+}
+
+TEST_F(ServiceConsole, ThatWatchesFollowsItsSessionWhenItMovesAndWhenItsServerDies) {
+  LiveService& service = *service_;
+  const std::string states = service.folder().write("states", "");
+  Words command{"/bin/sh", "-c", "exec \"$0\" \"$@\" > " + states, TANDEM_CLIENT, "watch", "--json"};
+  command.insert(command.end(), connection_.begin(), connection_.end());
+  Process watch(command);
+  // Waits for states after those that are there.
+  const auto shows = [&] {
+    const auto before = std::filesystem::file_size(states);
+    const auto newer = [&] { return std::filesystem::file_size(states) > before + 1000; };
+    for (int i = 0; i < 1500 && !newer(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(newer()) << watch.err();
+  };
+  const auto follows = [&](const std::string& text) {
+    ASSERT_TRUE(watch.wait_for(text)) << watch.err();
+    shows();
+  };
+  shows();
+  LiveService::run({"move", "lab", "--to", "b", "--config", service.folder().file("a.textproto")});
+  const std::string followed = "tandem-client watch: has followed session lab to its new server\n";
+  follows(followed);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // until the standby is named
+  service.of("b").signal(SIGKILL);
+  ASSERT_TRUE(watch.wait_for("the server ended this connection")) << watch.err();
+  follows("Looks for session lab at the other servers\n" + followed);
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 0) << watch.err();
 }
 
 }  // namespace
