@@ -9,7 +9,7 @@ namespace tandem::server {
 ///
 ///     catalogue/SESSION/spec     text of the session (ServiceSession)
 ///     catalogue/SESSION/listed   its phase and seats
-///     catalogue/SESSION/move     server to which an operator moves the session; empty: none
+///     catalogue/SESSION/move     server to which an operator moves the session, or kAnyServer; empty: none
 ///     catalogue/SESSION/home     server to which an operator has moved it, so that it stays there; empty: any
 ///     snapshots/SESSION          newest snapshot; apart from the catalogue, which all servers follow
 ///     consoles/SESSION           its consoles (ServiceConsoles); apart from the snapshot, which older servers write
@@ -36,6 +36,8 @@ class ServiceKeys {
   static constexpr const char* kListed = "/listed";
   static constexpr const char* kMove = "/move";
   static constexpr const char* kHome = "/home";
+  /// Text of a key `move`: the session may be at any server again. No server has this name.
+  static constexpr const char* kAnyServer = "*";
 
  private:
   std::string prefix_;
