@@ -20,8 +20,7 @@ class ConsoleLines {
   static constexpr int kIdleMs = 1000;  ///< `next` returns after so long without input
   static constexpr std::size_t kArrivedMax = 65536;
 
-  ConsoleLines(int signals, int server, int input = STDIN_FILENO)
-      : signals_(signals), server_(server), input_(input) {}
+  ConsoleLines(int signals, int server, int input = STDIN_FILENO) : signals_(signals), server_(server), input_(input) {}
   /// Returns the next line; nullopt at the end of input, after a signal, if the server is gone, or if `idle`.
   std::optional<std::string> next() {
     idle_ = false;

@@ -114,8 +114,8 @@ class Ownership {
     Time begin{}, sent{};
     LeaseId lease = 0;
     LeaseId ticket_lease = 0;
-    bool use_again = false;    ///< kTicket: in the place of a former use
-    Revision former_use = 0;   ///< kTicket: newest write of that use; 0: there is none
+    bool use_again = false;   ///< kTicket: in the place of a former use
+    Revision former_use = 0;  ///< kTicket: newest write of that use; 0: there is none
     Revision revision = 0;
     std::optional<bool> as_standby{};  ///< kClaim: the standby key is under our lease; empty: the view decides
   };

@@ -218,11 +218,10 @@ std::optional<Request> ServiceMember::request_of(const std::string& session, con
     case Phase::kLoading:
       return Transaction{{owned}, {Read{spec}, Read{keys_.snapshot(session)}, Read{keys_.consoles(session)}}, {}};
     case Phase::kWriting: {
-      Transaction write{
-          {owned},
-          {Put{spec, to_text(*entry.spec), 0}, Erase{keys_.snapshot(session)}, Erase{keys_.consoles(session)},
-           Erase{keys_.listed(session)}},
-          {Read{spec}, Read{names_.owner(session)}}};
+      Transaction write{{owned},
+                        {Put{spec, to_text(*entry.spec), 0}, Erase{keys_.snapshot(session)},
+                         Erase{keys_.consoles(session)}, Erase{keys_.listed(session)}},
+                        {Read{spec}, Read{names_.owner(session)}}};
       if (entry.fresh) write.conditions.push_back({spec, Condition::Of::kCreated, 0});
       return write;
     }

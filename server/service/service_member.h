@@ -138,7 +138,8 @@ class ServiceMember {
   /// Sets the text of ServiceConsoles.
   void set_consoles(const std::string& session, std::string text);
   void set_listed(const std::string& session, std::string text);
-  /// Whether all snapshots and consoles that were set, and all restored tickets, are in the directory, or will never be.
+  /// Whether all snapshots and consoles that were set, and all restored tickets, are in the directory, or will never
+  /// be.
   [[nodiscard]] bool all_written() const;
   /// Ends the lease and with it all ownerships, so that other servers begin at once. No session may have effort.
   /// The member does nothing afterwards but this.

@@ -86,7 +86,7 @@ TEST_F(ServiceConsole, FollowsItsSessionWhenItMovesAndWhenItsServerEnds) {
   EXPECT_EQ(console.process().wait(), 0) << console.process().err();
 }
 
-/// Its ticket admits it at the next owner, and nobody else: not a second console, not another workstation.
+/// Its ticket admits it at the next owner, and neither a second console nor another workstation.
 TEST_F(ServiceConsole, ComesBackByItsTicketWhenItsServerDiesAndNoOtherConsoleDoes) {
   LiveService& service = *service_;
   Process &a = service.of("a"), &b = service.of("b");

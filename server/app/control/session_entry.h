@@ -48,8 +48,7 @@ struct SessionRegistration {
 struct SessionEntry {
   /// @param now  of the monotonic clock
   SessionEntry(SessionRegistration opening, Time now)
-      : registration(std::move(opening)),
-        consoles(std::exchange(registration.consoles, {}), now + kResumeLife) {
+      : registration(std::move(opening)), consoles(std::exchange(registration.consoles, {}), now + kResumeLife) {
     seats.resize(scene().seats.size());
     const SessionSnapshot* const from = std::exchange(registration.snapshot, nullptr);  // the caller may destroy it
     removed =

@@ -41,11 +41,12 @@ std::function<void(JoinReply)> used_once(TicketUses* uses, const JoinRequest& re
     const std::string session = welcome->session_name;
     const std::int64_t life_s = std::max<std::int64_t>(not_after - auth::wall_seconds(), 0);
     const bool returns = again(*welcome);
-    uses->use(session, ticket, life_s, returns, [answer, failed, reply = std::move(reply)](TicketUses::Outcome outcome) mutable {
-      if (outcome == TicketUses::Outcome::kAccepted) return answer(std::move(reply));
-      failed(std::get<rpc::Welcome>(reply));
-      answer(not_used_reply(outcome));
-    });
+    uses->use(session, ticket, life_s, returns,
+              [answer, failed, reply = std::move(reply)](TicketUses::Outcome outcome) mutable {
+                if (outcome == TicketUses::Outcome::kAccepted) return answer(std::move(reply));
+                failed(std::get<rpc::Welcome>(reply));
+                answer(not_used_reply(outcome));
+              });
   };
 }
 

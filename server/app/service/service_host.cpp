@@ -13,8 +13,8 @@
 #include "server/app/control/session_registry.h"
 #include "server/app/service/service_config.h"
 #include "server/app/service/service_specs.h"
-#include "server/service/service_consoles.h"
 #include "server/directory/io/etcd_directory.h"
+#include "server/service/service_consoles.h"
 
 namespace tandem::server {
 namespace {

@@ -1,4 +1,4 @@
-// What a server publishes of its sessions for their next owner.
+// The state of its sessions that a server publishes for their next owner.
 #include "server/app/service/directory_snapshots.h"
 
 #include <gtest/gtest.h>
