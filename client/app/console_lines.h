@@ -48,7 +48,7 @@ class ConsoleLines {
   /// Takes the lines that have arrived already, at most kArrivedMax bytes of them: those of a time without a
   /// connection. The begin of a line whose end has not arrived stays.
   std::vector<std::string> take_arrived() {
-    int waiting = 0;  // what arrives later than this call is not read
+    int waiting = 0;  // [bytes] input that arrives later than this call is not read
     if (::ioctl(input_, FIONREAD, &waiting) != 0) waiting = 0;
     for (std::size_t left = std::min(static_cast<std::size_t>(std::max(waiting, 0)), kArrivedMax); left > 0;) {
       std::array<char, 4096> part;

@@ -26,7 +26,7 @@ class DirectorySnapshots final : public SnapshotKeeper {
   void set_consoles(const std::string& name, const std::vector<auth::Id16>& tickets) override;
   void remove(const std::string& name) override;
 
-  /// What changed of a session.
+  /// The changed values of a session.
   struct News {
     std::string session;
     std::string snapshot{};                 ///< bytes of `encode_snapshot`; empty: unchanged
