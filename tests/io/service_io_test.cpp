@@ -247,6 +247,7 @@ TEST_F(Service, MovedSessionTakesItsHandsAlong) {
   EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}), "session lab is at server b now\n");
   pressed.wait_until_active("b");
   EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}), "session lab is at server b already\n");
+  pressed.service().wait_for_sessions("b", 1);  // its list is at most a second old
   const Json listed = pressed.service().sessions("b");
   ASSERT_EQ(listed.size(), 1U);
   EXPECT_EQ(LiveService::run({"move", listed[0]["id"], "--to", "b", "--config", config}),
