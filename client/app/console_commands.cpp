@@ -314,7 +314,8 @@ std::string status_changes_text(const rpc::Status& before, const rpc::Status& no
 
 std::string status_text(const rpc::Status& s) {
   std::string text = format("%s: %s, %.1f s", s.name.c_str(), rpc::to_text(s.phase), s.time_s);
-  text += is_stopped(s) ? format("; `resume %u` ends it", s.stops) : format("; %u stops so far", s.stops);
+  text += is_stopped(s) ? format("; `resume %u` ends it", s.stops)
+                        : format("; %u stops, restarts and moves so far", s.stops);
   text += format("; authority version %u%s", s.authority_version, s.draining ? "; the server is DRAINING" : "");
   if (s.phase == rpc::SessionPhase::kOverloaded)
     text += "; OVERLOADED: the server is too busy to keep time, all hands are released and engaged again automatically";

@@ -64,9 +64,10 @@ using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::P
 [[nodiscard]] std::string status_changes_text(const rpc::Status& before, const rpc::Status& now);
 /// Returns the session status as text: one line, then one per seat and per tool.
 [[nodiscard]] std::string status_text(const rpc::Status& status);
-/// Returns the session status as JSON: `{"session", "id", "phase", "time_s", "stops", "authority_version", "draining",
-/// "shed", "seats": [{"name", "role", "taken", "heard", "person"}], "tools": [{"name", "alpha": {SEAT: WEIGHT}}],
-/// "stop": null or
+/// Returns the session status as JSON. `stops` is the number of the newest stop, which a resume names; each restore of
+/// the session (a restart of its server, its move or the death of its server in a service) takes a number too:
+/// `{"session", "id", "phase", "time_s", "stops", "authority_version", "draining", "shed", "seats": [{"name", "role",
+/// "taken", "heard", "person"}], "tools": [{"name", "alpha": {SEAT: WEIGHT}}], "stop": null or
 /// {"number", "kind", "seat", "workstation", "role", "why", "ago_s", "ends", "yours", "person"}, "drain": null or
 /// {"left_s", "sessions", "people"}, "held": null or why no tool moves,
 /// "recording": null or as `recording_json`}`

@@ -112,7 +112,7 @@ std::optional<Request> Ownership::request_of(Work& work) {
                        {Put{keys_.standby(work.session), work.other, target->lease}},
                        {Read{keys_.owner(work.session)}}};
   }
-  return Transaction{{still_owner, {keys_.ticket(work.other), Condition::Of::kCreated, 0}},
+  return Transaction{{still_owner, {keys_.ticket(work.other), Condition::Of::kModified, work.former_use}},
                      {Put{keys_.ticket(work.other), work.token, work.ticket_lease}},
                      {Read{keys_.owner(work.session)}, Read{keys_.ticket(work.other)}}};
 }
@@ -137,7 +137,7 @@ void Ownership::on_reply(Time now, const Reply& reply) {
     case Work::Kind::kStandby:
       return on_standby(now, work, reply);
     case Work::Kind::kTicket:
-      return on_ticket(work, reply);
+      return on_ticket(now, std::move(work), reply);
     case Work::Kind::kRelease:
       if (const auto entry = entries_.find(work.session);
           entry != entries_.end() && entry->second.phase == Phase::kReleasing) {
@@ -183,11 +183,16 @@ void Ownership::on_standby(Time now, const Work& work, const Reply& reply) {
   if (entry->moves && entry->target == work.other) ramp(now, *entry);
 }
 
-void Ownership::on_ticket(const Work& work, const Reply& reply) {
-  --tickets_;
+void Ownership::on_ticket(Time now, Work work, const Reply& reply) {
+  const KeyValue use = found_at(reply, 1);
+  const bool ours = found_at(reply, 0).created == work.revision;
   // An earlier attempt of ours may have succeeded while its answer was lost.
-  const bool accepted =
-      reply.held || (found_at(reply, 1).value == work.token && found_at(reply, 0).created == work.revision);
+  const bool accepted = reply.held || (use.value == work.token && ours);
+  if (!accepted && ours && work.use_again && use.modified != work.former_use) {
+    work.former_use = use.modified;
+    return again(now, std::move(work));
+  }
+  --tickets_;
   notify(accepted ? Notice::Kind::kTicketAccepted : Notice::Kind::kTicketRefused, work.session, work.other,
          work.revision);
 }
@@ -305,12 +310,13 @@ bool Ownership::release(Time now, const std::string& session) {
   return true;
 }
 
-bool Ownership::use_ticket(const std::string& session, const std::string& ticket, LeaseId lease) {
+bool Ownership::use_ticket(const std::string& session, const std::string& ticket, LeaseId lease, bool again) {
   if (owned(session) == nullptr || !DirectoryKeys::valid_name(ticket) || tickets_ >= kTicketsMax) return false;
   ++tickets_;
   Work work{Work::Kind::kTicket, session, ticket};
   // No other attempt of any server has this text: the store gives a lease id once.
   work.ticket_lease = lease;
+  work.use_again = again;
   work.token = server_ + "/" + std::to_string(keeper_.lease()) + "/" + std::to_string(++attempts_);
   waiting_.push_back(std::move(work));
   return true;

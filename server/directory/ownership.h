@@ -80,7 +80,9 @@ class Ownership {
   /// Uses a ticket for a session of this server, exactly once in the whole service; the notice has the result.
   /// Returns false if the session is not owned, a name is not valid, or kTicketsMax tickets wait.
   /// @param lease  under which the store keeps the use, and that ends after the ticket; 0: for ever
-  bool use_ticket(const std::string& session, const std::string& ticket, LeaseId lease = 0);
+  /// @param again  takes the place of a use that stands in the store: the caller knows that it was for this session,
+  ///               at a former owner, and ended with that
+  bool use_ticket(const std::string& session, const std::string& ticket, LeaseId lease = 0, bool again = false);
   /// Removes a lost session.
   void forget(const std::string& session);
   void describe(std::string text) { keeper_.describe(std::move(text)); }
@@ -112,6 +114,8 @@ class Ownership {
     Time begin{}, sent{};
     LeaseId lease = 0;
     LeaseId ticket_lease = 0;
+    bool use_again = false;   ///< kTicket: in the place of a former use
+    Revision former_use = 0;  ///< kTicket: newest write of that use; 0: there is none
     Revision revision = 0;
     std::optional<bool> as_standby{};  ///< kClaim: the standby key is under our lease; empty: the view decides
   };
@@ -120,7 +124,7 @@ class Ownership {
   [[nodiscard]] std::optional<Request> claim_request(Work& work) const;
   void on_claim(Time now, Work work, const Reply& reply);
   void on_standby(Time now, const Work& work, const Reply& reply);
-  void on_ticket(const Work& work, const Reply& reply);
+  void on_ticket(Time now, Work work, const Reply& reply);
   void again(Time now, Work work);
   void ramp(Time now, Entry& entry);
   void take_keeper_events();

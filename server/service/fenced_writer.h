@@ -21,7 +21,7 @@ class FencedWriter {
   static constexpr std::size_t kBatchMax = 32;  ///< values; etcd allows 128 steps of a transaction
   static constexpr std::size_t kBatchBytesMax = std::size_t{512} << 10;
   static constexpr std::size_t kValueMax = std::size_t{64} << 10;  ///< [bytes] a longer one is not written, and counted
-  static constexpr std::size_t kKeysMax = std::size_t{2} * 4096;   ///< keys that wait; further ones are counted
+  static constexpr std::size_t kKeysMax = std::size_t{3} * 4096;   ///< keys that wait; further ones are counted
 
   struct Counters {
     std::uint64_t written = 0, batches = 0, refused = 0, unknown = 0, overflowed = 0;

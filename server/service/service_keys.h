@@ -9,9 +9,10 @@ namespace tandem::server {
 ///
 ///     catalogue/SESSION/spec     text of the session (ServiceSession)
 ///     catalogue/SESSION/listed   its phase and seats
-///     catalogue/SESSION/move     server to which an operator moves the session; empty: none
+///     catalogue/SESSION/move     server to which an operator moves the session, or kAnyServer; empty: none
 ///     catalogue/SESSION/home     server to which an operator has moved it, so that it stays there; empty: any
 ///     snapshots/SESSION          newest snapshot; apart from the catalogue, which all servers follow
+///     consoles/SESSION           its consoles (ServiceConsoles); apart from the snapshot, which older servers write
 class ServiceKeys {
  public:
   /// @param prefix  begins and ends with "/"
@@ -27,11 +28,16 @@ class ServiceKeys {
   [[nodiscard]] std::string snapshot(std::string_view session) const {
     return prefix_ + "snapshots/" + std::string(session);
   }
+  [[nodiscard]] std::string consoles(std::string_view session) const {
+    return prefix_ + "consoles/" + std::string(session);
+  }
 
   static constexpr const char* kSpec = "/spec";
   static constexpr const char* kListed = "/listed";
   static constexpr const char* kMove = "/move";
   static constexpr const char* kHome = "/home";
+  /// Text of a key `move`: the session may be at any server again. No server has this name.
+  static constexpr const char* kAnyServer = "*";
 
  private:
   std::string prefix_;

@@ -216,19 +216,19 @@ std::optional<Request> ServiceMember::request_of(const std::string& session, con
   const std::string spec = keys_.spec(session);
   switch (entry.phase) {
     case Phase::kLoading:
-      return Transaction{{owned}, {Read{spec}, Read{keys_.snapshot(session)}}, {}};
+      return Transaction{{owned}, {Read{spec}, Read{keys_.snapshot(session)}, Read{keys_.consoles(session)}}, {}};
     case Phase::kWriting: {
-      Transaction write{
-          {owned},
-          {Put{spec, to_text(*entry.spec), 0}, Erase{keys_.snapshot(session)}, Erase{keys_.listed(session)}},
-          {Read{spec}, Read{names_.owner(session)}}};
+      Transaction write{{owned},
+                        {Put{spec, to_text(*entry.spec), 0}, Erase{keys_.snapshot(session)},
+                         Erase{keys_.consoles(session)}, Erase{keys_.listed(session)}},
+                        {Read{spec}, Read{names_.owner(session)}}};
       if (entry.fresh) write.conditions.push_back({spec, Condition::Of::kCreated, 0});
       return write;
     }
     case Phase::kEnding:
       return Transaction{{owned},
                          {Erase{spec}, Erase{keys_.listed(session)}, Erase{keys_.move(session)},
-                          Erase{keys_.home(session)}, Erase{keys_.snapshot(session)}},
+                          Erase{keys_.home(session)}, Erase{keys_.snapshot(session)}, Erase{keys_.consoles(session)}},
                          {}};
     default:
       return std::nullopt;
@@ -301,21 +301,23 @@ void ServiceMember::on_loaded(Time now, const std::string& session, Entry& entry
     entry.phase = Phase::kEnding;
     return;
   }
-  const std::string* const snapshot = found_text(reply, 1);
+  const std::string *const snapshot = found_text(reply, 1), *const consoles = found_text(reply, 2);
   auto spec = spec_text != nullptr ? parse_service_session(*spec_text) : std::nullopt;
   const bool changed = entry.first && spec && entry.spec &&
                        (spec->scene != entry.spec->scene || spec->duration_s != entry.spec->duration_s ||
                         spec->tickets_only != entry.spec->tickets_only || spec->restart != entry.spec->restart);
-  if (spec && !changed) return open(session, entry, std::move(*spec), snapshot != nullptr ? *snapshot : "");
+  if (spec && !changed)
+    return open(session, entry, std::move(*spec), snapshot != nullptr ? *snapshot : "",
+                consoles != nullptr ? *consoles : "");
   // A configured session without owner begins; any other without a spec has ended.
   entry.phase = entry.spec ? Phase::kWriting : Phase::kEnding;
 }
 
 void ServiceMember::on_written(Time now, const std::string& session, Entry& entry, const Reply& reply) {
-  if (reply.held) return open(session, entry, *entry.spec, "");
+  if (reply.held) return open(session, entry, *entry.spec);
   const std::string* const written = found_text(reply, 0);
   if (written != nullptr && entry.spec && *written == to_text(*entry.spec))  // by a write whose answer was lost
-    return open(session, entry, *entry.spec, "");
+    return open(session, entry, *entry.spec);
   if (written != nullptr && entry.fresh) {
     refuse(entry, session, "a session " + session + " exists already, and no server serves it now");
     return release(now, session);
@@ -323,12 +325,14 @@ void ServiceMember::on_written(Time now, const std::string& session, Entry& entr
   entry.next_attempt = now + kAgain;
 }
 
-void ServiceMember::open(const std::string& session, Entry& entry, ServiceSession spec, std::string snapshot) {
+void ServiceMember::open(const std::string& session, Entry& entry, ServiceSession spec, std::string snapshot,
+                         std::string consoles) {
   entry.phase = Phase::kOpening;
   events_.push_back({.kind = ServiceEvent::Kind::kOpen,
                      .session = session,
                      .spec = std::move(spec),
                      .snapshot = std::move(snapshot),
+                     .consoles = std::move(consoles),
                      .revision = entry.revision,
                      .order = std::exchange(entry.order, 0)});
   entry.spec.reset();

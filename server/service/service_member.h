@@ -44,6 +44,7 @@ struct ServiceEvent {
   std::string session;
   ServiceSession spec{};             ///< kOpen
   std::string snapshot{};            ///< kOpen: bytes of `encode_snapshot`; empty: a new session
+  std::string consoles{};            ///< kOpen: text of ServiceConsoles, as the former owner wrote it; empty: none
   directory::Revision revision = 0;  ///< kOpen: of the ownership
   std::uint64_t order = 0;           ///< kOpen, kRefused: number of the creation; 0: none
   std::string text{};
@@ -134,8 +135,11 @@ class ServiceMember {
   /// Another run replaces the session under the same ownership. kOpen follows.
   void replace(const std::string& session, ServiceSession spec);
   void set_snapshot(const std::string& session, std::string bytes);
+  /// Sets the text of ServiceConsoles.
+  void set_consoles(const std::string& session, std::string text);
   void set_listed(const std::string& session, std::string text);
-  /// Whether all snapshots that were set, and all restored tickets, are in the directory, or will never be.
+  /// Whether all snapshots and consoles that were set, and all restored tickets, are in the directory, or will never
+  /// be.
   [[nodiscard]] bool all_written() const;
   /// Ends the lease and with it all ownerships, so that other servers begin at once. No session may have effort.
   /// The member does nothing afterwards but this.
@@ -202,7 +206,10 @@ class ServiceMember {
   void on_session_reply(Time now, const directory::Reply& reply);
   void on_loaded(Time now, const std::string& session, Entry& entry, const directory::Reply& reply);
   void on_written(Time now, const std::string& session, Entry& entry, const directory::Reply& reply);
-  void open(const std::string& session, Entry& entry, ServiceSession spec, std::string snapshot);
+  void open(const std::string& session, Entry& entry, ServiceSession spec, std::string snapshot = {},
+            std::string consoles = {});
+  /// Sets a value of a session that is served here, or was until it moves; any other keeps its value.
+  void set_state(const std::string& session, const std::string& key, std::string value);
   void release(Time now, const std::string& session);
   void refuse(Entry& entry, const std::string& session, std::string why);
   [[nodiscard]] std::optional<directory::Request> request_of(const std::string& session, const Entry& entry) const;

@@ -34,6 +34,10 @@ void ServiceMember::begin_moves() {
     if (seen.move_to.empty() || found == entries_.end() || found->second.phase != Phase::kOpen) continue;
     Entry& entry = found->second;
     writer_.set(session, keys_.move(session), "", entry.revision);
+    if (seen.move_to == ServiceKeys::kAnyServer) {
+      writer_.set(session, keys_.home(session), "", entry.revision);
+      continue;
+    }
     if (seen.move_to != options_.server && ownership_.view().server(seen.move_to) == nullptr) continue;
     writer_.set(session, keys_.home(session), seen.move_to, entry.revision);
     if (seen.move_to != options_.server) begin_move(session, entry, seen.move_to, "by order of an operator");

@@ -87,11 +87,19 @@ void ServiceMember::choose_standby(Time now, const std::string& session, Entry& 
 }
 
 void ServiceMember::set_snapshot(const std::string& session, std::string bytes) {
+  set_state(session, keys_.snapshot(session), std::move(bytes));
+}
+
+void ServiceMember::set_consoles(const std::string& session, std::string text) {
+  set_state(session, keys_.consoles(session), std::move(text));
+}
+
+void ServiceMember::set_state(const std::string& session, const std::string& key, std::string value) {
   const auto found = entries_.find(session);
   if (found == entries_.end()) return;
   const Phase phase = found->second.phase;
   if (phase != Phase::kOpen && phase != Phase::kOpening && phase != Phase::kMoving) return;
-  writer_.set(session, keys_.snapshot(session), std::move(bytes), found->second.revision);
+  writer_.set(session, key, std::move(value), found->second.revision);
 }
 
 void ServiceMember::set_listed(const std::string& session, std::string text) {

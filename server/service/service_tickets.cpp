@@ -9,14 +9,14 @@ using directory::Condition;
 using directory::Notice;
 
 void ServiceTickets::use(Time now, const std::string& session, const std::string& ticket, Duration life,
-                         std::uint64_t order) {
+                         std::uint64_t order, bool again) {
   const bool fits = uses_.size() < kWaitingMax && !uses_.contains(ticket);
   if (!fits || ownership_.revision(session) == 0) {
     results_.push_back({order, fits ? Outcome::kUsed : Outcome::kNoAnswer});
     return;
   }
   const Time end = now + std::clamp(life, Duration::zero(), kLifeMax);
-  uses_[ticket] = {session, order, end.time_since_epoch() / kPeriod + 1, false, now + kAnswerLimit};
+  uses_[ticket] = {session, order, end.time_since_epoch() / kPeriod + 1, false, again, now + kAnswerLimit};
 }
 
 void ServiceTickets::restore(const std::string& session, const std::string& ticket) {
@@ -56,8 +56,10 @@ void ServiceTickets::pass_on(Time now) {
         continue;
       }
     }
-    if (const auto lease = leases_.find(it.period); !it.asked && lease != leases_.end()) {
-      it.asked = ownership_.use_ticket(it.session, ticket, lease->second);
+    // A ticket that is being restored is used when that is done, because its restore would erase the use.
+    const bool restored = !it.asked && std::ranges::find(restores_, ticket, &Restore::ticket) != restores_.end();
+    if (const auto lease = leases_.find(it.period); !it.asked && !restored && lease != leases_.end()) {
+      it.asked = ownership_.use_ticket(it.session, ticket, lease->second, it.again);
       if (!it.asked) {
         results_.push_back({it.order, Outcome::kUsed});
         use = uses_.erase(use);

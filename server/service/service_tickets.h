@@ -37,8 +37,10 @@ class ServiceTickets {
       : ownership_(ownership), keys_(std::move(keys)) {}
 
   /// Uses a ticket for a session of this server; a result with this `order` follows.
-  /// @param life  for which the ticket stays valid, at most kLifeMax
-  void use(Time now, const std::string& session, const std::string& ticket, Duration life, std::uint64_t order);
+  /// @param life   for which the ticket stays valid, at most kLifeMax
+  /// @param again  as `directory::Ownership::use_ticket`
+  void use(Time now, const std::string& session, const std::string& ticket, Duration life, std::uint64_t order,
+           bool again = false);
   /// Makes a ticket valid again whose use this server was granted; any other stays as it is.
   void restore(const std::string& session, const std::string& ticket);
   /// Whether a ticket of the session is not yet valid again in the directory.
@@ -59,7 +61,7 @@ class ServiceTickets {
     std::string session;
     std::uint64_t order = 0;  ///< 0: its result was reported already
     std::int64_t period = 0;
-    bool asked = false;
+    bool asked = false, again = false;
     Time ends{};
   };
   struct Restore {

@@ -4,6 +4,7 @@
 #include "proto/text/registry_text.h"
 #include "server/directory/placement/server_record.h"
 #include "server/service/servers_table.h"
+#include "server/service/service_consoles.h"
 #include "server/service/service_session.h"
 #include "server/service/shared_registry.h"
 #include "tests/fuzz/fuzz.h"
@@ -52,6 +53,8 @@ void feed(Follower& follower, const std::vector<directory::KeyValue>& entries, c
 void read_texts(std::string_view text) {
   if (const auto session = server::parse_service_session(text))
     FUZZ_EXPECT(server::parse_service_session(server::to_text(*session)) == session);
+  if (const auto consoles = server::parse_service_consoles(text))
+    FUZZ_EXPECT(server::parse_service_consoles(server::to_text(*consoles)) == consoles);
   rpc::ListedSession listed;
   if (server::read_listed(text, listed)) {
     rpc::ListedSession again;

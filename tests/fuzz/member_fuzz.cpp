@@ -76,6 +76,7 @@ class HostileDirectory final : public directory::Directory {
                                      "registry/desk",
                                      "registry/.mark",
                                      "snapshots/lab",
+                                     "consoles/lab",
                                      "tickets/00"};
     const unsigned which = draws_.byte() % 16;
     directory::KeyValue out;
@@ -186,7 +187,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         member.set_listed("lab", draws.text());
         break;
       case 6:
-        member.tickets().use(now, "lab", "0123", 60s, ++order);
+        member.tickets().use(now, "lab", "0123", 60s, ++order, draws.byte() % 2 == 0);
         break;
       case 7:
         member.tickets().restore("lab", "0123");
@@ -199,6 +200,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       case 10:
         if (draws.byte() == 0) member.leave();
+        break;
+      case 11:
+        member.set_consoles("lab", draws.text());
         break;
       default:
         break;

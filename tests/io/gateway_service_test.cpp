@@ -30,10 +30,15 @@ TEST(GatewayService, PersonsFollowTheirSessionWithTheTicketThatTheyHave) {
   const Json back = ann.until([](const Json& m) { return m["type"] == "notice" && m["server"] == "back"; });
   EXPECT_FALSE(back.is_null());
   EXPECT_EQ(ann.order({{"order", "stop"}, {"why", "fire drill"}})["ok"], true);
+  // Also when the server dies.
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // until the standby is named
+  b.signal(SIGKILL);
+  const Json again = ann.until([](const Json& m) { return m["type"] == "notice" && m["server"] == "back"; });
+  EXPECT_FALSE(again.is_null());
+  EXPECT_EQ(ann.order({{"order", "stop"}, {"why", "again"}})["ok"], true);
   if (tandem::test::draws(0, 1, 1) == 0) return;  // the rest waits for 15 s
   // After the end of all servers only another ticket helps.
   a.signal(SIGKILL);
-  b.signal(SIGKILL);
   const Json gone = ann.until([](const Json& m) { return m["type"] == "notice" && m["server"] == "gone"; });
   EXPECT_NE(gone["text"].get<std::string>().find("sign in again"), std::string::npos) << gone;
 }

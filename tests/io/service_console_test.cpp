@@ -86,8 +86,8 @@ TEST_F(ServiceConsole, FollowsItsSessionWhenItMovesAndWhenItsServerEnds) {
   EXPECT_EQ(console.process().wait(), 0) << console.process().err();
 }
 
-/// Its ticket stays used, and so the console cannot follow. It says so before a person relies on an order.
-TEST_F(ServiceConsole, SaysAtOnceThatItsServerDiedAndThatAnOrderAfterThatWasNotCarriedOut) {
+/// Its ticket admits it at the next owner, and neither a second console nor another workstation.
+TEST_F(ServiceConsole, ComesBackByItsTicketWhenItsServerDiesAndNoOtherConsoleDoes) {
   LiveService& service = *service_;
   Process &a = service.of("a"), &b = service.of("b");
   TypedConsole console(service.folder(), connection_);
@@ -97,15 +97,75 @@ TEST_F(ServiceConsole, SaysAtOnceThatItsServerDiedAndThatAnOrderAfterThatWasNotC
   a.signal(SIGKILL);
   ASSERT_EQ(a.wait(), -SIGKILL);
   EXPECT_TRUE(console.process().wait_for("it carries out no order")) << console.process().err();
+  // Orders of this time come too late: the next stop is the first. An empty line is none.
+  console.type("stop early");
+  console.type("");
+  console.type("authority trainee=1");
+  ASSERT_TRUE(console.process().wait_for("has followed session lab")) << console.process().err() << b.err();
+  EXPECT_TRUE(console.process().wait_for("this console was not connected: stop early\n")) << console.process().err();
+  EXPECT_TRUE(console.process().wait_for("this console was not connected: authority trainee=1\n"));
   console.type("stop danger");
-  EXPECT_EQ(console.process().wait(), 1);
-  EXPECT_NE(console.process().err().find("used before"), std::string::npos) << console.process().err();
-  EXPECT_NE(console.process().err().find("Orders after that were not carried out"), std::string::npos);
-  // It asks once by its ticket, and does not try again.
-  ASSERT_TRUE(b.wait_for("used before")) << b.err();
-  const std::string log = b.err();
-  const auto refused = log.find("used before");
-  EXPECT_EQ(log.find("used before", refused + 1), std::string::npos) << log;
+  EXPECT_TRUE(console.process().wait_for("STOPPED")) << console.process().out() << console.process().err();
+  const auto refused = [&](Words words) {
+    words.insert(words.begin(), {TANDEM_CLIENT, "control"});
+    words.push_back("status");
+    Process other(std::move(words));
+    EXPECT_EQ(other.wait(), 1);
+    return other.err();
+  };
+  Words again = connection_;
+  EXPECT_NE(refused(again).find("used"), std::string::npos) << "the same key";
+  const std::string thief = service.folder().file("own-thief");
+  Process given({TANDEM_SERVER, "enroll", "thief", "--state", service.folder().file("b")});
+  ASSERT_EQ(given.wait(), 0) << given.err();
+  Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", thief});
+  ASSERT_EQ(taken.wait(), 0) << taken.err();
+  *std::ranges::find(again, service.folder().file("own-desk")) = thief;
+  EXPECT_NE(refused(again).find("another"), std::string::npos) << refused(again);
+
+  // The server that died comes back, and the next one dies: its own list of used tickets does not refuse the console.
+  Process& a_again = service.start("a");
+  ASSERT_TRUE(a_again.wait_for("is a member of the service")) << a_again.err();
+  std::this_thread::sleep_for(std::chrono::milliseconds(3500));  // until the standby is named
+  b.signal(SIGKILL);
+  ASSERT_EQ(b.wait(), -SIGKILL);
+  const std::string followed = "this console has followed session lab to its new server\n";
+  ASSERT_TRUE(console.process().wait_for("`resume 1` ends it\n" + followed))
+      << console.process().out() << console.process().err() << a_again.err();
+  console.type("quit");
+  EXPECT_EQ(console.process().wait(), 1) << "two orders were not carried out";
+
+  // A console that has left does not come back, also not when its server dies after that.
+  EXPECT_NE(refused(connection_).find("used"), std::string::npos);
+}
+
+TEST_F(ServiceConsole, ThatWatchesFollowsItsSessionWhenItMovesAndWhenItsServerDies) {
+  LiveService& service = *service_;
+  const std::string states = service.folder().write("states", "");
+  Words command{"/bin/sh", "-c", "exec \"$0\" \"$@\" > " + states, TANDEM_CLIENT, "watch", "--json"};
+  command.insert(command.end(), connection_.begin(), connection_.end());
+  Process watch(command);
+  // Waits for states after those that are there.
+  const auto shows = [&] {
+    const auto before = std::filesystem::file_size(states);
+    const auto newer = [&] { return std::filesystem::file_size(states) > before + 1000; };
+    for (int i = 0; i < 1500 && !newer(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(newer()) << watch.err();
+  };
+  const auto follows = [&](const std::string& text) {
+    ASSERT_TRUE(watch.wait_for(text)) << watch.err();
+    shows();
+  };
+  shows();
+  LiveService::run({"move", "lab", "--to", "b", "--config", service.folder().file("a.textproto")});
+  const std::string followed = "tandem-client watch: has followed session lab to its new server\n";
+  follows(followed);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // until the standby is named
+  service.of("b").signal(SIGKILL);
+  ASSERT_TRUE(watch.wait_for("the server ended this connection")) << watch.err();
+  follows("Looks for session lab at the other servers\n" + followed);
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 0) << watch.err();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "client/app/commands/client_commands.h"
 #include "client/app/commands/connection_options.h"
+#include "client/app/console_follow.h"
 #include "client/app/plot_json.h"
 #include "client/app/plot_stream.h"
 #include "client/app/session_status_poller.h"
@@ -43,7 +44,7 @@ int end_watch(const std::string& why) {
 std::string text_of(wire::CloseReason why) {
   switch (why) {
     case wire::CloseReason::kServerReturns:
-      return "the server ends, or gave the session to another server of its service; watch again in a moment";
+      return "the server ends, or gave the session to another server of its service";
     case wire::CloseReason::kRevoked:
     case wire::CloseReason::kRemoved:
       return "the server withdrew the right to watch; ask its operator";
@@ -52,13 +53,36 @@ std::string text_of(wire::CloseReason why) {
   }
 }
 
-/// Prints what the feed shows until a signal, the end of the session, or the loss of the server. @return exit code
+/// How a watch ended.
+struct WatchEnd {
+  int code = io::kExitDone;
+  std::string why{};     ///< for the person; empty: a signal ended it, or the output cannot be written
+  bool follows = false;  ///< the session may be at another server of its service
+};
+
+/// Returns how the watch of this feed has ended; nullopt if it goes on.
+/// @param hung_up  the server has closed the control connection
+std::optional<WatchEnd> end_of(const SessionWatch& watch, bool hung_up, Time now) {
+  if (const auto why = watch.closed()) {
+    const bool over = *why == wire::CloseReason::kDone || *why == wire::CloseReason::kServerStops;
+    return WatchEnd{over ? io::kExitDone : io::kExitTrouble, text_of(*why), *why == wire::CloseReason::kServerReturns};
+  }
+  if (hung_up && watch.silence(now) > 300ms)
+    return WatchEnd{io::kExitTrouble, "the server ended this connection: it was stopped or is being restarted", true};
+  if (watch.silence(now) <= kLostAfter) return std::nullopt;
+  if (watch.newest()) return WatchEnd{io::kExitTrouble, "the server was lost: no datagram for 3 s", true};
+  return WatchEnd{io::kExitTrouble,
+                  "no datagram arrived, although the server accepted the join; a firewall may block UDP. "
+                  "`tandem-client link-test` judges the link"};
+}
+
+/// Prints what the feed shows until a signal, the end of the session, or the loss of the server.
 /// @param plot  nullptr: no stream to a plot program
-int show(TelemetryFeed& feed, int signals, bool json, PlotStream* plot) {
+WatchEnd show(TelemetryFeed& feed, int signals, bool json, PlotStream* plot) {
   SessionStatusPoller poller(feed.console().connection, feed.console().welcome.session_id);
-  const auto stop_asking = [&poller](int code) {
+  const auto stop_asking = [&poller](WatchEnd end) {
     poller.cancel();  // a server that is gone does not reply
-    return code;
+    return end;
   };
   std::optional<rpc::StatusRecording> recording;
   Time next_line = io::monotonic_now();
@@ -75,24 +99,34 @@ int show(TelemetryFeed& feed, int signals, bool json, PlotStream* plot) {
     if (due) {
       if (!json) next_line = std::max(next_line + kLineInterval, now);
       const std::string line = (json ? telemetry_json : telemetry_text)(feed.scene(), watch, recording) + "\n";
-      if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return stop_asking(io::kExitTrouble);
+      if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return stop_asking({io::kExitTrouble});
     }
     if (files[1].revents != 0) {
       feed.leave(now);
-      return stop_asking(io::kExitDone);
+      return stop_asking({});
     }
-    if (const auto why = watch.closed()) {
-      const bool over = *why == wire::CloseReason::kDone || *why == wire::CloseReason::kServerStops;
-      const int code = end_watch(text_of(*why));
-      return stop_asking(over ? io::kExitDone : code);
+    const bool hung_up = (files[2].revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0;
+    if (auto end = end_of(watch, hung_up, now)) return stop_asking(std::move(*end));
+  }
+}
+
+/// Shows a session, also when it goes to another server of its service. @return exit code
+int show_everywhere(TelemetryFeed first, const JoinOptions& asking, bool json, PlotStream* plot) {
+  std::optional<TelemetryFeed> feed(std::move(first));
+  while (true) {
+    const WatchEnd end = show(*feed, asking.signals, json, plot);
+    const std::string session = feed->console().welcome.session_name;
+    const bool follows = end.follows && feed->console().service;
+    feed.reset();  // the server that has the session now admits one console by the ticket
+    if (!follows) {
+      if (!end.why.empty()) end_watch(end.why);
+      return end.code;
     }
-    if ((files[2].revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0 && watch.silence(now) > 300ms)
-      return stop_asking(end_watch("the server ended this connection: it was stopped or is being restarted"));
-    if (watch.silence(now) > kLostAfter)
-      return stop_asking(end_watch(watch.newest()
-                                       ? "the server was lost: no datagram for 3 s"
-                                       : "no datagram arrived, although the server accepted the join; a firewall may "
-                                         "block UDP. `tandem-client link-test` judges the link"));
+    end_watch(end.why + ". Looks for session " + session + " at the other servers");
+    auto again = follow_watched_session(asking);
+    if (!again) return again.error().empty() ? io::kExitDone : end_watch(again.error());
+    feed.emplace(std::move(*again));
+    io::print(stderr, "tandem-client watch: has followed session " + session + " to its new server\n");
   }
 }
 
@@ -136,7 +170,7 @@ int watch_command(const WatchArguments& arguments) {
   if (plot)
     io::print_formatted(stderr, "tandem-client watch: JSON over UDP to %s, at most 100 datagrams per second%s\n",
                         plot->to().c_str(), plot->on_this_computer() ? "" : ", readable for everyone on that network");
-  return show(*feed, signals.get(), arguments.json, plot ? &*plot : nullptr);
+  return show_everywhere(std::move(*feed), asking, arguments.json, plot ? &*plot : nullptr);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <cstdio>
 
+#include "common/auth/enrolment.h"
+#include "common/auth/ticket.h"
 #include "common/io/command_line.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/commands/service_query.h"
@@ -14,23 +16,56 @@ struct MoveArguments {
   std::string session, to, config;
 };
 
-/// Why the session cannot move; empty: it can.
-std::string move_problem(const ServiceQuery& service, const MoveArguments& arguments) {
-  const auto listed = [](const auto& entries) {
-    std::string names;
-    for (const auto& [name, entry] : entries) names += (names.empty() ? "" : ", ") + name;
-    return names.empty() ? std::string("none") : names;
-  };
-  if (service.catalogue().find(arguments.session) == nullptr)
+constexpr const char* kAny = "any";  // typed for every server, unless one has this name
+
+std::string names_of(const auto& entries) {
+  std::string names;
+  for (const auto& [name, entry] : entries) names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? std::string("none") : names;
+}
+
+/// Name of the session that the argument names by id, code or name; empty: there is none.
+std::string session_named(const ServiceCatalogue& catalogue, const std::string& typed) {
+  if (std::string name = catalogue.name_of(rpc::SessionChoice{typed}); !name.empty()) return name;
+  if (auth::Id16 id; typed.size() == 2 * id.size() && auth::from_hex(typed, id))
+    return catalogue.name_of(rpc::SessionChoice{id});
+  const auto code = auth::canonical_session_code(typed);
+  return code ? catalogue.name_of(rpc::SessionChoice{*code}) : std::string{};
+}
+
+/// Why the order cannot be carried out; empty: it can. @param session  name in the catalogue; empty: there is none
+std::string move_problem(const ServiceQuery& service, const MoveArguments& arguments, const std::string& session,
+                         bool anywhere) {
+  if (session.empty())
     return "the service has no session \"" + arguments.session +
-           "\"; its sessions: " + listed(service.catalogue().entries());
-  if (service.view().server(arguments.to) == nullptr)
+           "\", neither by name, code nor id; its sessions: " + names_of(service.catalogue().entries());
+  if (!anywhere && service.view().server(arguments.to) == nullptr)
     return "no server \"" + arguments.to +
-           "\" is registered in the service; its servers: " + listed(service.view().servers());
-  const auto* const seen = service.view().session(arguments.session);
+           "\" is registered in the service; its servers: " + names_of(service.view().servers());
+  const auto* const seen = service.view().session(session);
   if (seen == nullptr || !seen->owner)
-    return "session " + arguments.session + " has no server now; a server takes it over when a client asks for it";
+    return "session " + session + " has no server now; a server takes it over when a client asks for it";
   return {};
+}
+
+int report(const std::string& text) {
+  std::printf("%s\n", text.c_str());
+  return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
+}
+
+/// Lets a session that an operator has moved be moved by the service again.
+int free_session(ServiceQuery& service, const std::string& session) {
+  const auto home = [&] {
+    const auto found = service.catalogue().entries().find(session);
+    return found == service.catalogue().entries().end() ? std::string{} : found->second.home;
+  };
+  if (home().empty()) return report("session " + session + " may be at any server already");
+  service.begin({{}, {directory::Put{service.keys().move(session), ServiceKeys::kAnyServer, 0}}, {}});
+  if (service.wait(kMoveMax, [&] { return home().empty(); }))
+    return report("session " + session + " may be at any server now");
+  return print_error("move", "the server of session " + session +
+                                 " did not take the order within 10 s; its log has the cause, and `tandem-server "
+                                 "servers` says whether it has an older version, which does not know it");
 }
 
 int move_command(const MoveArguments& arguments) {
@@ -40,23 +75,23 @@ int move_command(const MoveArguments& arguments) {
     return print_error("move", opened.error().text);
   }
   ServiceQuery& service = **opened;
-  if (const std::string problem = move_problem(service, arguments); !problem.empty())
+  const std::string session = session_named(service.catalogue(), arguments.session);
+  const bool anywhere = arguments.to == kAny && service.view().server(kAny) == nullptr;
+  if (const std::string problem = move_problem(service, arguments, session, anywhere); !problem.empty())
     return print_error("move", problem);
-  if (service.view().session(arguments.session)->owner->name == arguments.to) {
-    std::printf("session %s is at server %s already\n", arguments.session.c_str(), arguments.to.c_str());
-    return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
-  }
-  service.begin({{}, {directory::Put{service.keys().move(arguments.session), arguments.to, 0}}, {}});
+  if (anywhere) return free_session(service, session);
+  if (service.view().session(session)->owner->name == arguments.to)
+    return report("session " + session + " is at server " + arguments.to + " already");
+  service.begin({{}, {directory::Put{service.keys().move(session), arguments.to, 0}}, {}});
   const bool moved = service.wait(kMoveMax, [&] {
-    const auto* const seen = service.view().session(arguments.session);
+    const auto* const seen = service.view().session(session);
     return seen != nullptr && seen->owner && seen->owner->name == arguments.to;
   });
   if (!moved)
-    return print_error("move", "session " + arguments.session +
+    return print_error("move", "session " + session +
                                    " did not move within 10 s; the log of its server has "
                                    "the cause, and `tandem-server servers` shows where it is");
-  std::printf("session %s is at server %s now\n", arguments.session.c_str(), arguments.to.c_str());
-  return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
+  return report("session " + session + " is at server " + arguments.to + " now");
 }
 
 }  // namespace
@@ -64,8 +99,12 @@ int move_command(const MoveArguments& arguments) {
 void add_move_command(const io::Command& root) {
   const auto [command, arguments] =
       root.add_command("move", "Moves a session of a service to another server.", move_command);
-  command.add_option("SESSION", arguments.session, "name of the session").value_name(" ").required();
-  command.add_option("--to", arguments.to, "name of the server, as `tandem-server servers` shows it")
+  command.add_option("SESSION", arguments.session, "name, code or id of the session").value_name(" ").required();
+  command
+      .add_option(
+          "--to", arguments.to,
+          "name of the server, as `tandem-server servers` shows it; `any`: it stays where it is, and the service may "
+          "move it again")
       .value_name("SERVER")
       .required();
   command.add_option("--config", arguments.config, "configuration of one of the servers, with a block `directory`")
@@ -73,12 +112,13 @@ void add_move_command(const io::Command& root) {
       .required();
   command.footer(
       "The session's server releases all hands, stores the last snapshot and hands the session over; the clients join "
-      "the other server by themselves.\n"
-      "Exit: 0 the other server has it; 1 it did not move, or the directory does not answer; 2 wrong arguments or "
+      "the other server by themselves. It stays there, unless that server drains or fails, until `--to any`.\n"
+      "Exit: 0 the other server has it, or it may move again; 1 it did not move, or the directory does not answer; 2 "
+      "wrong arguments or "
       "files.\n\n"
       "Examples\n"
       "  tandem-server move lab --to desk-b --config /etc/tandem/server.textproto\n"
-      "  tandem-server move lab --to desk-a --config server.textproto");
+      "  tandem-server move lab --to any --config server.textproto");
 }
 
 }  // namespace tandem::server

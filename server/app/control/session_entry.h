@@ -35,6 +35,10 @@ struct SessionRegistration {
   Time resume_until{};  ///< former participants can resume until then; only with `snapshot`
   /// Receives the names of the persons at all seats whenever a client takes one; null: they are not stored.
   std::function<void(std::vector<std::string>)> on_persons{};
+  /// Tickets of the consoles at the former owner of a session of a service: they return. Read when it is added.
+  std::vector<auth::Id16> consoles{};
+  /// Receives the tickets that return at the next owner whenever they change; null: they are not stored.
+  std::function<void(std::vector<auth::Id16>)> on_consoles{};
   std::vector<AuthoredNote> notes{};           ///< marks and sheets of an earlier run of the server, oldest first
   std::shared_ptr<RecordingDesk> recording{};  ///< tells of the recording and takes notes for it; null: none
   std::string no_recording{};                  ///< why the server cannot record it, and the remedy; empty: it can
@@ -43,7 +47,8 @@ struct SessionRegistration {
 /// A registered session, and what the control plane alone knows about its clients.
 struct SessionEntry {
   /// @param now  of the monotonic clock
-  SessionEntry(SessionRegistration opening, Time now) : registration(std::move(opening)) {
+  SessionEntry(SessionRegistration opening, Time now)
+      : registration(std::move(opening)), consoles(std::exchange(registration.consoles, {}), now + kResumeLife) {
     seats.resize(scene().seats.size());
     const SessionSnapshot* const from = std::exchange(registration.snapshot, nullptr);  // the caller may destroy it
     removed =
@@ -53,6 +58,7 @@ struct SessionEntry {
       seats[i].restore(from->checkpoint.seats[i], registration.resume_until, now,
                        i < from->persons.size() ? from->persons[i] : std::string{});
     for (AuthoredNote& note : std::exchange(registration.notes, {})) notes.add(std::move(note));
+    if (!consoles.returning_next().empty()) keep_consoles();  // for the owner after this one
   }
 
   [[nodiscard]] LiveSession& session() const noexcept { return *registration.session; }
@@ -65,6 +71,10 @@ struct SessionEntry {
     std::vector<std::string> names;
     for (const SeatReservation& seat : seats) names.push_back(seat.person());
     registration.on_persons(std::move(names));
+  }
+  /// Stores the tickets of the consoles.
+  void keep_consoles() const {
+    if (registration.on_consoles) registration.on_consoles(consoles.returning_next());
   }
 
   SessionRegistration registration;

@@ -75,7 +75,11 @@ ErrorReply nothing_to_resume() {
 
 SessionJoins::SessionJoins(SessionRegistry& registry, SessionCommands& commands, auth::ServerKeystore& trust,
                            const LoadLimits& limits, std::function<void(const std::string&)> on_message)
-    : registry_(registry), commands_(commands), trust_(trust), limits_(limits), on_message_(std::move(on_message)) {}
+    : registry_(registry),
+      commands_(commands),
+      trust_(trust),
+      tickets_(trust, std::move(on_message)),
+      limits_(limits) {}
 
 void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinReply)> answer) {
   if (auto away = redirect_.find(request.hello.session, request.version >= rpc::kVersionOfServices))
@@ -88,7 +92,9 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
     return answer(redirect_.refusal(request.hello.session, *refused));
   SessionEntry& entry = *std::get<SessionEntry*>(found);
   if (!request.hello.link_test)
-    answer = used_once(ticket_uses_, request, std::move(answer), [this](const rpc::Welcome& w) { on_join_failed(w); });
+    answer = used_once(
+        tickets_.uses(), request, std::move(answer), [this](const rpc::Welcome& w) { on_join_failed(w); },
+        [&entry](const rpc::Welcome& w) { return entry.consoles.returned(w.resume_secret); });
   if (console) return join_console(entry, request, answer);
   if (const auto busy = overload_reply(entry);
       busy && !std::holds_alternative<rpc::ResumeCredential>(request.hello.credential))
@@ -153,7 +159,7 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
   std::string person = asked.same_owner ? reservation.person() : std::string{};
   std::optional<auth::Id16> used;
   if (const auto* ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential)) {
-    const auto redeemed = redeem(entry, request, *ticket, role);
+    const auto redeemed = tickets_.redeem(entry, request, *ticket, role, io::monotonic_now());
     if (!redeemed) return redeemed.error();
     force_scale = static_cast<double>(redeemed->force_scale) / auth::Ticket::kFullForce;
     used = redeemed->ticket_id;
@@ -190,31 +196,8 @@ std::optional<ErrorReply> SessionJoins::check_code(const SessionEntry& entry, co
   return std::nullopt;
 }
 
-std::expected<auth::Ticket, ErrorReply> SessionJoins::redeem(const SessionEntry& entry, const JoinRequest& request,
-                                                             const rpc::TicketCredential& ticket,
-                                                             std::optional<AccessRole> role) {
-  auto redeemed =
-      trust_.tickets().redeem(ticket.bytes, {entry.registration.id, entry.registration.epoch, request.hello.seat, role,
-                                             auth::KeyFingerprint{request.workstation.spki}, auth::wall_seconds()});
-  if (redeemed) return std::move(*redeemed);
-  if (!redeemed.error().fault) {  // a failure of the server itself
-    if (on_message_) on_message_("no ticket can be used: " + redeemed.error().text);
-    io::log_event(io::Level::kError, {.event = "error", .text = redeemed.error().text});
-  }
-  return std::unexpected(ticket_error_reply(redeemed.error()));
-}
-
-void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry,
-                                  const std::string& person, const char* event) {
-  if (!ticket) return;
-  const std::string problem = trust_.tickets().restore(*ticket);
-  if (ticket_uses_ != nullptr) ticket_uses_->restore(entry.registration.name, *ticket);
-  trust_.audit(auth::wall_seconds(), event, entry.registration.name,
-               auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem) + by_person(person));
-}
-
 void SessionJoins::release_consoles(SessionEntry& entry) {
-  for (const auth::Id16& ticket : entry.consoles.take_all()) restore_ticket(ticket, entry, "", "ticket_restored");
+  for (const auth::Id16& ticket : entry.consoles.release_all()) tickets_.restore(ticket, entry, "", "ticket_restored");
 }
 
 // ---- Consoles and link tests ----
@@ -255,7 +238,7 @@ JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& re
                                wire::kSetupMax),
                         0};
   }
-  const auto redeemed = redeem(entry, request, ticket, std::nullopt);
+  const auto redeemed = tickets_.redeem(entry, request, ticket, std::nullopt, io::monotonic_now());
   if (!redeemed) return redeemed.error();
   rpc::Welcome w =
       make_welcome(entry, place, redeemed->role, request.hello.has_aes, "", std::move(scene), redeemed->person);
@@ -282,6 +265,8 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
   if (is_console(welcome)) {
+    entry->consoles.join(welcome.resume_secret);
+    entry->keep_consoles();
     io::log_event(io::Level::kInfo,
                   {.event = "console-joined",
                    .session = welcome.session_name,
@@ -350,10 +335,11 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
   if (!welcome.seat.empty())
-    return restore_ticket(entry->seats[seat_index(welcome)].end_join(), *entry, welcome.person);
+    return tickets_.restore(entry->seats[seat_index(welcome)].end_join(), *entry, welcome.person);
   if (!is_console(welcome)) return entry->link_tests.cancel_join();
   if (is_watcher(welcome)) entry->watchers.cancel_join();
-  restore_ticket(entry->consoles.take(welcome.resume_secret), *entry, welcome.person);
+  tickets_.restore(entry->consoles.take(welcome.resume_secret), *entry, welcome.person);
+  entry->keep_consoles();
 }
 
 void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
@@ -391,8 +377,9 @@ void SessionJoins::on_disconnected(const rpc::Welcome& joined, bool in_vain) {
   if (entry == nullptr || !is_console(joined)) return;
   stop_watching(*entry, joined);
   const auto ticket = entry->consoles.take(joined.resume_secret);
+  entry->keep_consoles();
   const bool commands = allowed(joined.role, Right::kStopSession) != Grant::kNo && !watches_only(joined.role);
-  if (in_vain && commands) restore_ticket(ticket, *entry, joined.person);
+  if (in_vain && commands) tickets_.restore(ticket, *entry, joined.person);
 }
 
 }  // namespace tandem::server

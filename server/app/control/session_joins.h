@@ -9,7 +9,7 @@
 #include "server/app/control/session_commands.h"
 #include "server/app/control/session_redirect.h"
 #include "server/app/control/session_registry.h"
-#include "server/app/control/ticket_uses.h"
+#include "server/app/control/ticket_redemption.h"
 #include "server/policy/admission_control.h"
 
 namespace tandem::server {
@@ -26,8 +26,8 @@ class SessionJoins final : public JoinHandler {
 
   /// As `SessionRedirect::set_locator`.
   void set_locator(SessionLocator* locator, std::string name) { redirect_.set_locator(locator, std::move(name)); }
-  /// @param uses  of tickets in the service; must outlive this object; null: tickets are used at this server alone
-  void set_ticket_uses(TicketUses* uses) { ticket_uses_ = uses; }
+  /// As `TicketRedemption::set_uses`.
+  void set_ticket_uses(TicketUses* uses) { tickets_.set_uses(uses); }
   /// Makes the tickets of a session's consoles valid again, because another server is about to serve the session. The
   /// consoles lose their connections here.
   void release_consoles(SessionEntry& entry);
@@ -58,15 +58,7 @@ class SessionJoins final : public JoinHandler {
   /// Error reply if the session's code does not admit to a seat of this role; nullopt if it does.
   [[nodiscard]] static std::optional<rpc::ErrorReply> check_code(const SessionEntry& entry, const JoinRequest& request,
                                                                  const std::string& code, AccessRole role);
-  /// @param role  of the seat; nullopt: any role, for a console
-  [[nodiscard]] std::expected<auth::Ticket, rpc::ErrorReply> redeem(const SessionEntry& entry,
-                                                                    const JoinRequest& request,
-                                                                    const rpc::TicketCredential& ticket,
-                                                                    std::optional<AccessRole> role);
   void stop_watching(SessionEntry& entry, const rpc::Welcome& joined);
-  /// @param person  name in the ticket, for the audit log  @param event  of the audit log
-  void restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry, const std::string& person,
-                      const char* event = "ticket_unused");
   /// Error reply if the shard or the machine is too busy for a new join; nullopt if not.
   [[nodiscard]] std::optional<rpc::ErrorReply> overload_reply(const SessionEntry& entry) const;
 
@@ -74,9 +66,8 @@ class SessionJoins final : public JoinHandler {
   SessionCommands& commands_;
   SessionRedirect redirect_{registry_};
   auth::ServerKeystore& trust_;
-  TicketUses* ticket_uses_ = nullptr;
+  TicketRedemption tickets_;
   LoadLimits limits_;
-  std::function<void(const std::string&)> on_message_;
 };
 
 }  // namespace tandem::server

@@ -27,23 +27,26 @@ ErrorReply not_used_reply(TicketUses::Outcome outcome) {
 
 std::function<void(JoinReply)> used_once(TicketUses* uses, const JoinRequest& request,
                                          std::function<void(JoinReply)> answer,
-                                         std::function<void(const rpc::Welcome&)> failed) {
+                                         std::function<void(const rpc::Welcome&)> failed,
+                                         std::function<bool(const rpc::Welcome&)> again) {
   const auto* const credential = std::get_if<rpc::TicketCredential>(&request.hello.credential);
   if (uses == nullptr || credential == nullptr) return answer;
   const auto sealed = rpc::decode_signed_ticket(credential->bytes);
   const auto content = sealed ? rpc::decode_ticket_content(sealed->content) : std::nullopt;
   if (!content) return answer;  // no Welcome follows
   return [uses, ticket = content->ticket_id, not_after = content->not_after, answer = std::move(answer),
-          failed = std::move(failed)](JoinReply reply) {
+          failed = std::move(failed), again = std::move(again)](JoinReply reply) {
     const auto* const welcome = std::get_if<rpc::Welcome>(&reply);
     if (welcome == nullptr) return answer(std::move(reply));
     const std::string session = welcome->session_name;
     const std::int64_t life_s = std::max<std::int64_t>(not_after - auth::wall_seconds(), 0);
-    uses->use(session, ticket, life_s, [answer, failed, reply = std::move(reply)](TicketUses::Outcome outcome) mutable {
-      if (outcome == TicketUses::Outcome::kAccepted) return answer(std::move(reply));
-      failed(std::get<rpc::Welcome>(reply));
-      answer(not_used_reply(outcome));
-    });
+    const bool returns = again(*welcome);
+    uses->use(session, ticket, life_s, returns,
+              [answer, failed, reply = std::move(reply)](TicketUses::Outcome outcome) mutable {
+                if (outcome == TicketUses::Outcome::kAccepted) return answer(std::move(reply));
+                failed(std::get<rpc::Welcome>(reply));
+                answer(not_used_reply(outcome));
+              });
   };
 }
 

@@ -18,8 +18,9 @@ class TicketUses {
   };
   virtual ~TicketUses() = default;
   /// Uses a ticket that this server has redeemed. @param life_s  for which it stays valid
-  /// @param done  called later on the control plane's thread, once
-  virtual void use(const std::string& session, const auth::Id16& ticket, std::int64_t life_s,
+  /// @param again  in the place of its use at a former owner of the session, which has ended
+  /// @param done   called later on the control plane's thread, once
+  virtual void use(const std::string& session, const auth::Id16& ticket, std::int64_t life_s, bool again,
                    std::function<void(Outcome)> done) = 0;
   /// Makes a ticket that this server has used valid again.
   virtual void restore(const std::string& session, const auth::Id16& ticket) = 0;
@@ -29,8 +30,10 @@ class TicketUses {
 /// error if it was used before. Other replies pass at once.
 /// @param uses    null: the server belongs to no service, and `answer` is returned
 /// @param failed  frees the seat of a Welcome that is not sent
+/// @param again   whether the ticket of a Welcome was used at a former owner of the session, and returns
 [[nodiscard]] std::function<void(JoinReply)> used_once(TicketUses* uses, const JoinRequest& request,
                                                        std::function<void(JoinReply)> answer,
-                                                       std::function<void(const rpc::Welcome&)> failed);
+                                                       std::function<void(const rpc::Welcome&)> failed,
+                                                       std::function<bool(const rpc::Welcome&)> again);
 
 }  // namespace tandem::server

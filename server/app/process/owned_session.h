@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/auth/ticket.h"
 #include "common/base/time.h"
@@ -20,6 +21,7 @@ struct OwnedSession {
   std::string code;                           ///< 10 characters of 0-9 A-Z; empty: tickets only
   std::optional<Time> ends_at{};              ///< time limit; nullopt: none
   std::optional<SessionSnapshot> snapshot{};  ///< newest one that its former owner kept; nullopt: a new session
+  std::vector<auth::Id16> consoles{};         ///< tickets of the consoles at its former owner
   /// Of the ownership in the directory. It becomes the session's epoch: higher than that of each former owner.
   std::uint64_t revision = 0;
   SnapshotKeeper* keeper = nullptr;  ///< must outlive the session

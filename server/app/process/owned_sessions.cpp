@@ -33,7 +33,7 @@ std::string SessionTable::open_owned(OwnedSession owned) {
   SessionInstance& session = **opened;
   session.keep_options(std::move(owned.options), owned.ends_at);
   session.set_keeper(owned.keeper);
-  session.set_owned(std::move(owned.on_over));
+  session.set_owned(std::move(owned.on_over), std::move(owned.consoles));
   if (!serve_opened(std::move(*opened))) return "the thread of this tick rate takes no sessions at present";
   report_restored(session, found);
   return {};

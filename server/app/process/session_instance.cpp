@@ -126,6 +126,7 @@ void SessionInstance::set_keeper(SnapshotKeeper* keeper) {
   if (keeper == nullptr) return;
   SessionSnapshot kept = snapshot_ ? *snapshot_ : SessionSnapshot{};
   kept.checkpoint = {};
+  kept.checkpoint.epoch = epoch_;
   kept.id = id_;
   kept.name = options_->name;
   kept.code = code_;

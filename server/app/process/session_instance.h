@@ -79,8 +79,13 @@ class SessionInstance {
   /// Keeps the newest snapshots of the session; null: nothing does. It must outlive this.
   [[nodiscard]] SnapshotKeeper* keeper() const noexcept { return keeper_; }
   void set_keeper(SnapshotKeeper* keeper);
-  /// Makes this a session of a service: `on_over` as OwnedSession has it.
-  void set_owned(std::function<void(bool)> on_over) { on_over_ = std::move(on_over); }
+  /// Makes this a session of a service: both as OwnedSession has them.
+  void set_owned(std::function<void(bool)> on_over, std::vector<auth::Id16> consoles) {
+    on_over_ = std::move(on_over);
+    consoles_ = std::move(consoles);
+  }
+  /// Tickets of the consoles at its former owner.
+  [[nodiscard]] const std::vector<auth::Id16>& consoles() const noexcept { return consoles_; }
   /// Called when a session of a service is over; null: it is of this server only.
   [[nodiscard]] const std::function<void(bool)>& on_over() const noexcept { return on_over_; }
 
@@ -123,6 +128,7 @@ class SessionInstance {
   std::optional<Time> ends_at_;
   SnapshotKeeper* keeper_ = nullptr;
   std::function<void(bool)> on_over_;
+  std::vector<auth::Id16> consoles_;
   auth::Id16 id_;
   std::string code_;
   std::uint64_t epoch_ = 1;

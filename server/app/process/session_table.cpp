@@ -102,10 +102,14 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
                            session.snapshot() != nullptr ? session.resume_until() : Time{}};
   made.recording = session.recording_desk();
   made.no_recording = no_recording(session);
+  made.consoles = session.consoles();
   if (SnapshotKeeper* const keeper = session.keeper(); keeper != nullptr) {
     made.on_removed = [keeper, name = session.options().name](const auto& keys) { keeper->set_removed(name, keys); };
     made.on_persons = [keeper, name = session.options().name](const auto& persons) {
       keeper->set_persons(name, persons);
+    };
+    made.on_consoles = [keeper, name = session.options().name](const auto& tickets) {
+      keeper->set_consoles(name, tickets);
     };
   }
   if (session.snapshot() != nullptr)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/auth/ticket.h"
 #include "server/app/process/checkpoint_mailbox.h"
 #include "server/session/session_snapshot.h"
 
@@ -22,6 +23,9 @@ class SnapshotKeeper {
   virtual void set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys) = 0;
   /// Sets the names of the persons at the seats of a session. Thread-safe.
   virtual void set_persons(const std::string& name, const std::vector<std::string>& persons) = 0;
+  /// Sets the tickets of a session's consoles, which return at its next owner. Thread-safe. A keeper of a server that
+  /// is alone keeps none: after its restart its consoles need new tickets.
+  virtual void set_consoles(const std::string& /*name*/, const std::vector<auth::Id16>& /*tickets*/) {}
   /// Deletes the snapshot of a session that has ended. From the thread of `add`.
   virtual void remove(const std::string& name) = 0;
 };

@@ -1,6 +1,10 @@
 #include "server/app/service/directory_snapshots.h"
 
+#include <utility>
+
 #include "common/auth/io/state_directory.h"
+#include "common/base/raw_bytes.h"
+#include "server/service/service_consoles.h"
 
 namespace tandem::server {
 
@@ -27,29 +31,40 @@ void DirectorySnapshots::remove(const std::string& name) {
   entries_.remove_if([&](const Entry& entry) { return entry.snapshot.name == name; });
 }
 
-std::vector<std::pair<std::string, std::string>> DirectorySnapshots::take() {
-  std::vector<std::pair<std::string, std::string>> newest;
+void DirectorySnapshots::set_consoles(const std::string& name, const std::vector<auth::Id16>& tickets) {
+  const std::lock_guard lock(lock_);
+  for (Entry& entry : entries_)
+    if (entry.snapshot.name == name && entry.consoles != tickets)
+      entry.consoles = tickets, entry.consoles_changed = true;
+}
+
+std::string DirectorySnapshots::take_snapshot(Entry& entry) {
+  Checkpoint checkpoint;
+  const bool arrived = entry.mailbox->take(checkpoint);
+  if (!arrived && !(entry.changed && !entry.taken.empty())) return {};
+  if (arrived) {
+    std::vector<std::byte> bytes(kCheckpointMax);
+    bytes.resize(encode_checkpoint(checkpoint, bytes));
+    if (bytes == entry.taken && !entry.changed) return {};
+    entry.taken = std::move(bytes);
+    entry.snapshot.checkpoint = checkpoint;
+  }
+  entry.changed = false;
+  entry.snapshot.written_s = auth::wall_seconds();
+  return std::string(text_of(encode_snapshot(entry.snapshot)));
+}
+
+std::vector<DirectorySnapshots::News> DirectorySnapshots::take() {
+  std::vector<News> all;
   const std::lock_guard lock(lock_);
   arrived_.clear();
   for (Entry& entry : entries_) {
-    Checkpoint checkpoint;
-    const bool arrived = entry.mailbox->take(checkpoint);
-    if (!arrived && !(entry.changed && !entry.taken.empty())) continue;
-    if (arrived) {
-      std::vector<std::byte> bytes(kCheckpointMax);
-      bytes.resize(encode_checkpoint(checkpoint, bytes));
-      if (bytes == entry.taken && !entry.changed) continue;
-      entry.taken = std::move(bytes);
-      entry.snapshot.checkpoint = checkpoint;
-    }
-    entry.changed = false;
-    entry.snapshot.written_s = auth::wall_seconds();
-    const std::vector<std::byte> encoded = encode_snapshot(entry.snapshot);
-    std::string text(encoded.size(), '\0');
-    for (std::size_t i = 0; i < encoded.size(); ++i) text[i] = static_cast<char>(encoded[i]);
-    newest.emplace_back(entry.snapshot.name, std::move(text));
+    News news{.session = entry.snapshot.name, .snapshot = take_snapshot(entry)};
+    if (std::exchange(entry.consoles_changed, false))
+      news.consoles = to_text(ServiceConsoles{entry.snapshot.id, entry.snapshot.checkpoint.epoch, entry.consoles});
+    if (!news.snapshot.empty() || news.consoles) all.push_back(std::move(news));
   }
-  return newest;
+  return all;
 }
 
 }  // namespace tandem::server

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/io/event_fd.h"
@@ -24,10 +23,17 @@ class DirectorySnapshots final : public SnapshotKeeper {
   [[nodiscard]] std::shared_ptr<CheckpointMailbox> add(SessionSnapshot kept) override;
   void set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys) override;
   void set_persons(const std::string& name, const std::vector<std::string>& persons) override;
+  void set_consoles(const std::string& name, const std::vector<auth::Id16>& tickets) override;
   void remove(const std::string& name) override;
 
-  /// Takes the snapshots that changed since the last call: name of the session, and bytes of `encode_snapshot`.
-  [[nodiscard]] std::vector<std::pair<std::string, std::string>> take();
+  /// The changed values of a session.
+  struct News {
+    std::string session;
+    std::string snapshot{};                 ///< bytes of `encode_snapshot`; empty: unchanged
+    std::optional<std::string> consoles{};  ///< text of ServiceConsoles; nullopt: unchanged
+  };
+  /// Takes what changed since the last call.
+  [[nodiscard]] std::vector<News> take();
 
  private:
   struct Entry {
@@ -35,7 +41,12 @@ class DirectorySnapshots final : public SnapshotKeeper {
     std::shared_ptr<CheckpointMailbox> mailbox;
     std::vector<std::byte> taken{};  ///< bytes of the checkpoint as last taken
     bool changed = false;            ///< something else than the checkpoint
+    std::vector<auth::Id16> consoles{};
+    bool consoles_changed = false;
   };
+
+  /// Bytes of the newest snapshot of an entry; empty: it has not changed.
+  [[nodiscard]] static std::string take_snapshot(Entry& entry);
 
   io::EventFd arrived_;  ///< of the mailboxes; `take` is called at a steady pace
   std::mutex lock_;

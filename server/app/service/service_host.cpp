@@ -14,6 +14,7 @@
 #include "server/app/service/service_config.h"
 #include "server/app/service/service_specs.h"
 #include "server/directory/io/etcd_directory.h"
+#include "server/service/service_consoles.h"
 
 namespace tandem::server {
 namespace {
@@ -174,6 +175,8 @@ void ServiceHost::open_session(const ServiceEvent& event) {
       parts_.output.error("session " + event.session + " starts from the beginning: its snapshot in the directory " +
                           snapshot.error());
   }
+  owned.consoles =
+      tickets_for_next_owner(event.consoles, event.spec.id, owned.snapshot ? owned.snapshot->checkpoint.epoch : 0);
   if (const std::string why = parts_.sessions.open_owned(std::move(owned)); !why.empty())
     return open_failed(event, why);
   set_act_until();

@@ -54,7 +54,10 @@ void ServiceThread::run() {
     auto pause = kPause;
     {
       const std::lock_guard lock(mutex_);
-      for (auto& [session, bytes] : newest) member_.set_snapshot(session, std::move(bytes));
+      for (auto& news : newest) {
+        if (!news.snapshot.empty()) member_.set_snapshot(news.session, std::move(news.snapshot));
+        if (news.consoles) member_.set_consoles(news.session, std::move(*news.consoles));
+      }
       member_.step(now());
       while (const auto result = member_.tickets().poll_result()) results.push_back(*result);
       if (member_.has_event() || std::exchange(acted_until_, member_.act_until()) != member_.act_until())

@@ -6,7 +6,7 @@
 
 namespace tandem::server {
 
-void ServiceTicketUses::use(const std::string& session, const auth::Id16& ticket, std::int64_t life_s,
+void ServiceTicketUses::use(const std::string& session, const auth::Id16& ticket, std::int64_t life_s, bool again,
                             std::function<void(Outcome)> done) {
   std::uint64_t order = 0;
   {
@@ -15,7 +15,7 @@ void ServiceTicketUses::use(const std::string& session, const auth::Id16& ticket
     waiting_.emplace(order, std::move(done));
   }
   thread_.with([&](ServiceMember& member, Time now) {
-    member.tickets().use(now, session, tandem::to_hex(ticket), std::chrono::seconds(life_s), order);
+    member.tickets().use(now, session, tandem::to_hex(ticket), std::chrono::seconds(life_s), order, again);
   });
 }
 

@@ -17,7 +17,7 @@ class ServiceTicketUses final : public TicketUses {
   /// Both must outlive this.
   ServiceTicketUses(ServiceThread& thread, ControlServer& control) : thread_(thread), control_(control) {}
 
-  void use(const std::string& session, const auth::Id16& ticket, std::int64_t life_s,
+  void use(const std::string& session, const auth::Id16& ticket, std::int64_t life_s, bool again,
            std::function<void(Outcome)> done) override;
   void restore(const std::string& session, const auth::Id16& ticket) override;
   /// Takes a result, on the service's thread.

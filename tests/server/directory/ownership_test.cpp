@@ -233,6 +233,37 @@ TEST_F(OwnershipTest, UsesATicketOnceInTheWholeServiceAndOnlyForItsOwnSession) {
   EXPECT_TRUE(has(a, Notice::Kind::kTicketRefused, "2"));
 }
 
+/// A console was joined by its ticket at an owner that has died.
+TEST_F(OwnershipTest, UsesATicketAgainInThePlaceOfItsUseAtAFormerOwnerAndOnce) {
+  Server& a = start("a");
+  a.core.claim("s");
+  settle();
+  (void)store_.execute(9999, Transaction{{}, {Put{"/tandem/v1/tickets/1", "former/1/1", 0}}, {}});
+  EXPECT_TRUE(a.core.use_ticket("s", "1"));
+  settle();
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketRefused, "1"));
+  a.notices.clear();
+  EXPECT_TRUE(a.core.use_ticket("s", "1", 0, true));
+  pass(500ms);
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketAccepted, "1"));
+  EXPECT_FALSE(has(a, Notice::Kind::kTicketRefused, "1"));
+  EXPECT_TRUE(store_.entries().at("/tandem/v1/tickets/1").value.starts_with("a/"));
+  a.notices.clear();
+  EXPECT_TRUE(a.core.use_ticket("s", "1"));
+  settle();
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketRefused, "1"));
+  // A ticket that was not used, or that its former owner made valid again.
+  EXPECT_TRUE(a.core.use_ticket("s", "2", 0, true));
+  pass(500ms);
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketAccepted, "2"));
+  // A server that has lost the session takes no use over.
+  (void)store_.execute(9998, Transaction{{}, {Put{"/tandem/v1/tickets/3", "former/1/3", 0}}, {}});
+  (void)store_.execute(9999, Transaction{{}, {Erase{"/tandem/v1/live/sessions/s/owner"}}, {}});
+  EXPECT_TRUE(a.core.use_ticket("s", "3", 0, true));
+  pass(500ms);
+  EXPECT_EQ(store_.entries().at("/tandem/v1/tickets/3").value, "former/1/3");
+}
+
 TEST_F(OwnershipTest, LosesASessionWhoseKeyAnOperatorErased) {
   Server& a = start("a");
   a.core.claim("s");

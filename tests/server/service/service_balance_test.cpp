@@ -113,6 +113,24 @@ TEST_F(ServiceBalance, SessionsStayWhereAnOperatorMovedThem) {
   EXPECT_FALSE(has("catalogue/s1/home"));
 }
 
+TEST_F(ServiceBalance, SessionsThatAnOperatorMovedSpreadAgainWhenTheyMayBeAnywhere) {
+  start("a", sessions(3));
+  start("b");
+  for (const char* session : {"s1", "s2", "s3"}) {
+    order_move(session, "b");
+    pass(1s);
+  }
+  pass_with_loads(60s);
+  ASSERT_EQ(counts(), (std::vector<std::size_t>{0, 3}));
+  for (const char* session : {"s1", "s2", "s3"}) order_move(session, ServiceKeys::kAnyServer);
+  pass(1s);
+  EXPECT_EQ(value("catalogue/s1/home"), "");
+  EXPECT_EQ(value("catalogue/s1/move"), "");
+  pass_with_loads(60s);
+  EXPECT_GE(counts()[0], 1U);
+  EXPECT_GE(counts()[1], 1U);
+}
+
 TEST_F(ServiceBalance, NothingMovesWithoutBalanceButADrainMovesAll) {
   start("a", sessions(3), "", false);
   start("b");

@@ -70,6 +70,38 @@ TEST_F(ServiceTest, ClaimsASessionWithoutOwnerAndStandbyOnlyWhenAClientAsks) {
   EXPECT_EQ(b.member.locate(named("lab")).kind, Place::kHere);
 }
 
+TEST_F(ServiceTest, GivesTheConsolesOfADeadOwnerToTheNextOneAndErasesThemWithTheSession) {
+  Server& a = start("a", {{"lab", session_spec(1)}, {"two", session_spec(2)}});
+  Server& b = start("b");
+  ASSERT_TRUE(a.open.contains("lab"));
+  EXPECT_EQ(a.open["lab"].consoles, "");
+  a.member.set_consoles("lab", "consoles 1");
+  a.member.set_consoles("lab", "consoles 2");
+  pass(3s);
+  EXPECT_EQ(value("consoles/lab"), "consoles 2");
+  EXPECT_FALSE(has("consoles/two"));
+  a.runs = false;
+  a.open.clear();
+  pass(5s);
+  ASSERT_TRUE(b.open.contains("lab") && b.open.contains("two"));
+  EXPECT_EQ(b.open["lab"].consoles, "consoles 2");
+  EXPECT_EQ(b.open["two"].consoles, "");
+  a.member.set_consoles("lab", "of the old owner");
+  a.runs = true;
+  pass(3s);
+  EXPECT_EQ(value("consoles/lab"), "consoles 2") << "written only while its writer owns the session";
+  b.open.clear();
+  b.member.replace("lab", session_spec(5));
+  pass(1s);
+  EXPECT_EQ(b.open["lab"].consoles, "") << "another run";
+  EXPECT_FALSE(has("consoles/lab"));
+  b.member.set_consoles("lab", "consoles 3");
+  pass(500ms);
+  b.member.end("lab");
+  pass(1s);
+  EXPECT_FALSE(has("consoles/lab"));
+}
+
 TEST_F(ServiceTest, HoldsWithoutTheDirectoryAndGoesOnWhenTheLeaseStood) {
   Server& a = start("a", {{"lab", session_spec(1)}});
   EXPECT_GT(a.member.act_until(), now_);

@@ -9,8 +9,9 @@ using Outcome = ServiceTickets::Outcome;
 
 class ServiceTicketsTest : public ServiceTest {
  protected:
-  void use(Server& server, const std::string& session, const std::string& ticket, std::uint64_t order) {
-    server.member.tickets().use(now_, session, ticket, 2h, order);
+  void use(Server& server, const std::string& session, const std::string& ticket, std::uint64_t order,
+           bool again = false) {
+    server.member.tickets().use(now_, session, ticket, 2h, order, again);
   }
   std::map<std::uint64_t, Outcome> results(Server& server) {
     std::map<std::uint64_t, Outcome> all;
@@ -52,6 +53,40 @@ TEST_F(ServiceTicketsTest, StaysUsedAfterATakeover) {
   use(*b, "lab", "t1", 2);
   pass(500ms);
   EXPECT_EQ(results(*b).at(2), Outcome::kUsed);
+}
+
+TEST_F(ServiceTicketsTest, OfAConsoleIsAcceptedAgainAfterATakeoverAndOnce) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(3s);
+  EXPECT_EQ(results(*a).at(1), Outcome::kAccepted);
+  a->runs = false;
+  a->open.clear();
+  pass(5s);
+  ASSERT_TRUE(b->open.contains("lab"));
+  use(*b, "lab", "t1", 2, true);
+  pass(500ms);
+  EXPECT_EQ(results(*b).at(2), Outcome::kAccepted);
+  use(*b, "two", "t1", 3);
+  pass(500ms);
+  EXPECT_EQ(results(*b).at(3), Outcome::kUsed);
+  // It can be restored like any other that this server has used.
+  b->member.tickets().restore("lab", "t1");
+  pass(500ms);
+  EXPECT_FALSE(has("tickets/t1"));
+}
+
+/// A console that had no effect leaves, and comes at once with the same ticket.
+TEST_F(ServiceTicketsTest, UseWaitsForTheRestoreOfTheSameTicket) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(1), Outcome::kAccepted);
+  a->member.tickets().restore("lab", "t1");
+  use(*a, "lab", "t1", 2);
+  pass(1s);
+  EXPECT_EQ(results(*a).at(2), Outcome::kAccepted);
+  EXPECT_TRUE(has("tickets/t1")) << "the restore must not erase the new use";
 }
 
 TEST_F(ServiceTicketsTest, RestoredTicketIsValidAgainEverywhere) {

@@ -30,6 +30,20 @@ struct Joining : RegistryFixture {
     return reply.value_or(rpc::ErrorReply{});
   }
 
+  /// A ticket for a console of session 1 at workstation touch-07.
+  [[nodiscard]] rpc::Credential operators_ticket(const auth::Id16& id) const {
+    auth::Ticket ticket;
+    ticket.ticket_id = id;
+    ticket.session_id = id_of(1);
+    ticket.role = AccessRole::kOperator;
+    ticket.workstation.sha256 = {std::byte{7}};
+    ticket.not_before = auth::wall_seconds() - 1;
+    ticket.not_after = ticket.not_before + 3600;
+    const auto bytes = auth::sign_ticket(ticket, keys.ticket_key());
+    EXPECT_TRUE(bytes) << bytes.error();
+    return rpc::TicketCredential{{bytes->begin(), bytes->end()}};
+  }
+
   SessionEntry& lesson = add("lesson", 1, kCode);
   auth::ServerKeystore keys = auth::ServerKeystore::ephemeral(auth::wall_seconds());
   SessionCommands commands{registry, keys};
@@ -115,6 +129,40 @@ TEST(SessionJoins, RejectWrongCredentialsWithoutReservingTheSeat) {
       << "its participant was removed";
   EXPECT_FALSE(j.lesson.seats[0].joining());
   EXPECT_FALSE(j.lesson.seats[1].joining());
+}
+
+/// The former owner of the session has died; this server had the session, and the ticket, before that.
+TEST(SessionJoins, AdmitAConsoleOfADeadOwnerAgainByItsTicketAndOnlyThatOne) {
+  Joining j;
+  const auth::Id16 ticket{std::byte{5}}, other{std::byte{6}};
+  std::vector<std::vector<auth::Id16>> stored;
+  j.lesson.registration.on_consoles = [&](std::vector<auth::Id16> tickets) { stored.push_back(std::move(tickets)); };
+  const JoinRequest request = Joining::request("", j.operators_ticket(ticket));
+  const JoinReply before = j.join(request);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(before)) << error_of(before).text;
+  EXPECT_TRUE(stored.empty()) << "the Welcome is not sent";
+  j.joins.on_joined(request, std::get<rpc::Welcome>(before), {});
+  EXPECT_EQ(stored.back(), std::vector{ticket});
+  j.joins.on_disconnected(std::get<rpc::Welcome>(before), false);
+  EXPECT_TRUE(stored.back().empty());
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kTicket) << "its console has left";
+
+  j.lesson.consoles = ConsoleTickets({ticket, other}, Time::max());
+  JoinRequest thief = request;
+  thief.workstation = {"touch-08", {std::byte{8}}, 0};
+  EXPECT_EQ(error_of(j.join(thief)).code, ErrorCode::kTicket) << "another key";
+  const JoinReply again = j.join(request);
+  const auto* const welcome = std::get_if<rpc::Welcome>(&again);
+  ASSERT_NE(welcome, nullptr) << error_of(again).text;
+  EXPECT_EQ(welcome->role, AccessRole::kOperator);
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kTicket) << "a second console, before the first has joined";
+  j.joins.on_join_failed(*welcome);
+  const JoinReply third = j.join(request);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(third)) << "its Welcome could not be sent";
+  j.joins.on_joined(request, std::get<rpc::Welcome>(third), {});
+  EXPECT_EQ(stored.back(), (std::vector{ticket, other})) << "for the owner after this one";
+  EXPECT_TRUE(j.joins.is_current(std::get<rpc::Welcome>(third)));
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kTicket);
 }
 
 TEST(SessionJoins, ReplyThatASessionIsEndingThatTheShardDoesNotServe) {

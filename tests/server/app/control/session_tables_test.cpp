@@ -26,6 +26,53 @@ TEST(ConsoleTickets, ReturnATicketOnce) {
   EXPECT_FALSE(consoles.contains(first));
 }
 
+Secret<32> console(int number) {
+  Secret<32> secret;
+  secret.bytes[0] = static_cast<std::byte>(number);
+  return secret;
+}
+
+TEST(ConsoleTickets, OfTheFormerOwnerReturnOnceUntilTheirTimeIsOver) {
+  const auth::Id16 one{std::byte{1}}, two{std::byte{2}}, other{std::byte{3}};
+  ConsoleTickets consoles({one, two}, Time{10s});
+  EXPECT_TRUE(consoles.empty()) << "no console is joined yet";
+  EXPECT_TRUE(consoles.returns(one, Time{9s}));
+  EXPECT_FALSE(consoles.returns(one, Time{10s}));
+  EXPECT_FALSE(consoles.returns(other, Time{9s}));
+  consoles.add(console(1), one);
+  EXPECT_FALSE(consoles.returns(one, Time{9s})) << "it must not admit a second console";
+  EXPECT_TRUE(consoles.returned(console(1)));
+  consoles.join(console(1));
+  EXPECT_EQ(consoles.take(console(1)), one);
+  EXPECT_FALSE(consoles.returns(one, Time{9s})) << "its console has left";
+  EXPECT_TRUE(consoles.returns(two, Time{9s}));
+}
+
+TEST(ConsoleTickets, ReturnAgainWhenTheWelcomeWasNotSent) {
+  const auth::Id16 one{std::byte{1}}, fresh{std::byte{2}};
+  ConsoleTickets consoles({one}, Time{10s});
+  consoles.add(console(1), one);
+  consoles.add(console(2), fresh);
+  EXPECT_FALSE(consoles.returned(console(2)));
+  EXPECT_EQ(consoles.take(console(1)), one);
+  EXPECT_EQ(consoles.take(console(2)), fresh);
+  EXPECT_TRUE(consoles.returns(one, Time{}));
+  EXPECT_FALSE(consoles.returns(fresh, Time{})) << "a ticket that no former owner has had";
+}
+
+TEST(ConsoleTickets, NextOwnerGetsThoseOfJoinedConsolesAndThoseThatReturn) {
+  const auth::Id16 one{std::byte{1}}, two{std::byte{2}}, fresh{std::byte{3}}, unsent{std::byte{4}};
+  ConsoleTickets consoles({one, two}, Time{10s});
+  consoles.add(console(1), one);  // its Welcome is not sent yet
+  consoles.add(console(2), fresh);
+  consoles.join(console(2));
+  consoles.add(console(3), unsent);
+  EXPECT_EQ(consoles.returning_next(), (std::vector{one, fresh, two}));
+  EXPECT_EQ(consoles.release_all(), (std::vector{one, fresh, unsent}));
+  EXPECT_TRUE(consoles.empty());
+  EXPECT_EQ(consoles.returning_next(), (std::vector{two, one, fresh, unsent}));
+}
+
 TEST(LinkTestSlots, BeginNoMoreJoinsThanThereAreSlots) {
   LinkTestSlots slots;
   for (std::size_t i = 0; i < LinkTestSlots::kMax; ++i) EXPECT_TRUE(slots.begin_join()) << i;

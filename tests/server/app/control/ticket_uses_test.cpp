@@ -13,14 +13,15 @@ namespace {
 
 class ScriptedUses final : public TicketUses {
  public:
-  void use(const std::string& of, const auth::Id16& id, std::int64_t life_s,
+  void use(const std::string& of, const auth::Id16& id, std::int64_t life_s, bool used_again,
            std::function<void(Outcome)> done) override {
-    session = of, ticket = id, life = life_s, answer = std::move(done);
+    session = of, ticket = id, life = life_s, again = used_again, answer = std::move(done);
   }
   void restore(const std::string&, const auth::Id16&) override {}
   std::string session;
   auth::Id16 ticket{};
   std::int64_t life = 0;
+  bool again = false;
   std::function<void(Outcome)> answer;
 };
 
@@ -40,7 +41,8 @@ class UsedOnce : public testing::Test {
   }
   std::function<void(JoinReply)> wrapped(TicketUses* by, const JoinRequest& join) {
     return used_once(
-        by, join, [this](JoinReply r) { reply = std::move(r); }, [this](const rpc::Welcome& w) { failed = w.seat; });
+        by, join, [this](JoinReply r) { reply = std::move(r); }, [this](const rpc::Welcome& w) { failed = w.seat; },
+        [](const rpc::Welcome& w) { return w.seat.empty(); });
   }
   static rpc::Welcome welcome() {
     rpc::Welcome w;
@@ -58,6 +60,7 @@ TEST_F(UsedOnce, WelcomeWaitsForTheUseOfItsTicket) {
   EXPECT_FALSE(reply);
   EXPECT_EQ(uses.session, "lab");
   EXPECT_EQ(uses.ticket[0], std::byte{5});
+  EXPECT_FALSE(uses.again);
   EXPECT_GE(uses.life, 98);
   EXPECT_LE(uses.life, 100);
   uses.answer(TicketUses::Outcome::kAccepted);
@@ -76,6 +79,13 @@ TEST_F(UsedOnce, UsedTicketFreesTheSeatAndIsRefused) {
     ASSERT_TRUE(reply);
     EXPECT_EQ(std::get<rpc::ErrorReply>(*reply).code, code);
   }
+}
+
+TEST_F(UsedOnce, ConsoleThatReturnsTakesThePlaceOfItsFormerUse) {
+  rpc::Welcome console = welcome();
+  console.seat.clear();
+  wrapped(&uses, request())(console);
+  EXPECT_TRUE(uses.again);
 }
 
 TEST_F(UsedOnce, OtherRepliesAndCredentialsPassAtOnce) {

@@ -21,10 +21,14 @@ class KeptSnapshots final : public SnapshotKeeper {
   }
   void set_removed(const std::string&, const std::vector<std::array<std::byte, 32>>&) override {}
   void set_persons(const std::string&, const std::vector<std::string>&) override {}
+  void set_consoles(const std::string& name, const std::vector<auth::Id16>& tickets) override {
+    consoles[name] = tickets;
+  }
   void remove(const std::string& name) override { removed.push_back(name); }
   SessionSnapshot last;
   std::shared_ptr<CheckpointMailbox> mailbox;
   Names removed;
+  std::map<std::string, std::vector<auth::Id16>> consoles;
 
  private:
   io::EventFd wake_;
@@ -139,6 +143,28 @@ TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
   ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
   EXPECT_EQ(m.only().snapshot(), nullptr);
   EXPECT_EQ(m.only().epoch(), 600U);
+}
+
+TEST(OwnedSessions, LetTheConsolesOfTheirFormerOwnerReturnHereAndAtTheNextOwner) {
+  const auth::Id16 ticket{std::byte{5}};
+  Member m;
+  m.rig.start();
+  OwnedSession owned = m.owned(10);
+  owned.consoles = {ticket};
+  ASSERT_EQ(m.rig.table->open_owned(std::move(owned)), "");
+  EXPECT_EQ(m.kept.last.checkpoint.epoch, 10U) << "of the consoles that are published";
+  EXPECT_EQ(m.kept.consoles["exam"], std::vector{ticket});
+  bool returns = false, late = true, joined = true;
+  m.rig.control->change([&](const SessionRegistry& registry, const auto& done) {
+    const SessionEntry* const entry = registry.find(m.only().id());
+    returns = entry->consoles.returns(ticket, io::monotonic_now());
+    late = entry->consoles.returns(ticket, io::monotonic_now() + kResumeLife);
+    joined = !entry->consoles.empty();
+    done();
+  });
+  EXPECT_TRUE(returns);
+  EXPECT_FALSE(late);
+  EXPECT_FALSE(joined);
 }
 
 TEST(OwnedSessions, KeepTheirSnapshotWhenTheyAreGivenUp) {

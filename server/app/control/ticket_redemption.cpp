@@ -1,0 +1,54 @@
+#include "server/app/control/ticket_redemption.h"
+
+#include <utility>
+
+#include "common/io/log.h"
+#include "proto/rpc/ticket_codec.h"
+#include "server/app/control/audit_writer.h"
+
+namespace tandem::server {
+namespace {
+
+/// Id in a ticket; not authenticated.
+std::optional<auth::Id16> claimed_id(const rpc::TicketCredential& ticket) {
+  const auto sealed = rpc::decode_signed_ticket(ticket.bytes);
+  const auto content = sealed ? rpc::decode_ticket_content(sealed->content) : std::nullopt;
+  return content ? std::optional(content->ticket_id) : std::nullopt;
+}
+
+}  // namespace
+
+std::expected<auth::Ticket, rpc::ErrorReply> TicketRedemption::redeem(const SessionEntry& entry,
+                                                                      const JoinRequest& request,
+                                                                      const rpc::TicketCredential& ticket,
+                                                                      std::optional<AccessRole> role, Time now) {
+  const auto attempt = [&] {
+    return trust_.tickets().redeem(ticket.bytes,
+                                   {entry.registration.id, entry.registration.epoch, request.hello.seat, role,
+                                    auth::KeyFingerprint{request.workstation.spki}, auth::wall_seconds()});
+  };
+  auto redeemed = attempt();
+  // This server has seen the ticket before, as an earlier owner of the session. All other rules hold for it.
+  if (!redeemed && redeemed.error().fault && redeemed.error().fault->rule == auth::TicketCheck::kUsed)
+    if (const auto id = claimed_id(ticket); id && entry.consoles.returns(*id, now)) {
+      static_cast<void>(trust_.tickets().restore(*id));  // on an error the next line is written again by `attempt`
+      redeemed = attempt();
+    }
+  if (redeemed) return std::move(*redeemed);
+  if (!redeemed.error().fault) {  // a failure of the server itself
+    if (on_message_) on_message_("no ticket can be used: " + redeemed.error().text);
+    io::log_event(io::Level::kError, {.event = "error", .text = redeemed.error().text});
+  }
+  return std::unexpected(ticket_error_reply(redeemed.error()));
+}
+
+void TicketRedemption::restore(const std::optional<auth::Id16>& ticket, const SessionEntry& entry,
+                               const std::string& person, const char* event) {
+  if (!ticket) return;
+  const std::string problem = trust_.tickets().restore(*ticket);
+  if (uses_ != nullptr) uses_->restore(entry.registration.name, *ticket);
+  trust_.audit(auth::wall_seconds(), event, entry.registration.name,
+               auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem) + by_person(person));
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,71 @@
+// The state of its sessions that a server publishes for their next owner.
+#include "server/app/service/directory_snapshots.h"
+
+#include <gtest/gtest.h>
+
+#include "server/service/service_consoles.h"
+
+namespace tandem::server {
+namespace {
+
+class DirectorySnapshotsTest : public testing::Test {
+ protected:
+  /// A session "lab" of this server, as the owner of this epoch has it.
+  std::shared_ptr<CheckpointMailbox> add(std::uint64_t epoch) {
+    SessionSnapshot kept;
+    kept.name = "lab";
+    kept.id = kId;
+    kept.checkpoint.epoch = epoch;
+    return snapshots.add(std::move(kept));
+  }
+  static constexpr rpc::Id kId{std::byte{9}};
+  static constexpr auth::Id16 kTicket{std::byte{1}};
+  DirectorySnapshots snapshots;
+};
+
+TEST_F(DirectorySnapshotsTest, TakeConsolesOnceWhenTheyChangeAlsoWithoutASnapshot) {
+  static_cast<void>(add(12));
+  EXPECT_TRUE(snapshots.take().empty());
+  snapshots.set_consoles("lab", {kTicket});
+  snapshots.set_consoles("other", {kTicket});
+  const auto first = snapshots.take();
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_EQ(first[0].session, "lab");
+  EXPECT_TRUE(first[0].snapshot.empty());
+  ASSERT_TRUE(first[0].consoles);
+  EXPECT_EQ(parse_service_consoles(*first[0].consoles), (ServiceConsoles{kId, 12, {kTicket}}));
+  EXPECT_TRUE(snapshots.take().empty());
+  snapshots.set_consoles("lab", {kTicket});
+  EXPECT_TRUE(snapshots.take().empty()) << "the same ones";
+  snapshots.set_consoles("lab", {});
+  const auto last = snapshots.take();
+  ASSERT_EQ(last.size(), 1u);
+  EXPECT_EQ(parse_service_consoles(last[0].consoles.value_or("")), (ServiceConsoles{kId, 12, {}}));
+}
+
+/// Snapshot and consoles go to the directory with one epoch, so that the next owner knows that they belong together.
+TEST_F(DirectorySnapshotsTest, TakeCheckpointsWithoutConsolesThatHaveNotChanged) {
+  const auto mailbox = add(12);
+  Checkpoint checkpoint;
+  checkpoint.epoch = 12;
+  checkpoint.tools_n = checkpoint.masters_n = checkpoint.dof = 1;
+  checkpoint.seats_n = 1;
+  checkpoint.tools[0].alpha[0] = 1;
+  snapshots.set_consoles("lab", {kTicket});
+  ASSERT_TRUE(mailbox->publish(checkpoint));
+  const auto both = snapshots.take();
+  ASSERT_EQ(both.size(), 1u);
+  const auto snapshot = decode_snapshot(std::as_bytes(std::span(both[0].snapshot)));
+  ASSERT_TRUE(snapshot) << snapshot.error();
+  EXPECT_EQ(tickets_for_next_owner(both[0].consoles.value_or(""), kId, snapshot->checkpoint.epoch),
+            std::vector{kTicket});
+  ++checkpoint.session_tick;
+  ASSERT_TRUE(mailbox->publish(checkpoint));
+  const auto later = snapshots.take();
+  ASSERT_EQ(later.size(), 1u);
+  EXPECT_FALSE(later[0].snapshot.empty());
+  EXPECT_FALSE(later[0].consoles);
+}
+
+}  // namespace
+}  // namespace tandem::server
