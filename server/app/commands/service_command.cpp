@@ -98,8 +98,8 @@ int vouch_for_server(const ServiceArguments& arguments) {
   } else if (*other) {
     io::print_formatted(stderr,
                         "warning: the name %s has a voucher until %s for another key, %s. Of two servers with one "
-                        "name, the second one serves no session while the first one runs. If that server got new keys, "
-                        "or is gone, all is well; otherwise delete %s and choose another --name\n",
+                        "name, the second one serves no session while the first one runs. If both are to run, delete %s "
+                        "and choose another --name; if that server is gone, or has new keys, use the file\n",
                         arguments.name.c_str(), date_text((*other)->not_after).c_str(), to_hex((*other)->spki).c_str(),
                         arguments.out.c_str());
   }
