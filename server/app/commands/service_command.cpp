@@ -96,12 +96,13 @@ int vouch_for_server(const ServiceArguments& arguments) {
                         "not be noticed: %s\n",
                         other.error().c_str());
   } else if (*other) {
-    io::print_formatted(stderr,
-                        "warning: the name %s has a voucher until %s for another key, %s. Of two servers with one "
-                        "name, the second one serves no session while the first one runs. If both are to run, delete %s "
-                        "and choose another --name; if that server is gone, or has new keys, use the file\n",
-                        arguments.name.c_str(), date_text((*other)->not_after).c_str(), to_hex((*other)->spki).c_str(),
-                        arguments.out.c_str());
+    io::print_formatted(
+        stderr,
+        "warning: the name %s has a voucher until %s for another key, %s. Of two servers with one "
+        "name, the second one serves no session while the first one runs. If both are to run, delete %s "
+        "and choose another --name; if that server is gone, or has new keys, use the file\n",
+        arguments.name.c_str(), date_text((*other)->not_after).c_str(), to_hex((*other)->spki).c_str(),
+        arguments.out.c_str());
   }
   std::printf("member file %s\nserver      %s\nvalid until %s\n", arguments.out.c_str(), arguments.name.c_str(),
               date_text(voucher.not_after).c_str());
