@@ -284,6 +284,7 @@ std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, c
       all->wait = failed.coming ? failed.wait : std::min(all->wait, failed.wait);
       if (failed.coming || !all->answered) all->answered = failed.answered;
       all->coming = failed.coming;
+      if (all->distrust.empty()) all->distrust = failed.distrust;
     }
     if (all->coming) break;
   }

@@ -114,9 +114,10 @@ struct ResumeError {
     kNotNeeded,  ///< the server answers on the old connection again
     kInterrupted,
   } kind = Kind::kAgain;
-  std::string reason;   ///< text for the user
-  Duration wait{};      ///< kAgain: shortest wait before the next attempt
-  bool coming = false;  ///< a server of the service is about to serve the session: no other one needs to be asked
+  std::string reason;      ///< text for the user
+  std::string distrust{};  ///< why this client rejects the key of a server that answered; empty: it rejects none
+  Duration wait{};         ///< kAgain: shortest wait before the next attempt
+  bool coming = false;     ///< a server of the service is about to serve the session: no other one needs to be asked
   std::optional<io::SocketAddress> answered{};  ///< server that replied, for `ResumeState::first`
 };
 /// Tries once to resume a seat over a new TLS connection: at the server that had it, then at the other servers of its

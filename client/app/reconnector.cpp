@@ -61,6 +61,10 @@ void Reconnector::work() {
       result_ = std::move(back);
       break;
     }
+    {
+      const std::lock_guard lock(mutex_);
+      distrust_ = std::move(back.error().distrust);
+    }
     if (back.error().answered) resume_state_.first = back.error().answered;
     if (io::monotonic_now() - began >= timeout) timeout = std::min(2 * timeout, kTimeoutMax);
     const Duration wait = std::max(back.error().wait, draw(kAgain, kAgainSpread));

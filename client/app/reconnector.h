@@ -3,7 +3,9 @@
 #include <atomic>
 #include <expected>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "client/app/join_client.h"
@@ -33,6 +35,12 @@ class Reconnector {
   [[nodiscard]] bool done() const noexcept { return done_.load(std::memory_order_acquire); }
   /// Readable once `done()`.
   [[nodiscard]] int done_fd() const noexcept { return done_event_.get(); }
+  /// Returns why the client rejects the key of a server that answered to the newest attempt, for any thread; empty: it
+  /// rejects none. The Reconnector tries again, because another server may get the session.
+  [[nodiscard]] std::string distrust() const {
+    const std::lock_guard lock(mutex_);
+    return distrust_;
+  }
   struct Resumed {
     JoinedSeat joined;
     std::unique_ptr<ConnectionSwap> swap;
@@ -52,6 +60,8 @@ class Reconnector {
   io::EventFd cancel_, done_event_;
   std::optional<std::expected<Resumed, ResumeError>> result_;
   std::atomic<bool> done_{false};
+  mutable std::mutex mutex_;
+  std::string distrust_;
   std::thread thread_;
 };
 

@@ -147,6 +147,7 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
   if (o_.options.reconnect_timeout_s <= 0)
     return status.silence_s > kServerLost ? std::optional(ExitReason::kServerLost) : std::nullopt;
   if (reconnector_ && reconnector_->done()) return finish_reconnect();
+  if (reconnector_) note_distrust(reconnector_->distrust());
   if (server_.absence(now) > o_.options.reconnect_timeout_s) return ExitReason::kServerLost;
   // The session goes on at another server of the service, perhaps at once.
   if (server_restarts(status) && resume_state_.service) server_.hasten(hastened_backoff());
@@ -160,6 +161,12 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
                o_.options.reconnect_timeout_s));
   reconnector_ = std::make_unique<Reconnector>(o_.join_options, resume_state_, o_.seat, o_.runner, socket_);
   return std::nullopt;
+}
+
+void SeatSupervisor::note_distrust(std::string why) {
+  if (why.empty() || why == distrust_) return;
+  distrust_ = std::move(why);
+  o_.line.note("this seat cannot come back to a server that answers: " + distrust_);
 }
 
 std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
@@ -197,6 +204,7 @@ std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
   last_status_.reset();
   status_poller_ = std::make_unique<SessionStatusPoller>(connection_, resume_state_.session);
   reconnector_.reset();
+  distrust_.clear();
   return std::nullopt;
 }
 
@@ -268,6 +276,9 @@ std::string SeatSupervisor::exit_message(ExitReason end) const {
     case ExitReason::kLeft:
       return "left the seat";
     case ExitReason::kServerLost:
+      if (!distrust_.empty())
+        return "server lost: the one that answers is not accepted for this seat: " + distrust_ +
+               ". Then join again by a new ticket or the session's code";
       return format(
           "server lost: no news for %.0f s; the force was released after the first losses. Check the network and the "
           "server, then join again",

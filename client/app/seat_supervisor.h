@@ -50,6 +50,8 @@ class SeatSupervisor {
   /// Detects outages of the server, and starts and finishes reconnects. @return the reason if the seat ended
   [[nodiscard]] std::optional<ExitReason> check_server(const ClientStatus& status);
   [[nodiscard]] std::optional<ExitReason> finish_reconnect();
+  /// Reports why the client rejects the key of a server that answers, once for each text.
+  void note_distrust(std::string why);
   void show(ClientStatus status);
   /// Shows changes of the session status from the server: stops, resumes, removals, a drain. Polls at once when FORCE
   /// shows a change.
@@ -73,6 +75,7 @@ class SeatSupervisor {
   std::string key_message_;                 ///< last shown reason why a key had no effect
   Time key_message_at_{};
   std::string exit_detail_;  ///< reason of ExitReason::kSeatGone
+  std::string distrust_;     ///< why the key of a server that answers is rejected, as reported; empty: none is
   Time begin_, shown_at_;
   ServerWatch server_;
   std::optional<Time> leaving_since_;

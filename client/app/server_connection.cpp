@@ -115,17 +115,25 @@ std::expected<void, ResumeError> ServerConnection::connect_to(const ResumeState&
     auto identity = (*keys_)(shown);
     const bool same = own.local || static_cast<const auth::KeyFingerprint&>(shown) == own.server ||
                       (own.service && keys_->service() && auth::same_service(*keys_->service(), *own.service));
-    if (!same) return std::unexpected(io::to_text(at) + " shows another key than the server that gave this seat");
+    if (!same) {
+      if (!own.service)
+        return std::unexpected(io::to_text(at) + " shows another key than the server that gave this seat");
+      // The service may have changed its key more than once since the seat was taken; its statements prove each change.
+      if (const auto member = auth::accept_member(shown.credential, *own.service, shown, auth::wall_seconds()); !member)
+        return std::unexpected(io::to_text(at) + ": " + member.error());
+    }
     if (identity && own.local && local() == nullptr)
       return std::unexpected(std::string("this server is not the one that gave this seat"));
     return identity;
   };
   until_ = io::monotonic_now() + options_.timeout;
   if (auto connected = connect_once(at, judge, options_.timeout); !connected)
-    return std::unexpected(ResumeError{.kind = connected.error().kind == Kind::kInterrupted
-                                                   ? ResumeError::Kind::kInterrupted
-                                                   : ResumeError::Kind::kAgain,
-                                       .reason = connected.error().text});
+    return std::unexpected(ResumeError{
+        .kind =
+            connected.error().kind == Kind::kInterrupted ? ResumeError::Kind::kInterrupted : ResumeError::Kind::kAgain,
+        .reason = connected.error().text,
+        .distrust = connected.error().kind == Kind::kRefusedKey ? complete_commands(connected.error().text, options_)
+                                                                : std::string{}});
   return {};
 }
 

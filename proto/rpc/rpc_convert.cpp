@@ -249,9 +249,7 @@ void write(const StatusStop& in, wire_pb::StatusStop& out) {
 
 bool read(const wire_pb::Status& in, Status& out) {
   if (in.seat_size() > static_cast<int>(kListedSeatsMax) || in.tool_size() > static_cast<int>(kToolsMax)) return false;
-  if (in.state() > static_cast<std::uint32_t>(SessionPhase::kOverloaded) ||
-      !(in.time_s() >= 0 && in.time_s() <= kTimeMax))
-    return false;
+  if (in.state() >= kSessionPhases || !(in.time_s() >= 0 && in.time_s() <= kTimeMax)) return false;
   out.phase = static_cast<SessionPhase>(in.state());
   out.stops = in.stops();
   out.authority_version = in.authority_version();

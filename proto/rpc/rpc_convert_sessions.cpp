@@ -9,9 +9,7 @@
 namespace tandem::rpc {
 
 bool read_listed(const pb::rpc::Session& in, ListedSession& out) {
-  if (in.seat_size() > static_cast<int>(kListedSeatsMax) ||
-      in.state() > static_cast<std::uint32_t>(SessionPhase::kOverloaded))
-    return false;
+  if (in.seat_size() > static_cast<int>(kListedSeatsMax) || in.state() >= kSessionPhases) return false;
   out.phase = static_cast<SessionPhase>(in.state());
   if (!take(in.id(), out.id) || !take_name(in.name(), out.name) || !take_name(in.server(), out.server, true))
     return false;

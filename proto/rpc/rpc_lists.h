@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "proto/rpc/rpc_limits.h"
@@ -11,10 +14,21 @@
 /// Structs of the lists of sessions on the control connection (proto/schema/rpc.proto).
 namespace tandem::rpc {
 
-enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, kEnding, kOverloaded };
+/// Phase of a session for clients. kHeld: its server does not reach the directory of the service, so no hand is
+/// engaged. Peers of before this phase get kRunning (older_peers.h).
+enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, kEnding, kOverloaded, kHeld };
+inline constexpr std::size_t kSessionPhases = static_cast<std::size_t>(SessionPhase::kHeld) + 1;
 [[nodiscard]] constexpr const char* to_text(SessionPhase phase) noexcept {
-  constexpr const char* kNames[] = {"waiting", "running", "paused", "stopped", "ending", "overloaded"};
-  return phase <= SessionPhase::kOverloaded ? kNames[static_cast<std::size_t>(phase)] : "?";
+  constexpr std::array<const char*, kSessionPhases> kNames{"waiting", "running",    "paused", "stopped",
+                                                           "ending",  "overloaded", "held"};
+  const auto i = static_cast<std::size_t>(phase);
+  return i < kNames.size() ? kNames[i] : "?";
+}
+/// Returns the phase of this name; nothing: no phase has it.
+[[nodiscard]] constexpr std::optional<SessionPhase> session_phase_named(std::string_view name) noexcept {
+  for (std::size_t i = 0; i < kSessionPhases; ++i)
+    if (name == to_text(static_cast<SessionPhase>(i))) return static_cast<SessionPhase>(i);
+  return std::nullopt;
 }
 using ListedSeat = OpenSeat;
 struct ListedSession {

@@ -60,6 +60,16 @@ struct MemberRow {
   friend bool operator==(const MemberRow&, const MemberRow&) = default;
 };
 
+/// A server for which its service has vouched.
+struct VouchedRow {
+  static constexpr std::size_t kMax = 4096;  ///< in one file
+
+  std::string name;  ///< of the server in the service
+  Sha256 spki{};
+  std::int64_t not_after = 0;  ///< last second of the voucher
+  friend bool operator==(const VouchedRow&, const VouchedRow&) = default;
+};
+
 /// A session that a running server publishes for commands on the same machine. They use it to write a ticket for a
 /// session given by name or code.
 struct OpenSeat {

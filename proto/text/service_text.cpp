@@ -48,6 +48,19 @@ std::expected<std::vector<std::vector<std::byte>>, InputErrors> parse_service(st
   return text::registry_verdict(std::move(out), validator);
 }
 
+std::expected<std::vector<VouchedRow>, InputErrors> parse_vouched(std::string_view text, std::string_view file) {
+  MessageValidator validator(file);
+  const auto in = text::read_registry_file<pb::VouchedFile>(text, validator);
+  std::vector<VouchedRow> rows;
+  for (int i = 0; i < in.server_size(); ++i) {
+    const pb::VouchedServer& s = in.server(i);
+    const std::string at = text::child_path(text::child_path("", "server", i), "spki_sha256");
+    rows.push_back(
+        {s.name(), text::bytes_from<32>(s.spki_sha256(), validator, at), static_cast<std::int64_t>(s.not_after_s())});
+  }
+  return text::registry_verdict(std::move(rows), validator);
+}
+
 std::string print_member(const MemberRow& member) {
   std::string out =
       text::registry_header("This server belongs to a service. Secret: holds the key that signs tickets.") +
@@ -60,6 +73,14 @@ std::string print_member(const MemberRow& member) {
 std::string print_service(const std::vector<std::vector<std::byte>>& key_changes) {
   std::string out = text::registry_header("Changes of this service's key, oldest first.");
   for (const auto& change : key_changes) out += "key_change: \"" + to_hex(change) + "\"\n";
+  return out;
+}
+
+std::string print_vouched(const std::vector<VouchedRow>& rows) {
+  std::string out = text::registry_header("Vouchers of this service that have not expired.");
+  for (const VouchedRow& row : rows)
+    out += "server { name: \"" + row.name + "\" spki_sha256: \"" + to_hex(row.spki) +
+           "\" not_after_s: " + std::to_string(row.not_after) + " }\n";
   return out;
 }
 

@@ -17,9 +17,12 @@ namespace tandem {
 /// @return the changes of the service's key, encoded, oldest first
 [[nodiscard]] std::expected<std::vector<std::vector<std::byte>>, InputErrors> parse_service(std::string_view text,
                                                                                             std::string_view file);
+[[nodiscard]] std::expected<std::vector<VouchedRow>, InputErrors> parse_vouched(std::string_view text,
+                                                                                std::string_view file);
 
 /// Text that the parser of the same name reads as the same values. That of a member holds a secret.
 [[nodiscard]] std::string print_member(const MemberRow& member);
 [[nodiscard]] std::string print_service(const std::vector<std::vector<std::byte>>& key_changes);
+[[nodiscard]] std::string print_vouched(const std::vector<VouchedRow>& rows);
 
 }  // namespace tandem

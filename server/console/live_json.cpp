@@ -72,6 +72,8 @@ const char* phase_text(rpc::SessionPhase phase) noexcept {
     case rpc::SessionPhase::kStopped:
     case rpc::SessionPhase::kOverloaded:  // all hands are released, as in a stop
       return "STOPPED";
+    case rpc::SessionPhase::kHeld:
+      return "HELD";
     case rpc::SessionPhase::kEnding:
       return "OVER";
   }

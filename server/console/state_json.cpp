@@ -139,7 +139,10 @@ void add_live(const SceneSpec& scene, const LivePicture& picture, json& state) {
   const wire::SessionTelemetry& t = live.telemetry;
   state["tick"] = t.session_tick;
   state["t"] = number(t.session_tick / scene.tick_hz);
-  state["phase"] = page_word(t.state);
+  // A datagram does not tell a session without the directory from one in which no seat with authority is engaged.
+  const bool held = picture.status.phase == rpc::SessionPhase::kHeld &&
+                    (t.state == wire::SessionState::kHeld || t.state == wire::SessionState::kWaiting);
+  state["phase"] = held ? phase_text(picture.status.phase) : page_word(t.state);
   state["version"] = t.authority_version;
   state["shed"] = t.shed_level;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) state["seats"].push_back(live_seat(scene, picture, i));

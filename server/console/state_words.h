@@ -13,7 +13,8 @@ namespace tandem::console {
   return i < kWords.size() ? kWords[i] : "FAULT";
 }
 
-/// In kHeld no seat controls a tool, but the session runs. In kOverloaded all hands are released, as in a stop.
+/// In kHeld no seat controls a tool, but the session runs, unless its server does not reach the directory of the
+/// service: state_json.cpp reads that from the status. In kOverloaded all hands are released, as in a stop.
 [[nodiscard]] constexpr const char* page_word(wire::SessionState state) noexcept {
   constexpr std::array kWords{"WAITING", "RUNNING", "RUNNING", "PAUSED", "STOPPED", "OVER", "STOPPED"};
   const auto i = static_cast<std::size_t>(state);

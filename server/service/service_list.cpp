@@ -123,12 +123,16 @@ std::optional<ServiceList> parse_service_list(std::string_view text) {
   return list;
 }
 
-bool ServiceListReader::look(const ServiceMember& member, Time now) {
+bool ServiceListReader::look_at_directory(const ServiceMember& member, Time now) {
   const ServiceStatus status = member.status(now);
-  const auto known = status.follows                      ? ServiceList::Known::kNow
+  const auto known = status.current                      ? ServiceList::Known::kNow
                      : member.catalogue().readings() > 0 ? ServiceList::Known::kOld
                                                          : ServiceList::Known::kNothing;
-  bool changed = std::exchange(known_, known) != known;
+  return std::exchange(known_, known) != known;
+}
+
+bool ServiceListReader::look(const ServiceMember& member, Time now) {
+  bool changed = look_at_directory(member, now);
   std::erase_if(seen_, [&](const auto& session) {
     const bool gone = member.catalogue().find(session.first) == nullptr;
     changed = changed || gone;

@@ -18,8 +18,8 @@ struct ServiceList {
   /// Answers of the directory to this server so far.
   enum class Known : std::uint8_t {
     kNothing,  ///< it has not answered since the start
-    kOld,      ///< it does not answer now
-    kNow,
+    kOld,      ///< it does not answer now, or has told of changes that this server has not read yet
+    kNow,      ///< its newest answer is at most one and a half periods of renewal old (ServiceStatus::current)
   };
   struct Session {
     rpc::ListedSession listed;  ///< with its server, none if it has none now; without phase; no seats: not known
@@ -48,6 +48,8 @@ class ServiceListReader {
  public:
   /// Takes what the member knows. @return whether `list` may have changed
   [[nodiscard]] bool look(const ServiceMember& member, Time now);
+  /// Takes only whether the directory answers, which costs less. @return whether that has changed
+  [[nodiscard]] bool look_at_directory(const ServiceMember& member, Time now);
   /// The list as of the last look; takes longer than a look, and needs no member.
   [[nodiscard]] const ServiceList& list();
 

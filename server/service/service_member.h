@@ -79,8 +79,11 @@ struct ServiceStatus {
   bool name_taken = false;  ///< another server is registered under this name
   bool follows = false;     ///< the copies of the directory follow the store
   bool answers = false;     ///< the store has answered within twice the limit of an answer
-  bool holding = true;      ///< no hand may be engaged
-  std::string trouble;      ///< the store's newest error since its last answer
+  /// The copies follow the store, and its newest answer is no older than one and a half periods of renewal: a watch
+  /// alone notices the silence of the store seconds later.
+  bool current = false;
+  bool holding = true;  ///< no hand may be engaged
+  std::string trouble;  ///< the store's newest error since its last answer
   /// Time since the sending of the newest renewal that counts [s]; nullopt: no lease.
   std::optional<double> lease_age_s{};
   std::size_t owned = 0, members = 0, sessions = 0;

@@ -86,7 +86,11 @@ std::string listed_text(const rpc::ListedSession& session) {
                      {"role", std::string(to_text(seat.role))},
                      {"taken", seat.taken},
                      {"required", seat.required}});
-  return dumped({{"phase", to_text(session.phase)}, {"seats", std::move(seats)}});
+  // A server of before the phase `held` reads `phase` only, and would take an unknown word for no session.
+  const bool held = session.phase == rpc::SessionPhase::kHeld;
+  Json out{{"phase", to_text(held ? rpc::SessionPhase::kRunning : session.phase)}, {"seats", std::move(seats)}};
+  if (held) out["held"] = true;
+  return dumped(out);
 }
 
 bool read_listed(std::string_view text, rpc::ListedSession& session) {
@@ -95,12 +99,12 @@ bool read_listed(std::string_view text, rpc::ListedSession& session) {
   std::string phase;
   if (!in.is_object() || !read(in, "phase", phase)) return false;
   rpc::ListedSession out = session;
-  bool known = false;
-  for (int i = 0; i <= static_cast<int>(rpc::SessionPhase::kOverloaded); ++i)
-    if (phase == rpc::to_text(static_cast<rpc::SessionPhase>(i)))
-      out.phase = static_cast<rpc::SessionPhase>(i), known = true;
+  const auto named = rpc::session_phase_named(phase);
+  const auto held = in.find("held");
+  if (held != in.end() && !held->is_boolean()) return false;
   const auto seats = in.find("seats");
-  if (!known || seats == in.end() || !seats->is_array() || seats->size() > rpc::kListedSeatsMax) return false;
+  if (!named || seats == in.end() || !seats->is_array() || seats->size() > rpc::kListedSeatsMax) return false;
+  out.phase = held != in.end() && held->get<bool>() ? rpc::SessionPhase::kHeld : *named;
   out.seats.clear();
   for (const Json& entry : *seats) {
     rpc::ListedSeat seat;
@@ -108,9 +112,9 @@ bool read_listed(std::string_view text, rpc::ListedSession& session) {
     if (!entry.is_object() || !read(entry, "name", seat.name) || !read(entry, "role", role) ||
         !read(entry, "taken", seat.taken) || !read(entry, "required", seat.required))
       return false;
-    const auto named = access_role_named(role);
-    if (!named || seat.name.empty() || seat.name.size() > rpc::kNameMax) return false;
-    seat.role = *named;
+    const auto role_named = access_role_named(role);
+    if (!role_named || seat.name.empty() || seat.name.size() > rpc::kNameMax) return false;
+    seat.role = *role_named;
     out.seats.push_back(std::move(seat));
   }
   session = std::move(out);

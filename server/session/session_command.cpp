@@ -102,6 +102,7 @@ CommandOutcome execute_command(Session& session, Time now, const SessionCommand&
                      .authority_version = session.authority().version(),
                      .tick = session.clock().session_tick(),
                      .time = session.clock().time(),
+                     .may_act = session.lifecycle().may_act(),
                      .shed_level = session.lifecycle().load_state().level,
                      .masters = static_cast<std::uint8_t>(session.scene().masters()),
                      .tools = static_cast<std::uint8_t>(session.scene().tools.size()),

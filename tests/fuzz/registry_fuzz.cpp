@@ -16,6 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FUZZ_EXPECT(parse_serving(print_serving(*serving), "fuzz").has_value());
   if (const auto changes = parse_service(text, "fuzz"))
     FUZZ_EXPECT(parse_service(print_service(*changes), "fuzz") == *changes);
+  if (const auto rows = parse_vouched(text, "fuzz")) FUZZ_EXPECT(parse_vouched(print_vouched(*rows), "fuzz") == *rows);
   if (const auto member = parse_member(text, "fuzz"))
     FUZZ_EXPECT(parse_member(print_member(*member), "fuzz").has_value());
   const auto membership = auth::read_membership(fuzz::bytes(data, size), "fuzz", {});

@@ -1,6 +1,7 @@
 // Servers of one service over etcd, as real programs on loopback: sessions survive the loss of their server, and no
 // hand is engaged without the directory. Durations are printed; ./test --cluster judges them.
 #include "tests/common/base/counts.h"
+#include "tests/io/metrics_page.h"
 #include "tests/io/pressing_service.h"
 
 namespace tandem::test {
@@ -63,11 +64,22 @@ TEST_F(Service, SessionsAreHeldWithoutTheDirectoryAndGoOnWhenItIsBack) {
   LiveService service(kTwoSessions);
   Process& a = service.start("a");
   service.wait_for_sessions("a", 2);
+  const std::string own = service.enrolled("desk");
   service.etcd().process().signal(SIGTERM);
   ASSERT_TRUE(service.etcd().process().wait());
   ASSERT_TRUE(a.wait_for("does not answer")) << a.err();
   ASSERT_TRUE(a.wait_for("2 sessions HELD")) << a.err();
   EXPECT_EQ(service.sessions("a").size(), 2U) << "the seats stay";
+  std::string metrics;
+  for (int i = 0; i < 500 && metrics.find("tandem_sessions{phase=\"held\"} 2") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(milliseconds(i == 0 ? 0 : 20));  // the next tick of both threads
+    metrics = page(service.metrics("a"));
+  }
+  EXPECT_NE(metrics.find("tandem_sessions{phase=\"held\"} 2"), std::string::npos) << metrics;
+  EXPECT_NE(metrics.find("tandem_sessions{phase=\"running\"} 0"), std::string::npos) << metrics;
+  Process asked({TANDEM_CLIENT, "sessions", "--server", service.address("a"), "--state", own, "--json"});
+  EXPECT_EQ(asked.wait(), 0) << asked.err();
+  for (const Json& session : Json::parse(asked.out(), nullptr, false)["sessions"]) EXPECT_EQ(session["phase"], "held");
   std::this_thread::sleep_for(milliseconds(3000));  // longer than the lease
   service.etcd().start();
   ASSERT_TRUE(a.wait_for("not HELD by the directory any more")) << a.err();

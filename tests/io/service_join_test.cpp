@@ -48,6 +48,18 @@ class ServiceJoin : public testing::Test {
     out.timeout = timeout;
     return out;
   }
+  /// State with which a seat that was joined is resumed, and the secret's hash for the next server.
+  static ResumeState resume_state(const JoinedSeat& joined) {
+    return {.session = joined.welcome.session_id,
+            .epoch = joined.welcome.epoch,
+            .secrets = {joined.welcome.resume_secret},
+            .setup = joined.setup,
+            .server = joined.server,
+            .service = joined.service};
+  }
+  server::SeatReservation::Hash secret_of(const JoinedSeat& joined) {
+    return server::resume_hash(joined.welcome.resume_secret.bytes, own().identity().fingerprint().sha256);
+  }
   std::string reason(const JoinOptions& asking) {
     const auto joined = join_seat(asking);
     return joined ? "joined" : joined.error().reason;
@@ -295,16 +307,37 @@ TEST_F(ServiceJoin, ResumesNowhereElseWithoutService) {
   const auto joined = join_seat(asking);
   ASSERT_TRUE(joined) << joined.error().reason;
   a.reset();
-  foreign->serve(9, server::resume_hash(joined->welcome.resume_secret.bytes, own().identity().fingerprint().sha256));
-  const ResumeState own_state{.session = joined->welcome.session_id,
-                              .epoch = joined->welcome.epoch,
-                              .secrets = {joined->welcome.resume_secret},
-                              .setup = joined->setup,
-                              .server = joined->server,
-                              .service = joined->service};
-  const auto back = resume_seat(asking, own_state, [] { return true; });
+  foreign->serve(9, secret_of(*joined));
+  const auto back = resume_seat(asking, resume_state(*joined), [] { return true; });
   ASSERT_FALSE(back);
   EXPECT_EQ(foreign->count(ControlEvent::kWelcomed), 0U);
+  EXPECT_NE(back.error().distrust.find("another service"), std::string::npos) << back.error().distrust;
+}
+
+TEST_F(ServiceJoin, ResumesAtAServerOfTheNewestKeyAfterSeveralRotationsWithoutGrace) {
+  auto a = member("desk-a");
+  know(*a);
+  a->serve(5);
+  const auto joined = join_seat(options({a.get()}));
+  ASSERT_TRUE(joined) << joined.error().reason;
+  a.reset();
+  const auto old = member("desk-b");  // keeps the voucher of the first key
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(auth::ServiceKeystore::rotate(folder.path("service"), auth::wall_seconds(), 0, false));
+    const auto server = member("desk-" + std::to_string(i));
+    server->serve(9, secret_of(*joined));
+    const JoinOptions asking = options({server.get()}, 3s);
+    const auto back = resume_seat(asking, resume_state(*joined), [] { return true; });
+    ASSERT_TRUE(back) << i << ": " << back.error().reason;
+    EXPECT_EQ(back->server, server->key);
+  }
+  // A key that the service has withdrawn proves nothing: neither to a hand that knows the newer key, nor to the next.
+  old->serve(10, secret_of(*joined));
+  auto refused = resume_seat(options({old.get()}, 3s), resume_state(*joined), [] { return true; });
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(old->count(ControlEvent::kWelcomed), 0U);
+  for (const char* words : {"another service", "rotated its key", "service vouch", "enrol there"})
+    EXPECT_NE(refused.error().distrust.find(words), std::string::npos) << refused.error().distrust;
 }
 
 /// A client of version 2 reads neither Elsewhere nor the members.

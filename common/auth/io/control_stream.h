@@ -65,6 +65,8 @@ class ControlStream : public std::enable_shared_from_this<ControlStream> {
   [[nodiscard]] std::expected<Secret<kExportSize>, std::string> export_secrets(const ExporterContext& context) {
     return auth::export_secrets(stream_.native_handle(), context);
   }
+  /// Whether the peer knows rpc::SessionPhase::kHeld. @pre the handshake is over
+  [[nodiscard]] bool peer_knows_held() noexcept { return auth::peer_knows_held(stream_.native_handle()); }
   [[nodiscard]] asio::ip::tcp::socket& socket() noexcept { return stream_.next_layer().socket(); }
 
  private:

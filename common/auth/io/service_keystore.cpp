@@ -1,5 +1,7 @@
 #include "common/auth/io/service_keystore.h"
 
+#include <algorithm>
+
 #include "common/auth/io/directory_lock.h"
 #include "common/base/raw_bytes.h"
 #include "proto/text/service_text.h"
@@ -78,6 +80,28 @@ std::expected<SecretBuffer, std::string> ServiceKeystore::vouch(const Voucher& v
   SecretBuffer out{bytes_of(text)};
   wipe(text);
   return out;
+}
+
+std::expected<std::optional<VouchedRow>, std::string> ServiceKeystore::enter(const Voucher& voucher,
+                                                                             std::int64_t now) const {
+  const auto lock = DirectoryLock::wait(folder_, kLock);
+  if (!lock) return std::unexpected(lock.error());
+  const auto bytes = folder_.read(kVouchedFile);
+  if (!bytes) return std::unexpected(bytes.error());
+  auto rows = parse_vouched(*bytes ? text_of((*bytes)->bytes()) : std::string_view{}, folder_.path_of(kVouchedFile));
+  if (!rows) return std::unexpected(to_text(rows.error()) + "repair or delete that file");
+  const VouchedRow made{voucher.name, voucher.server.sha256, voucher.not_after};
+  std::erase_if(*rows, [&](const VouchedRow& row) {
+    return row.not_after < now || (row.name == made.name && row.spki == made.spki);
+  });
+  std::optional<VouchedRow> other;
+  for (const VouchedRow& row : *rows)
+    if (row.name == made.name && (!other || row.not_after >= other->not_after)) other = row;
+  rows->push_back(made);
+  if (rows->size() > VouchedRow::kMax) rows->erase(std::ranges::min_element(*rows, {}, &VouchedRow::not_after));
+  if (std::string problem = folder_.replace(kVouchedFile, std::string_view(print_vouched(*rows))); !problem.empty())
+    return std::unexpected(std::move(problem));
+  return other;
 }
 
 std::expected<rpc::PublicKey, std::string> ServiceKeystore::rotate(const std::string& path, std::int64_t now,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <expected>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ class ServiceKeystore {
   static constexpr const char* kKeyFile = "service_key";
   static constexpr const char* kTicketKeyFile = "ticket_key";
   static constexpr const char* kChangesFile = "service.textproto";
+  static constexpr const char* kVouchedFile = "vouched.textproto";
   static constexpr const char* kLock = "lock";
 
   /// Creates the keys of a service in a folder that has none yet. @return the public key
@@ -31,6 +33,13 @@ class ServiceKeystore {
 
   /// Returns the text of a member file, which is secret. @return the field of the voucher that is out of range
   [[nodiscard]] std::expected<SecretBuffer, std::string> vouch(const Voucher& voucher) const;
+
+  /// Enters a voucher that was made in the folder's list, from which expired ones are removed. Of more than
+  /// VouchedRow::kMax those that expire first leave it.
+  /// @param now  seconds since 1970, UTC
+  /// @return the newest voucher of that name for another key that is still valid, or the error of the list
+  [[nodiscard]] std::expected<std::optional<VouchedRow>, std::string> enter(const Voucher& voucher,
+                                                                            std::int64_t now) const;
 
   /// Replaces the service's key, and announces the new one in a statement signed with the old one.
   /// @param now         seconds since 1970, UTC

@@ -13,9 +13,10 @@ namespace {
 
 /// Largest certificate chain accepted [bytes]; a certificate of this system has 500, and a credential 2560 at most.
 constexpr long kCertificatesMax = 4096;
-/// In the ALPN format: each name follows its length.
-constexpr std::array<unsigned char, 9> kAlpnList{8, 't', 'a', 'n', 'd', 'e', 'm', '/', '1'};
-static_assert(kAlpnList.size() == kAlpn.size() + 1);
+/// In the ALPN format: each name follows its length. The server prefers the first one that the client offers.
+constexpr std::array<unsigned char, 20> kAlpnList{10,  't', 'a', 'n', 'd', 'e', 'm', '/', '1', '.',
+                                                  '1', 8,   't', 'a', 'n', 'd', 'e', 'm', '/', '1'};
+static_assert(kAlpnList.size() == kAlpnHeld.size() + kAlpn.size() + 2);
 
 [[noreturn]] void fail(const char* what) {
   ERR_clear_error();
@@ -59,15 +60,19 @@ int demand_alpn(SSL* connection, int* alert, void*) {
 
 int choose_alpn(SSL*, const unsigned char** out, unsigned char* out_size, const unsigned char* in, unsigned int in_size,
                 void*) {
-  for (unsigned int at = 0; at < in_size; at += in[at] + 1U) {
-    if (in[at] != kAlpnList[0] || at + kAlpnList.size() > in_size ||
-        !std::equal(kAlpnList.begin(), kAlpnList.end(), in + at))
-      continue;
-    *out = in + at + 1;
-    *out_size = in[at];
-    return SSL_TLSEXT_ERR_OK;
-  }
-  return SSL_TLSEXT_ERR_ALERT_FATAL;
+  unsigned char* chosen = nullptr;  // without one in common, OpenSSL names the client's first
+  if (SSL_select_next_proto(&chosen, out_size, kAlpnList.data(), kAlpnList.size(), in, in_size) !=
+      OPENSSL_NPN_NEGOTIATED)
+    return SSL_TLSEXT_ERR_ALERT_FATAL;
+  *out = chosen;
+  return SSL_TLSEXT_ERR_OK;
+}
+
+std::string_view alpn_of(SSL* connection) noexcept {
+  const unsigned char* protocol = nullptr;
+  unsigned int size = 0;
+  SSL_get0_alpn_selected(connection, &protocol, &size);
+  return {as_text(protocol), size};
 }
 
 /// Replaces OpenSSL's chain building: the leaf must contain a P-256 key. The handshake proves that the peer has its
@@ -144,10 +149,7 @@ asio::ssl::context& ClientTls::context() noexcept { return state_->context; }
 const std::string& ClientTls::rejection() const noexcept { return state_->refusal; }
 
 std::expected<KeyFingerprint, std::string> authenticated_peer(SSL* connection) {
-  const unsigned char* protocol = nullptr;
-  unsigned int size = 0;
-  SSL_get0_alpn_selected(connection, &protocol, &size);
-  if (std::string_view(as_text(protocol), size) != kAlpn)
+  if (const std::string_view protocol = alpn_of(connection); protocol != kAlpn && protocol != kAlpnHeld)
     return std::unexpected("the other side does not speak " + std::string(kAlpn));
   if (SSL_version(connection) != TLS1_3_VERSION) return std::unexpected("the other side does not use TLS 1.3");
   const X509* const certificate = SSL_get0_peer_certificate(connection);
@@ -155,6 +157,8 @@ std::expected<KeyFingerprint, std::string> authenticated_peer(SSL* connection) {
     return std::unexpected("the other side has not shown a key");
   return fingerprint_of(certificate);
 }
+
+bool peer_knows_held(SSL* connection) noexcept { return alpn_of(connection) == kAlpnHeld; }
 
 std::expected<Secret<kExportSize>, std::string> export_secrets(SSL* connection, const ExporterContext& context) {
   const auto digest = digest_of(context);

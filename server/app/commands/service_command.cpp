@@ -89,6 +89,21 @@ int vouch_for_server(const ServiceArguments& arguments) {
   if (!text) return service_trouble(text.error());
   if (const std::string problem = write_member_file(arguments.out, text->bytes()); !problem.empty())
     return service_trouble(problem);
+  const auto other = service->enter(voucher, now);
+  if (!other) {
+    io::print_formatted(stderr,
+                        "warning: the voucher is not in the list of the service, so a second server of this name will "
+                        "not be noticed: %s\n",
+                        other.error().c_str());
+  } else if (*other) {
+    io::print_formatted(
+        stderr,
+        "warning: the name %s has a voucher until %s for another key, %s. Of two servers with one "
+        "name, the second one serves no session while the first one runs. If both are to run, delete %s "
+        "and choose another --name; if that server is gone, or has new keys, use the file\n",
+        arguments.name.c_str(), date_text((*other)->not_after).c_str(), to_hex((*other)->spki).c_str(),
+        arguments.out.c_str());
+  }
   std::printf("member file %s\nserver      %s\nvalid until %s\n", arguments.out.c_str(), arguments.name.c_str(),
               date_text(voucher.not_after).c_str());
   io::print_formatted(stderr,
@@ -198,7 +213,8 @@ void add_service_command(const io::Command& root) {
                   "init, vouch, rotate: the folder of the service; join: the member file; show: that folder, or none "
                   "for the server's state folder")
       .value_name(" ");
-  command.add_option("--name", arguments.name, "vouch: name of the server in the service").value_name("NAME");
+  command.add_option("--name", arguments.name, "vouch: name of the server in the service, for one server only")
+      .value_name("NAME");
   command.add_option("--key", arguments.key, "vouch: key of the server, as `tandem-server init` printed it")
       .value_name("HEX");
   command.add_option("--days", arguments.days, "vouch: validity of the voucher [days], 1 to 1200; default 400")

@@ -16,12 +16,6 @@ struct SessionsArguments {
   bool json = false;
 };
 
-rpc::SessionPhase phase_named(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(rpc::SessionPhase::kOverloaded); ++i)
-    if (name == rpc::to_text(static_cast<rpc::SessionPhase>(i))) return static_cast<rpc::SessionPhase>(i);
-  return rpc::SessionPhase::kWaiting;
-}
-
 ServiceList without(ServiceList service, const rpc::SessionList& own) {
   std::erase_if(service.sessions, [&](const ServiceList::Session& session) {
     return std::ranges::find(own.sessions, session.listed.id, &rpc::ListedSession::id) != own.sessions.end();
@@ -41,7 +35,8 @@ int sessions_command(const SessionsArguments& arguments) {
   rpc::SessionList list;
   std::vector<std::string> codes;
   for (const OpenSession& s : (*serving)->sessions) {
-    list.sessions.emplace_back(s.id, s.name, phase_named(s.phase), s.seats);
+    const auto phase = rpc::session_phase_named(s.phase).value_or(rpc::SessionPhase::kWaiting);
+    list.sessions.emplace_back(s.id, s.name, phase, s.seats);
     codes.push_back(s.code.empty() ? "" : code_text(s.code));
   }
   const auto service = read_service_list(*state->folder());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/command_hints.h"
+#include "proto/rpc/older_peers.h"
 #include "proto/rpc/rpc_codec.h"
 #include "server/policy/roles.h"
 
@@ -20,7 +21,8 @@ constexpr std::string_view kUnknown =
     "run the command that it prints";
 
 /// Longest wait of a request for a session that a server is about to serve, and time between two looks. A client may
-/// wait only 0.5 s for its answer.
+/// wait only 0.5 s for its answer. The same for a workstation that another server has just enrolled: its enrolment
+/// arrives within two looks of RegistryMirror, 0.2 s.
 constexpr auto kComingWait = std::chrono::milliseconds(400), kComingLook = std::chrono::milliseconds(100);
 
 std::uint32_t whole_seconds(Duration d) noexcept {
@@ -108,6 +110,7 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
   }
   workstation_ = std::move(*row);
   if (!workstation_ && head->kind != Kind::kEnroll) {
+    if (await_enrolment(bytes)) return;
     record(ControlEvent::kNotEnrolled, pin_.hex());
     return refuse(ErrorCode::kNotEnrolled, std::string(kUnknown), true);
   }
@@ -137,6 +140,19 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
     return answer(std::move(list));
   }
   on_command(std::move(frame->body));
+}
+
+// An unknown peer keeps its place among the pending connections no longer than a silent one may. Only the lookup by its
+// key is repeated; its payload is not parsed.
+bool ControlConnection::await_enrolment(SecretBuffer& bytes) {
+  const Time now = services_.now();
+  if (!enrolment_until_) enrolment_until_ = now + kComingWait;
+  if (!pending_ || now >= *enrolment_until_ || !services_.join_handler.learns_enrolments()) return false;
+  look_again_.expires_after(kComingLook);
+  look_again_.async_wait([weak = weak_from_this(), bytes = std::move(bytes)](const asio::error_code& stopped) mutable {
+    if (const auto self = weak.lock(); self && !stopped && !self->finished_) self->on_frame(std::move(bytes));
+  });
+  return true;
 }
 
 /// A connection that waits for a request receives an unsolicited error reply. One that is being answered is closed
@@ -312,6 +328,7 @@ void ControlConnection::answer(rpc::Body body, bool last) {
                                     auth::server_state_option(services_.trust.folder()->path()));
     if (text.size() <= rpc::kTextMax) refused->text = std::move(text);
   }
+  if (!stream_->peer_knows_held()) rpc::write_for_older_peer(body);
   refused_ = refused_ || (welcome_ && std::holds_alternative<rpc::ErrorReply>(body));
   auto frame = rpc::encode({request_, std::move(body)});
   if (!frame) {  // the server's own error: the reply exceeds the limits

@@ -45,6 +45,9 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
  private:
   void read_next();
   void on_frame(SecretBuffer bytes);
+  /// Takes a frame of an unknown workstation again a moment later: another server of the service may have enrolled it
+  /// just now. @return false: the connection has waited long enough, or no enrolment can arrive
+  bool await_enrolment(SecretBuffer& bytes);
   void on_enrol(const rpc::Enroll& enrol);
   void on_hello(rpc::Hello hello);
   void on_command(rpc::Body command);
@@ -84,8 +87,9 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   std::optional<rpc::Welcome> welcome_;
   std::optional<rpc::Elsewhere> sent_to_;
   CommandRates rates_;
-  asio::steady_timer look_again_;       ///< at a request that waits for its session
-  TokenBucket forbidden_events_{1, 1};  ///< audit events of forbidden commands
+  asio::steady_timer look_again_;        ///< at a request that waits for its session, or for an enrolment
+  std::optional<Time> enrolment_until_;  ///< end of the wait for an enrolment; nullopt: not begun
+  TokenBucket forbidden_events_{1, 1};   ///< audit events of forbidden commands
   std::uint32_t request_ = 0;
   bool acted_ = false, refused_ = false;  ///< a command was executed; a command was rejected
   bool pending_ = true, proved_ = false, finished_ = false, writing_ = false;

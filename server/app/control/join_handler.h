@@ -42,6 +42,9 @@ class JoinHandler {
 
   /// Whether a server of the service is about to serve this session: a request for it is better decided a moment later.
   [[nodiscard]] virtual bool is_coming(const rpc::SessionChoice&) { return false; }
+  /// Whether workstations that other servers of the service enrol become known here. A request of an unknown one is
+  /// then better decided a moment later.
+  [[nodiscard]] virtual bool learns_enrolments() const { return false; }
   /// One page of the list of sessions.
   [[nodiscard]] virtual rpc::SessionList list(const rpc::SessionListRequest& request) = 0;
   /// Addresses of the servers of the service, at most rpc::kMembersMax; empty: this server belongs to none.

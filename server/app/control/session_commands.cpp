@@ -170,7 +170,7 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
   static_assert(static_cast<std::uint32_t>(ShedLevel::kNewJoins) == rpc::kShedMax);
   rpc::Status status{.session_id = joined.session_id,
                      .name = joined.session_name,
-                     .phase = phase_of(outcome.state),
+                     .phase = phase_of(outcome.state, outcome.may_act),
                      .stops = outcome.stops,
                      .authority_version = outcome.authority_version,
                      .time_s = outcome.time,
@@ -189,8 +189,11 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
         {scene.tools[j].name, {outcome.alpha[j].begin(), outcome.alpha[j].begin() + outcome.masters}});
   status.recording = recording_of(entry);
   if (!status.recording || !status.recording->by_server) status.no_recording = entry.registration.no_recording;
-  if (outcome.state == wire::SessionState::kHeld)
-    status.held = truncate_utf8(held_reason_text(entry.session().status(), scene), rpc::kTextMax);
+  if (outcome.state == wire::SessionState::kHeld || status.phase == rpc::SessionPhase::kHeld) {
+    SessionStatus seen = entry.session().status();  // perhaps of the tick before
+    seen.may_act = outcome.may_act;
+    status.held = truncate_utf8(held_reason_text(seen, scene), rpc::kTextMax);
+  }
   if (status.stop)
     status.stop->yours = (!joined.seat.empty() || !watches_only(joined.role)) &&
                          outcome.stop_latch.may_be_ended_by(joined.role, seat_of(joined), outcome.connected_seats);

@@ -36,6 +36,7 @@ class SessionJoins final : public JoinHandler {
                  const Secret<auth::kExportSize>& secrets) override;
   void on_join_failed(const rpc::Welcome& welcome) override;
   [[nodiscard]] bool is_coming(const rpc::SessionChoice& session) override { return redirect_.is_coming(session); }
+  [[nodiscard]] bool learns_enrolments() const override { return redirect_.learns_enrolments(); }
   [[nodiscard]] rpc::SessionList list(const rpc::SessionListRequest& request) override {
     return redirect_.list(request);
   }

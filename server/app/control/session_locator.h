@@ -43,7 +43,7 @@ class SessionLocator {
   [[nodiscard]] virtual std::vector<Elsewhere> elsewhere() const = 0;
   /// Addresses of members, this one first, at most 16, for clients that look for a new owner.
   [[nodiscard]] virtual std::vector<std::string> members() const = 0;
-  /// Whether this copy of the directory follows the store; false: lists may be old, and say so.
+  /// Whether this copy of the directory follows the store, which answers; false: lists may be old, and say so.
   [[nodiscard]] virtual bool fresh() const noexcept = 0;
 };
 

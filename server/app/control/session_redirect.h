@@ -36,6 +36,8 @@ class SessionRedirect {
   [[nodiscard]] std::optional<Reply> find(const rpc::SessionChoice& choice, bool understands);
   /// Whether a server of the service, perhaps this one, is about to serve the session.
   [[nodiscard]] bool is_coming(const rpc::SessionChoice& choice);
+  /// Whether this server belongs to a service whose directory answers, through which enrolments arrive.
+  [[nodiscard]] bool learns_enrolments() const { return locator_ != nullptr && locator_->fresh(); }
   /// The reply to a join by a choice that names no session of this server (`own`), with the sessions of the service in
   /// its text. A wrong code counts as an attempt also at a server without a session.
   [[nodiscard]] rpc::ErrorReply refusal(const rpc::SessionChoice& choice, const rpc::ErrorReply& own) const;

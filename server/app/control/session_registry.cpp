@@ -22,13 +22,14 @@ static_assert(kNamedSessions * (rpc::kNameMax + 2) + 200 < rpc::kTextMax);
 
 }  // namespace
 
-rpc::SessionPhase phase_of(wire::SessionState state) noexcept {
+// Stops, overload and the end stay visible in a session that is held: they last when the directory answers again.
+rpc::SessionPhase phase_of(wire::SessionState state, bool may_act) noexcept {
   switch (state) {
     case wire::SessionState::kWaiting:
-      return rpc::SessionPhase::kWaiting;
+      return may_act ? rpc::SessionPhase::kWaiting : rpc::SessionPhase::kHeld;
     case wire::SessionState::kRunning:
-    case wire::SessionState::kHeld:
-      return rpc::SessionPhase::kRunning;
+    case wire::SessionState::kHeld:  // braked: no seat with authority is engaged, also by a server that may act
+      return may_act ? rpc::SessionPhase::kRunning : rpc::SessionPhase::kHeld;
     case wire::SessionState::kPaused:
       return rpc::SessionPhase::kPaused;
     case wire::SessionState::kStopped:
@@ -142,7 +143,7 @@ std::variant<SessionEntry*, ErrorReply> SessionRegistry::choose(const rpc::Sessi
 rpc::ListedSession SessionRegistry::listed(const SessionEntry& entry) {
   const Time now = io::monotonic_now();
   const SessionStatus status = entry.session().status();
-  rpc::ListedSession s{entry.registration.id, entry.registration.name, phase_of(status.state), {}};
+  rpc::ListedSession s{entry.registration.id, entry.registration.name, phase_of(status.state, status.may_act), {}};
   for (std::size_t i = 0; i < entry.seats.size(); ++i) {
     const SeatSpec& seat = entry.scene().seats[i];
     s.seats.push_back({seat.name, access_role(seat.role),
@@ -174,9 +175,10 @@ ServingSpec SessionRegistry::serving() const {
     if (e.closing) continue;
     const SessionRegistration& r = e.registration;
     const SessionStatus status = e.session().status();
+    const rpc::SessionPhase phase =
+        e.session().over() ? rpc::SessionPhase::kEnding : phase_of(status.state, status.may_act);
     OpenSession& session =
-        out.sessions.emplace_back(r.id, r.code, r.name, r.epoch, std::vector<OpenSeat>{},
-                                  to_text(e.session().over() ? rpc::SessionPhase::kEnding : phase_of(status.state)));
+        out.sessions.emplace_back(r.id, r.code, r.name, r.epoch, std::vector<OpenSeat>{}, to_text(phase));
     for (std::size_t i = 0; i < e.seats.size(); ++i) {
       const SeatSpec& seat = e.scene().seats[i];
       session.seats.push_back({seat.name, access_role(seat.role), status.seats[i].taken, seat.required});

@@ -74,7 +74,8 @@ class SessionRegistry {
 };
 
 /// Phase of a session for clients.
-[[nodiscard]] rpc::SessionPhase phase_of(wire::SessionState state) noexcept;
+/// @param may_act  false: this server may not act for the session now, because the directory of the service is silent
+[[nodiscard]] rpc::SessionPhase phase_of(wire::SessionState state, bool may_act) noexcept;
 
 /// Session codes. `code_text` shows a code as two groups of 5 characters with a dash. Dashes, spaces and lower case do
 /// not matter in input.

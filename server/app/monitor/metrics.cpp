@@ -117,12 +117,12 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
   Families page;
   if (service != nullptr) describe_service(page, *service);
   std::array<std::uint64_t, static_cast<std::size_t>(transport::DropReason::kCount)> refused{};
-  std::array<std::size_t, static_cast<std::size_t>(rpc::SessionPhase::kOverloaded) + 1> sessions{};
+  std::array<std::size_t, rpc::kSessionPhases> sessions{};
   std::uint64_t stray = 0;
   for (const SessionEntry& entry : registry.entries()) {
     if (entry.closing) continue;
     const SessionStatus status = entry.session().status();
-    ++sessions[static_cast<std::size_t>(phase_of(status.state))];
+    ++sessions[static_cast<std::size_t>(phase_of(status.state, status.may_act))];
     stray += status.unmatched_datagrams;
     const auto& seats = entry.scene().seats;
     const std::string& name = entry.registration.name;

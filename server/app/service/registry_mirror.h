@@ -33,7 +33,7 @@ class RegistryMirror {
   void stop() { task_.stop(); }
 
  private:
-  static constexpr Duration kInterval = std::chrono::milliseconds(200);  ///< between two looks at the files
+  static constexpr Duration kInterval = std::chrono::milliseconds(100);  ///< between two looks at the files
 
   /// Compares files and directory once. @return the error
   [[nodiscard]] std::string compare();

@@ -20,8 +20,11 @@ void ServiceListFile::stop() {
 }
 
 std::string ServiceListFile::update() {
-  if (service_.quietly([this](const ServiceMember& member, Time now) { return reader_.look(member, now); }))
-    written_ = false;
+  const bool whole = looks_++ % kWhole == 0;
+  const bool changed = service_.quietly([&](const ServiceMember& member, Time now) {
+    return whole ? reader_.look(member, now) : reader_.look_at_directory(member, now);
+  });
+  if (changed) written_ = false;
   if (written_) return {};
   std::string problem = folder_.replace(kListFile, std::string_view(to_text(reader_.list())));
   written_ = problem.empty();

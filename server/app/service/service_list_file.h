@@ -29,7 +29,9 @@ class ServiceListFile {
   void stop();
 
  private:
-  static constexpr Duration kInterval = std::chrono::seconds(1);  ///< between two looks at the list
+  /// Between two looks at whether the directory answers; each fifth one is at the whole list.
+  static constexpr Duration kInterval = std::chrono::milliseconds(200);
+  static constexpr unsigned kWhole = 5;
 
   /// Writes the list if it has changed. @return the error
   [[nodiscard]] std::string update();
@@ -38,6 +40,7 @@ class ServiceListFile {
   ServiceThread& service_;
   ServiceListReader reader_;
   bool written_ = false;  ///< as of the last look
+  unsigned looks_ = 0;
   RepeatedTask task_;
 };
 

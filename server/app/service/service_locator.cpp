@@ -85,7 +85,7 @@ std::vector<std::string> ServiceLocator::members() const {
 }
 
 bool ServiceLocator::fresh() const noexcept {
-  return thread_.quietly([](ServiceMember& member, Time now) { return member.status(now).follows; });
+  return thread_.quietly([](ServiceMember& member, Time now) { return member.status(now).current; });
 }
 
 }  // namespace tandem::server

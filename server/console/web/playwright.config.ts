@@ -11,10 +11,17 @@ const candidates = [
 ];
 const chromium = candidates.find((path) => path !== undefined && existsSync(path));
 
+// Tests that state speeds of the page, or listen to its sound, run alone after all others.
+const alone = /(delay|first_picture|gateway|load|sound)\.spec\.ts$/;
+
 export default defineConfig({
   testDir: 'tests/pages',
   outputDir: 'test-results',
-  workers: 1,
+  workers: 2,
+  projects: [
+    { name: 'together', testIgnore: alone },
+    { name: 'alone', testMatch: alone, workers: 1, dependencies: ['together'] },
+  ],
   timeout: 60_000,
   expect: { timeout: 10_000 },
   reporter: [['list']],

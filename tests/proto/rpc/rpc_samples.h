@@ -127,7 +127,7 @@ inline SessionList session_list(RandomStream& r) {
     ListedSession& s = m.sessions.emplace_back();
     fill(r, s.id);
     s.name = name(r);
-    s.phase = static_cast<SessionPhase>(r.below(6));
+    s.phase = static_cast<SessionPhase>(r.below(kSessionPhases));
     if (r.below(2) == 0) s.server = name(r);
     for (std::uint64_t k = r.below(kListedSeatsMax + 1); k > 0; --k)
       s.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0});
@@ -139,7 +139,7 @@ inline Status status(RandomStream& r) {
   Status m;
   fill(r, m.session_id);
   m.name = name(r);
-  m.phase = static_cast<SessionPhase>(r.below(6));
+  m.phase = static_cast<SessionPhase>(r.below(kSessionPhases));
   m.stops = static_cast<std::uint32_t>(r.below(9));
   m.authority_version = static_cast<std::uint32_t>(r.bits());
   m.time_s = r.below(2) == 0 ? 0 : r.uniform(0, 1e9);
@@ -190,7 +190,7 @@ inline SessionCreated session_created(RandomStream& r) {
   SessionCreated m;
   fill(r, m.session.id);
   m.session.name = name(r);
-  m.session.phase = static_cast<SessionPhase>(r.below(6));
+  m.session.phase = static_cast<SessionPhase>(r.below(kSessionPhases));
   m.session.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0});
   if (r.below(2) == 0) m.code = code(r);
   for (std::uint64_t k = r.below(kSeatsMax + 1); k > 0; --k) {

@@ -31,6 +31,8 @@ TEST(RegistryText, RoundTripsEveryRegistry) {
       "desk-a", hash(1), "tandem-ticket-key-v1 00", {std::byte{1}}, {{std::byte{2}}, {std::byte{3}}}};
   EXPECT_EQ(parse_member(print_member(member), "f"), member);
   EXPECT_EQ(parse_service(print_service(member.key_changes), "f"), member.key_changes);
+  const std::vector<VouchedRow> vouched{{"desk-a", hash(1), 1'800'000'000}, {"desk-a", hash(2), 0}};
+  EXPECT_EQ(parse_vouched(print_vouched(vouched), "f"), vouched);
   ServingSpec serving{
       "127.0.0.1:7000",
       {{{}, "ABCDE12345", "contact", 3, {{"trainer", AccessRole::kInstructor}, {"trainee", AccessRole::kTrainee}}}}};
@@ -67,6 +69,8 @@ TEST(RegistryText, ReportsEveryMistakeWithItsPlace) {
   EXPECT_FALSE(parse_member("name: \"a\" service_key: \"" + kHex64 + "\" ticket_key: \"x\" voucher: \"0\"", "f"));
   EXPECT_FALSE(parse_member("name: \"a\" service_key: \"" + kHex64 + "\" ticket_key: \"x\"", "f"));
   EXPECT_FALSE(parse_service("key_change: \"" + std::string(514, 'a') + "\"", "f"));
+  EXPECT_FALSE(parse_vouched("server { name: \"a\" spki_sha256: \"00\" not_after_s: 1 }", "f"));
+  EXPECT_FALSE(parse_vouched("server { name: \"a b\" spki_sha256: \"" + kHex64 + "\" not_after_s: 1 }", "f"));
   EXPECT_FALSE(parse_serving(
       "address: \"a:1\" session { id: \"00\" code: \"short\" name: \"x\" seat { name: \"a\" role: \"king\" } }", "f"));
 }

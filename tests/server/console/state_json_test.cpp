@@ -107,6 +107,25 @@ TEST(StateJson, HasTheValuesOfTheDatagram) {
   EXPECT_EQ(tool["depth_m"], 0.002);
 }
 
+TEST(StateJson, HasThePhaseOfASessionWithoutTheDirectoryFromItsStatus) {
+  LivePicture held = live_picture();
+  const auto live_of = [&](wire::SessionState state) {
+    LiveValues live = *held.live;
+    live.telemetry.state = state;
+    held.live = std::make_shared<const LiveValues>(live);
+    return state_of(held)["phase"];
+  };
+  EXPECT_EQ(live_of(wire::SessionState::kHeld), "RUNNING") << "braked: no seat with authority is engaged";
+  held.status.phase = rpc::SessionPhase::kHeld;
+  EXPECT_EQ(live_of(wire::SessionState::kHeld), "HELD");
+  EXPECT_EQ(live_of(wire::SessionState::kWaiting), "HELD");
+  EXPECT_EQ(live_of(wire::SessionState::kRunning), "RUNNING") << "the datagram is newer";
+  EXPECT_EQ(live_of(wire::SessionState::kStopped), "STOPPED");
+  LivePicture slow = picture();
+  slow.status.phase = rpc::SessionPhase::kHeld;
+  EXPECT_EQ(state_of(slow)["phase"], "HELD") << "without datagrams";
+}
+
 TEST(StateJson, NamesThePersonsOfTheTicketsAtTakenSeats) {
   LivePicture named = live_picture();
   named.status.seats[0].person = "ann";

@@ -84,6 +84,23 @@ TEST_F(ServiceListTest, SaysWhatTheDirectoryHasTold) {
   EXPECT_EQ(service_text({.known = Known::kNow, .sessions = {}}), "the service has no other session\n");
 }
 
+TEST_F(ServiceListTest, IsOldOnceAnAnswerOfTheDirectoryIsOverdue) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  ServiceListReader reader;
+  const auto known_during = [&](Duration time, Known wanted) {
+    for (const Time end = now_ + time; now_ < end; pass(20ms))
+      EXPECT_EQ(listed_of(reader, a.member, now_).known, wanted);
+  };
+  known_during(5s, Known::kNow);
+  a.directory.answers_lost = true;  // requests leave, and the watch stays open
+  pass(760ms);                      // one and a half periods of renewal, rounded up to steps
+  EXPECT_TRUE(reader.look_at_directory(a.member, now_));
+  known_during(3s, Known::kOld);
+  a.directory.answers_lost = false;
+  pass(1500ms);
+  known_during(1s, Known::kNow);
+}
+
 TEST(ServiceList, RejectsOtherTexts) {
   ServiceList list{.known = Known::kOld, .sessions = {}};
   list.sessions.push_back(

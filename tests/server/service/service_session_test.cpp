@@ -51,6 +51,17 @@ TEST(ListedText, ComesBackAndRejectsEveryPrefix) {
   EXPECT_EQ(read, session);
 }
 
+TEST(ListedText, GivesAHeldSessionAWordThatOlderServersKnow) {
+  const rpc::ListedSession held{{}, "lab", rpc::SessionPhase::kHeld, {}};
+  rpc::ListedSession read{{}, "lab", {}, {}};
+  ASSERT_TRUE(read_listed(listed_text(held), read));
+  EXPECT_EQ(read, held);
+  EXPECT_NE(listed_text(held).find(R"("phase":"running")"), std::string::npos) << listed_text(held);
+  EXPECT_FALSE(read_listed(R"({"phase":"running","held":1,"seats":[]})", read));
+  EXPECT_TRUE(read_listed(R"({"phase":"running","held":false,"seats":[]})", read));
+  EXPECT_EQ(read.phase, rpc::SessionPhase::kRunning);
+}
+
 class FencedWriterTest : public testing::Test {
  protected:
   directory::Revision own(const std::string& session) {

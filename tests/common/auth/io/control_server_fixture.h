@@ -59,8 +59,9 @@ class OneSession : public JoinHandler {
     changed.notify_all();
   }
   rpc::SessionList list(const rpc::SessionListRequest&) override {
-    return {{{session_id, "contact", rpc::SessionPhase::kWaiting, {{"trainee"}}}}, false};
+    return {{{session_id, "contact", phase, {{"trainee"}}}}, false};
   }
+  bool learns_enrolments() const override { return on_unknown && on_unknown(); }
   void command(const rpc::Welcome&, const WorkstationRow&, rpc::Body, std::function<void(rpc::Body)> answer) override {
     const std::lock_guard lock(mutex);
     if (mute) return unanswered.push_back(std::move(answer)), changed.notify_all();
@@ -85,7 +86,9 @@ class OneSession : public JoinHandler {
   const rpc::Id session_id = auth::test::counting<16>(50);
   bool from_another_thread = false, hold = false, mute = false;  ///< mute: commands get no answer
   std::atomic<bool> seat_is_held{true};
+  std::atomic<rpc::SessionPhase> phase{rpc::SessionPhase::kWaiting};
   std::function<void(JoinReply)> held;
+  std::function<bool()> on_unknown;  ///< result of `learns_enrolments`; on the control plane's thread
   std::mutex mutex;
   std::condition_variable changed;
   int abandoned_count = 0;

@@ -67,6 +67,40 @@ TEST(ControlPlane, AllowsUnenrolledClientsOnlyToEnrol) {
   }
 }
 
+TEST(ControlPlane, AcceptsAWorkstationThatAnotherServerOfTheServiceHasJustEnrolled) {
+  ControlServerFixture door;
+  const auto stranger = auth::Identity::make("me", auth::test::counting<16>(), kNow);
+  int looks = 0;
+  door.sessions->on_unknown = [&] {  // the enrolment arrives between the first look and the third one
+    const std::string problem =
+        ++looks == 2 ? door.beside().registry().enroll_without_code({"me", stranger.fingerprint().sha256, kNow}) : "";
+    EXPECT_EQ(problem, "");
+    return true;
+  };
+  auto client = door.connect(stranger);
+  ASSERT_TRUE(client);
+  EXPECT_FALSE(reason_of(client->ask(rpc::SessionListRequest{}, kTimeout)));
+  EXPECT_EQ(looks, 2);
+  EXPECT_EQ(door.plane->count(ControlEvent::kNotEnrolled), 0U);
+  ASSERT_TRUE(door.beside().registry().revoke("me"));
+  EXPECT_EQ(reason_of(client->ask(rpc::SessionListRequest{}, kTimeout)), ErrorCode::kNotEnrolled);
+  EXPECT_EQ(looks, 2) << "a revoked workstation does not wait";
+}
+
+TEST(ControlPlane, RejectsAnUnknownWorkstationAfterABoundedWait) {
+  ControlServerFixture door;
+  const auto stranger = auth::Identity::make("me", auth::test::counting<16>(), kNow);
+  int looks = 0;
+  door.sessions->on_unknown = [&] { return ++looks > 0; };
+  auto client = door.connect(stranger);
+  ASSERT_TRUE(client);
+  EXPECT_EQ(reason_of(client->ask(rpc::SessionListRequest{}, kTimeout)), ErrorCode::kNotEnrolled);
+  EXPECT_GE(looks, 1);
+  EXPECT_LE(looks, 4) << "0.4 s, a look each 0.1 s";
+  EXPECT_EQ(door.plane->count(ControlEvent::kNotEnrolled), 1U);
+  EXPECT_FALSE(client->ask(rpc::Ping{1}, kTimeout)) << "and the connection is over";
+}
+
 TEST(ControlPlane, RejectsTheNextRequestOfARevokedWorkstation) {
   ControlServerFixture door;
   const auto me = door.enrolled("me");

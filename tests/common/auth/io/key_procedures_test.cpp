@@ -174,6 +174,11 @@ TEST(KeyProcedures, MakeTwoServersOneServiceAndChangeItsKey) {
   const Ran refused = run(TANDEM_SERVER, {"service", "vouch", service, "--name", "a b", "--key", "00"});
   EXPECT_EQ(refused.code, 2);
   for (const char* word : {"--name", "--key", "--out"}) EXPECT_NE(refused.err.find(word), std::string::npos);
+  const Ran twice = run(TANDEM_SERVER, {"service", "vouch", service, "--name", "a", "--key", keys["b"], "--out",
+                                        folder.path("member-twice")});
+  EXPECT_EQ(twice.code, 0) << twice.err;
+  for (const std::string& words : {std::string("warning: the name a has a voucher until"), keys["a"]})
+    EXPECT_NE(twice.err.find(words), std::string::npos) << twice.err;
   EXPECT_EQ(run(TANDEM_SERVER, {"service", "init", service}).code, 1);
   EXPECT_EQ(run(TANDEM_SERVER, {"service", "grow"}).code, 2);
   const std::string revoked = ok(run(TANDEM_SERVER, {"revoke", "touch-07", "--state", folder.path("a")}));

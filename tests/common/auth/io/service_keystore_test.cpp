@@ -6,6 +6,7 @@
 #include "common/auth/io/identity_selector.h"
 #include "common/auth/io/server_keystore.h"
 #include "common/auth/ticket.h"
+#include "proto/text/service_text.h"
 #include "tests/common/auth/io/temporary_folder.h"
 #include "tests/common/auth/support.h"
 
@@ -126,6 +127,32 @@ TEST(ServiceKeystore, TakesNoMemberFileThatWouldUndoARotation) {
   // A file of another service is no older one.
   ASSERT_TRUE(ServiceKeystore::init(t.folder.path("other")));
   EXPECT_EQ(t.join("a", t.member("desk-a", t.a, 400, "other")), "");
+}
+
+TEST(ServiceKeystore, NoticesASecondServerOfANameThatHasAValidVoucher) {
+  TwoServers t;
+  const ServiceKeystore service = std::move(*ServiceKeystore::open(t.folder.path("service")));
+  const auto enter = [&](const char* name, const KeyFingerprint& key, std::int64_t from, std::int64_t until) {
+    const auto other = service.enter({name, key, from, until}, from);
+    EXPECT_TRUE(other) << other.error();
+    return other ? *other : std::nullopt;
+  };
+  EXPECT_FALSE(enter("desk-a", t.a, 0, 100));
+  EXPECT_FALSE(enter("desk-a", t.a, 10, 200)) << "renewed";
+  EXPECT_FALSE(enter("desk-b", t.b, 10, 200));
+  const auto other = enter("desk-a", t.b, 200, 300);
+  ASSERT_TRUE(other) << "valid in its last second";
+  EXPECT_EQ(*other, (VouchedRow{"desk-a", t.a.sha256, 200}));
+  EXPECT_FALSE(enter("desk-a", t.b, 201, 400)) << "the voucher of the other key has expired";
+  std::vector<VouchedRow> full(VouchedRow::kMax, {"n", {}, 5000});
+  full[7].not_after = 4999;
+  t.folder.write("service/vouched.textproto", print_vouched(full));
+  EXPECT_FALSE(enter("last", t.a, 300, 9000));
+  full.erase(full.begin() + 7);  // the first to expire
+  full.push_back({"last", t.a.sha256, 9000});
+  EXPECT_EQ(parse_vouched(t.folder.read("service/vouched.textproto"), "vouched"), full);
+  t.folder.write("service/vouched.textproto", "server { name: 1 }");
+  EXPECT_NE(service.enter({"x", t.a, 0, 1}, 0).error().find("vouched.textproto:1:"), std::string::npos);
 }
 
 TEST(ServiceKeystore, IgnoresARotationThatLostItsKey) {

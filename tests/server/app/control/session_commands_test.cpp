@@ -119,6 +119,16 @@ TEST(SessionCommands, StopAndResumeWithNameAndReason) {
             (rpc::ErrorReply{ErrorCode::kNoSeat, "no client is on seat trainee", 0}));
 }
 
+TEST(SessionCommands, ReportASessionWithoutTheDirectoryAsHeldWithTheReason) {
+  Commanding c;
+  c.serve();
+  c.lesson.session().set_act_until(Time{});
+  const auto status = [&] { return std::get<rpc::Status>(c.ask(rpc::StatusRequest{id_of(1)})); };
+  for (int asked = 0; asked < 1000 && status().phase != rpc::SessionPhase::kHeld;) ++asked;  // until the next tick
+  EXPECT_EQ(status().phase, rpc::SessionPhase::kHeld);
+  EXPECT_NE(status().held.find("the directory of the service does not answer"), std::string::npos) << status().held;
+}
+
 TEST(SessionCommands, NameTheSessionInMessagesOfAServerWithSeveral) {
   Commanding c;
   c.add("exam", 2);

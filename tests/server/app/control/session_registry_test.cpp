@@ -159,14 +159,18 @@ TEST(SessionRegistry, ReportsTheProgressOfADrain) {
   EXPECT_GE(f.registry.drain_progress().left_s, 3540U);
 }
 
-TEST(SessionRegistry, ShowsABrakedSessionAsRunning) {
+TEST(SessionRegistry, ShowsABrakedSessionAsRunningAndOneWithoutTheDirectoryAsHeld) {
   using State = wire::SessionState;
   using Phase = rpc::SessionPhase;
   const std::pair<State, Phase> phases[] = {{State::kWaiting, Phase::kWaiting},      {State::kRunning, Phase::kRunning},
                                             {State::kHeld, Phase::kRunning},         {State::kPaused, Phase::kPaused},
                                             {State::kStopped, Phase::kStopped},      {State::kEnding, Phase::kEnding},
                                             {State::kOverloaded, Phase::kOverloaded}};
-  for (const auto& [state, phase] : phases) EXPECT_EQ(phase_of(state), phase) << static_cast<int>(state);
+  for (const auto& [state, phase] : phases) {
+    EXPECT_EQ(phase_of(state, true), phase) << static_cast<int>(state);
+    const bool held = phase == Phase::kWaiting || phase == Phase::kRunning;
+    EXPECT_EQ(phase_of(state, false), held ? Phase::kHeld : phase) << static_cast<int>(state);
+  }
 }
 
 TEST(SessionCodes, AreReadableInGroupsAndAsTyped) {

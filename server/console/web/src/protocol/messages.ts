@@ -22,7 +22,7 @@ export type Right =
   | 'invite'
   | 'record'
   | 'recordings';
-export type Phase = 'WAITING' | 'RUNNING' | 'STOPPED' | 'PAUSED' | 'OVER';
+export type Phase = 'WAITING' | 'RUNNING' | 'HELD' | 'STOPPED' | 'PAUSED' | 'OVER';
 export type SheetName = 'OSATS' | 'GEARS' | 'GOALS' | 'CHECKLIST';
 
 export interface SessionName {

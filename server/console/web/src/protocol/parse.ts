@@ -20,7 +20,7 @@ import { readScores } from './scores';
 
 /** Longest frame that the page parses [characters]; a state of 24 seats needs some 12000. */
 export const kFrameMax = 1 << 20;
-const kPhases: readonly Phase[] = ['WAITING', 'RUNNING', 'STOPPED', 'PAUSED', 'OVER'];
+const kPhases: readonly Phase[] = ['WAITING', 'RUNNING', 'HELD', 'STOPPED', 'PAUSED', 'OVER'];
 const kServerWords = ['lost', 'gone', 'back'] as const;
 const kSheets: readonly SheetName[] = ['OSATS', 'GEARS', 'GOALS', 'CHECKLIST'];
 

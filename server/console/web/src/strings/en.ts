@@ -51,6 +51,7 @@ export const en = {
     'Age of the picture: transport, waiting and interpolation. States dropped: {dropped}; not drawn: {skipped}.',
   'phase.WAITING': 'waiting',
   'phase.RUNNING': 'running',
+  'phase.HELD': 'held',
   'phase.STOPPED': 'stopped',
   'phase.PAUSED': 'paused',
   'phase.OVER': 'over',

@@ -52,6 +52,7 @@ export const fr: Readonly<Record<StringKey, string>> = {
     'Âge de l’image : transport, attente et interpolation. États écartés : {dropped} ; non dessinés : {skipped}.',
   'phase.WAITING': 'en attente',
   'phase.RUNNING': 'en cours',
+  'phase.HELD': 'suspendue',
   'phase.STOPPED': 'arrêtée',
   'phase.PAUSED': 'en pause',
   'phase.OVER': 'terminée',

@@ -142,6 +142,7 @@ export class TopBar implements View {
     const phase = state && (model.connectedToServer ? state.phase : 'UNKNOWN');
     setText(this.phase, phase ? word('phase', phase) : '');
     setAttribute(this.phase, 'data-phase', phase);
+    setAttribute(this.phase, 'title', phase === 'HELD' && state ? state.held : null);
     setText(this.time, state ? clock(state.t) : '');
     setText(this.left, model.left === null ? '' : t('bar.left', { t: clock(model.left) }));
     this.recording.update();

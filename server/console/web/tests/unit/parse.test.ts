@@ -15,6 +15,11 @@ describe('parseMessage', () => {
     expect(parsed.tools[0]?.wanted).toEqual([1, 0]);
   });
 
+  it('reads the phase of a session that is held', () => {
+    const parsed = parseMessage('{"type":"state","n":1,"phase":"HELD","seats":[],"tools":[]}') as State;
+    expect(parsed.phase).toBe('HELD');
+  });
+
   it('keeps what is unknown unknown', () => {
     const parsed = parseMessage('{"type":"state","n":1,"seats":[{"taken":true,"rtt_ms":null}],"tools":[{}]}') as State;
     expect(parsed.seats[0]).toMatchObject({ taken: true, rtt_ms: null, x: null, gate: null, heard: null });
