@@ -30,8 +30,8 @@ class SessionClock {
   /// @return number of missed ticks to run now, at most kCatchUpMax
   std::uint32_t begin_tick(Time now, std::uint32_t missed) noexcept {
     if (started_) {
-      // A turn near the middle between two ticks may be rounded to the number of the tick before. What is due to be
-      // sent follows the number, so each is given once.
+      // A turn near the middle between two ticks may be rounded to the number of the tick before. The number decides
+      // which datagrams are due, so no two ticks have the same.
       const auto by_time = static_cast<std::uint32_t>(std::llround(seconds(now - *started_) / dt_));
       tick_ += static_cast<std::uint32_t>(std::max(1, static_cast<std::int32_t>(by_time - tick_)));
     } else {

@@ -2,25 +2,23 @@
 // the FORCE that answers it. The server's thread has one processor, the clients another. Their ticks are spread over
 // the millisecond. The reference is a bare echo of the same datagrams, which answers each at once (recvmmsg, sendmmsg):
 // its loop at the same number of clients, and its pairs per second when it is saturated.
-#include <poll.h>
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "client/seat/tick_phase.h"
-#include "common/io/realtime.h"
 #include "proto/wire/body_layout.h"
+#include "tests/bench/answering_echo.h"
 #include "tests/bench/crowd.h"
 #include "tests/bench/phased_crowd.h"
 #include "tests/bench/seated_shard.h"
@@ -75,55 +73,6 @@ struct Seen {
   double late = 0;          ///< 99th percentile of the lateness with which the clients sent [us]
 };
 
-/// The bare echo on a thread of its own. Each datagram begins with its number, and so does its answer.
-class Echo {
- public:
-  explicit Echo(std::size_t size)
-      : socket_(std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0)))), size_(size) {
-    thread_ = std::thread([this] { run(); });
-  }
-  ~Echo() {
-    stop_.store(true);
-    thread_.join();
-  }
-  Echo(const Echo&) = delete;
-  Echo& operator=(const Echo&) = delete;
-
-  [[nodiscard]] const io::SocketAddress& address() const { return socket_.local; }
-  [[nodiscard]] Duration cpu() { return cpu_of(thread_.native_handle()); }
-  [[nodiscard]] std::uint64_t answered() const { return answered_.load(); }
-
- private:
-  void run() {
-    io::request_realtime(70);
-    io::ReceiveBatch::prepare(socket_.fd.get(), AF_INET, false);
-    while (!stop_.load()) {
-      pollfd wait{socket_.fd.get(), POLLIN, 0};
-      poll(&wait, 1, 10);
-      for (int count = 0; !stop_.load() && (count = in_.receive(socket_.fd.get())) > 0;) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-          to_[i].size = sizeof(sockaddr_in);
-          std::memcpy(&to_[i].storage, &in_.from(i), to_[i].size);
-          std::memcpy(answers_[i].data(), in_.bytes(i).data(), sizeof(std::uint32_t));
-          out_.add(std::span{answers_[i]}.first(size_), &to_[i], nullptr);
-        }
-        out_.send(socket_.fd.get());
-        answered_ += static_cast<std::uint64_t>(count);
-      }
-    }
-  }
-
-  io::UdpSocket socket_;
-  std::size_t size_;
-  std::atomic<bool> stop_{false};
-  std::atomic<std::uint64_t> answered_{0};
-  io::ReceiveBatch in_;
-  io::SendBatch out_;
-  std::array<std::array<std::byte, transport::kDatagramMax>, io::ReceiveBatch::kMax> answers_{};
-  std::array<io::SocketAddress, io::ReceiveBatch::kMax> to_{};
-  std::thread thread_;
-};
-
 constexpr std::size_t state_bytes() { return wire::state_size(kThreeAxes, false) + kSealed; }
 constexpr std::size_t force_bytes() { return wire::force_size(3) + kSealed; }
 
@@ -138,7 +87,7 @@ auto beside(const std::vector<int>& on, const Make& make) {
 
 Seen see_echo(std::size_t clients, const std::vector<int>& on) {
   constexpr std::size_t kKept = 4096;
-  const auto echo = beside(on, [] { return std::make_unique<Echo>(force_bytes()); });
+  const auto echo = beside(on, [] { return std::make_unique<AnsweringEcho>(force_bytes()); });
   PhasedCrowd crowd{clients, echo->address()};
   std::vector<std::uint32_t> number(clients);
   std::vector<Time> sent(clients * kKept);
@@ -221,7 +170,7 @@ std::optional<Seen> see_shard(const SceneSpec& scene, std::size_t sessions, cons
 
 /// Returns the pairs per second that the echo's thread answers while more datagrams arrive than it can answer.
 double saturated_echo(const std::vector<int>& on) {
-  const auto echo = beside(on, [] { return std::make_unique<Echo>(force_bytes()); });
+  const auto echo = beside(on, [] { return std::make_unique<AnsweringEcho>(force_bytes()); });
   std::vector<io::Fd> sockets;
   for (int i = 0; i < 64; ++i) sockets.push_back(std::move(io::connect_udp(echo->address())->fd));
   const std::vector<std::byte> bytes(state_bytes());

@@ -48,8 +48,9 @@ interface Fixtures {
 }
 
 export const test = base.extend<Fixtures>({
-  // eslint-disable-next-line no-empty-pattern
-  run: async ({}, use) => {
+  // It needs the folder of the test, so that its programs have ended when the folder is removed.
+  // eslint-disable-next-line @typescript-eslint/no-unused-vars
+  run: async ({ place: _place }, use) => {
     const programs: Program[] = [];
     await use((name, ...args) => {
       const program = start(name, ...args);
@@ -62,7 +63,6 @@ export const test = base.extend<Fixtures>({
   place: async ({}, use) => {
     const made = mkdtempSync(join(tmpdir(), 'tandem-pages-'));
     await use(made);
-    // Programs that end may still write.
     rmSync(made, { recursive: true, maxRetries: 10, retryDelay: 200 });
   },
 });
