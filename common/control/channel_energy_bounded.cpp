@@ -21,42 +21,15 @@ void EnergyBoundedEnd::clamp_reference(const AxisArray& x) noexcept {
   }
 }
 
-void EnergyBoundedEnd::change_stiffness(std::size_t a, double k, double x, double weight) noexcept {
-  const double e = state_.ref[a] - x;
-  const double half_square = 0.5 * weight * e * e;
-  const double dE = (k - state_.k[a]) * half_square;
-  if (dE <= 0) {
-    state_.absorbed[a] -= dE;
-  } else if (ledger_[a].spend(dE)) {
-    state_.paid[a] += dE;
-  } else {
-    return;  // not affordable now: k stays, and rises later
-  }
-  state_.k[a] = k;
-}
-
-void EnergyBoundedEnd::move_reference(std::size_t a, double wanted, double x, double weight) noexcept {
-  const double stiffness = 0.5 * state_.k[a] * weight;
+void EnergyBoundedEnd::move_affordable_part(std::size_t a, double wanted, double x, double half_stiffness) noexcept {
   const double before = state_.ref[a] - x;
   const double after = wanted - x;
-  const double dE = stiffness * (after * after - before * before);
-  if (!std::isfinite(dE)) return;  // a position that is not finite, or whose square overflows
-  if (dE <= 0) {
-    state_.absorbed[a] -= dE;
-    state_.ref[a] = wanted;
-    return;
-  }
-  if (ledger_[a].spend(dE)) {
-    state_.paid[a] += dE;
-    state_.ref[a] = wanted;
-    return;
-  }
-  // Not affordable: the largest elongation that the whole margin pays, on the side of the target. One nanojoule is kept
-  // back so that rounding can never overdraw.
+  const double dE = half_stiffness * (after * after - before * before);
+  // On the side of the target. One nanojoule is kept back, so that rounding can never overdraw.
   const double budget = std::max(0.0, ledger_[a].margin() - 1e-9);
-  const double reach = stiffness > 0 ? std::sqrt(before * before + budget / stiffness) : 0;
+  const double reach = half_stiffness > 0 ? std::sqrt(before * before + budget / half_stiffness) : 0;
   const double e = std::min(reach, std::abs(after));
-  const double cost = std::max(0.0, stiffness * (e * e - before * before));
+  const double cost = std::max(0.0, half_stiffness * (e * e - before * before));
   refused_ += dE - cost;
   if (!ledger_[a].spend(cost)) return;
   state_.paid[a] += cost;

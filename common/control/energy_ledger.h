@@ -11,8 +11,9 @@ namespace tandem::control {
 
 /// Converts a credit from joule to nanojoule, rounded down so that an account never gains. NaN and infinity give 0.
 [[nodiscard]] inline std::uint64_t credit_nj(double joule) noexcept {
-  if (!(joule > 0) || std::isinf(joule)) return 0;  // also NaN
-  if (joule >= 1e9) return 1'000'000'000'000'000'000ULL;
+  if (!(joule > 0)) return 0;  // also NaN
+  if (joule >= 1e9) [[unlikely]]
+    return std::isinf(joule) ? 0 : 1'000'000'000'000'000'000ULL;
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(joule * 1e9));  // one instruction through the signed type
 }
 /// Converts a debit from joule to nanojoule, rounded up. A debit that is not a number exceeds every budget.
@@ -40,7 +41,7 @@ class EnergyLedger {
  public:
   EnergyLedger() = default;
   /// @param initial  E_0 [J] >= 0.  @param eta  share of the dissipation that may be spent, [0, 1].
-  EnergyLedger(double initial, double eta) noexcept : initial_(credit_nj(initial)), eta_(eta) {}
+  EnergyLedger(double initial, double eta) noexcept : own_(credit_nj(initial)), eta_(eta) {}
 
   /// Adds energy that the channel absorbed at this end [J]; the other end may spend it.
   void absorb(double joule) noexcept { in_ = saturating_add(in_, credit_nj(joule)); }
@@ -50,11 +51,11 @@ class EnergyLedger {
   /// @return the credited energy [nJ].
   std::uint64_t dissipate(double joule) noexcept {
     const std::uint64_t credited = credit_nj(eta_ * joule);
-    dissipated_ = saturating_add(dissipated_, credited);
+    own_ = saturating_add(own_, credited);
     return credited;
   }
   /// Returns to the account the cost of an earlier move of this end [J]; this end may spend it again.
-  void refund(double joule) noexcept { dissipated_ = saturating_add(dissipated_, credit_nj(joule)); }
+  void refund(double joule) noexcept { own_ = saturating_add(own_, credit_nj(joule)); }
   /// Forfeits unspent energy above `limit` [J]. A seat can then not accumulate energy at authority 0 and spend it later
   /// at once. Of the forfeited energy at most `most` [nJ] is passed to the other end, which counts it as received.
   /// @return the energy passed on [nJ].
@@ -62,7 +63,7 @@ class EnergyLedger {
     const std::uint64_t kept = credit_nj(limit), margin = margin_nj();
     if (margin <= kept) return 0;
     const std::uint64_t surplus = margin - kept, passed_on = std::min(surplus, most);
-    forfeited_ += surplus;
+    used_ += surplus;
     in_ = saturating_add(in_, passed_on);
     return passed_on;
   }
@@ -71,35 +72,40 @@ class EnergyLedger {
     const std::uint64_t cost = debit_nj(joule);
     if (cost > margin_nj() || cost == std::numeric_limits<std::uint64_t>::max()) return false;
     out_ += cost;
+    used_ += cost;
     return true;
   }
   /// Books `joule` regardless of the margin, so that monitors see the breach of laws without passivity.
-  void spend_unchecked(double joule) noexcept { out_ = saturating_add(out_, debit_nj(joule)); }
+  void spend_unchecked(double joule) noexcept {
+    const std::uint64_t cost = debit_nj(joule);
+    out_ = saturating_add(out_, cost);
+    used_ = saturating_add(used_, cost);
+  }
   /// Cumulative energy absorbed at this end; sent to the other end [nJ].
   [[nodiscard]] std::uint64_t in_nj() const noexcept { return in_; }
   /// Cumulative energy paid at this end [nJ].
   [[nodiscard]] std::uint64_t out_nj() const noexcept { return out_; }
   /// Upper bound of `out_nj`: initial + received + eta * dissipated [nJ].
-  [[nodiscard]] std::uint64_t bound_nj() const noexcept {
-    return saturating_add(saturating_add(initial_, received_), dissipated_);
-  }
+  [[nodiscard]] std::uint64_t bound_nj() const noexcept { return saturating_add(own_, received_); }
   /// Energy that can be spent now: the bound less what was paid and forfeited, at least 0 [nJ].
   [[nodiscard]] std::uint64_t margin_nj() const noexcept {
-    const std::uint64_t used = saturating_add(out_, forfeited_);
     const std::uint64_t bound = bound_nj();
-    return bound > used ? bound - used : 0;
+    return bound > used_ ? bound - used_ : 0;
   }
   /// Newest cumulative `in` of the other end [nJ].
   [[nodiscard]] std::uint64_t received_nj() const noexcept { return received_; }
   /// Cumulative energy forfeited [nJ].
-  [[nodiscard]] std::uint64_t forfeited_nj() const noexcept { return forfeited_; }
+  [[nodiscard]] std::uint64_t forfeited_nj() const noexcept { return used_ - out_; }
   /// The margin [J].
   [[nodiscard]] double margin() const noexcept { return static_cast<double>(margin_nj()) * 1e-9; }
   /// Returns whether the invariant holds, for monitors; false only if the account is broken.
   [[nodiscard]] bool holds() const noexcept { return out_ <= bound_nj(); }
 
  private:
-  std::uint64_t initial_ = 0, in_ = 0, out_ = 0, received_ = 0, dissipated_ = 0, forfeited_ = 0;
+  // Sums, because the margin is computed several times per tick.
+  std::uint64_t own_ = 0;   ///< initial + eta * dissipated
+  std::uint64_t used_ = 0;  ///< out + forfeited
+  std::uint64_t in_ = 0, out_ = 0, received_ = 0;
   double eta_ = 0;
 };
 

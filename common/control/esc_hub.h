@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 
 #include "common/base/axes.h"
 #include "common/control/authority.h"
@@ -83,13 +84,14 @@ class EscHub {
   /// Sets C_ji of a master.
   void set_follow(std::size_t master, std::size_t tool, double follow) noexcept;
   /// Couples a SLAVE seat fully to its own tool.
-  void couple_slave(std::size_t seat, std::size_t tool) noexcept { couplings_[seat][tool] = {1, 1, 1}; }
+  void couple_slave(std::size_t seat, std::size_t tool) noexcept;
   /// Takes over A_ji of all masters over a tool; called once per tick.
   /// @param tool    number of the tool
   /// @param alpha   authority of each master [0, 1]
   /// @param braked  no present seat has authority over the tool
   void set_authority(std::size_t tool, const MasterArray& alpha, bool braked) noexcept TANDEM_REALTIME {
     braked_[tool] = braked;
+    any_braked_ = std::ranges::any_of(braked_, std::identity{});
     alone_[tool] = true;
     for (std::size_t i = 0; i < p_.masters; ++i) {
       Coupling& c = couplings_[i][tool];
@@ -101,13 +103,13 @@ class EscHub {
   /// Takes over the port of a tool, after each of its steps and when it is placed.
   void set_tool(std::size_t tool, const ToolPort& port) noexcept TANDEM_REALTIME {
     ToolPort& own = tools_[tool];
-    for (std::size_t a = 0; a < p_.axes; ++a) {
+    each_axis(p_.axes, [&](std::size_t a) {
       own.x[a] = port.x[a];
       own.v[a] = port.v[a];
       own.moved[a] = port.moved[a];
       own.dissipated[a] = port.dissipated[a];
       own.surface_force[a] = port.surface_force[a];
-    }
+    });
   }
 
   /// Returns the weights of a seat at a tool.
@@ -123,20 +125,21 @@ class EscHub {
   /// Target y_i of a seat: the position that its reference follows. @pre `step_target` was called for the seat
   [[nodiscard]] const AxisArray& target(std::size_t seat) const noexcept { return targets_[seat]; }
   /// First tool that the seat follows; 0 if it follows none.
-  [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
+  [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept { return first_tools_[seat]; }
   /// Authority of a master over the first tool that it follows with authority above 0; 0 if there is none.
   [[nodiscard]] double authority(std::size_t master) const noexcept;
   /// No present seat has authority over this tool.
   [[nodiscard]] bool braked(std::size_t tool) const noexcept { return braked_[tool]; }
   /// A tool to which this master is coupled is braked.
-  [[nodiscard]] bool meets_brake(std::size_t master) const noexcept;
+  [[nodiscard]] bool meets_brake(std::size_t master) const noexcept { return any_braked_ && coupled_to_brake(master); }
   /// The master has authority over at least one tool.
   [[nodiscard]] bool has_authority(std::size_t master) const noexcept;
 
-  /// Near end of the spring of a seat whose one spring serves all its tools.
+  /// Finds the near end of the spring of a seat whose one spring serves all its tools.
   /// @param seat  number of the seat
   /// @param k     stiffness of the spring
-  [[nodiscard]] NearEnd near_end(std::size_t seat, const AxisArray& k) const noexcept TANDEM_REALTIME;
+  /// @param near  result, for the axes in use; `engaged` and `offset` stay as they are
+  void find_near_end(std::size_t seat, const AxisArray& k, NearEnd& near) const noexcept TANDEM_REALTIME;
   /// Credits the energy that the tools really paid when the seat's spring moved, as alpha_i dE. The hub asks the flow
   /// sources for the rest.
   /// @param seat         number of the seat
@@ -178,13 +181,13 @@ class EscHub {
                     AxisArray& injected) const noexcept TANDEM_REALTIME {
     const Coupling& c = couplings_[master][tool];
     const double unpaid = c.follow - c.alpha;
-    for (std::size_t a = 0; a < p_.axes; ++a) injected[a] -= unpaid * effort[a] * tools_[tool].moved[a];
+    each_axis(p_.axes, [&](std::size_t a) { injected[a] -= unpaid * effort[a] * tools_[tool].moved[a]; });
   }
   /// Eq. 3: integrates the observer of a tool.
   /// @param tool      number of the tool
   /// @param injected  sum of `add_injected` over the present masters
   void observe(std::size_t tool, const AxisArray& injected) noexcept TANDEM_REALTIME {
-    for (std::size_t a = 0; a < p_.axes; ++a) sources_[tool].observe(a, injected[a] / p_.dt, p_.dt);
+    each_axis(p_.axes, [&](std::size_t a) { sources_[tool].observe(a, injected[a] / p_.dt, p_.dt); });
   }
   /// Law `replica`: asks the flow sources for the energy that the other hands' motion adds beyond this hand's own
   /// authority, along the tool's path.
@@ -210,13 +213,18 @@ class EscHub {
   static constexpr double kAgeMargin = 0.015;
 
  private:
+  void find_first_tool(std::size_t seat) noexcept;
+  [[nodiscard]] bool coupled_to_brake(std::size_t master) const noexcept;
+
   Params p_;
   std::array<std::array<Coupling, kToolsMax>, kSeatsMax> couplings_{};
   std::array<FlowSources, kToolsMax> sources_;
   std::array<ToolPort, kToolsMax> tools_{};
   std::array<bool, kToolsMax> braked_{};
+  bool any_braked_ = false;
   std::array<bool, kToolsMax> alone_{};  ///< as of the last `set_authority`
   std::array<AxisArray, kSeatsMax> targets_{};
+  std::array<std::size_t, kSeatsMax> first_tools_{};  ///< as of the last `set_follow` or `couple_slave`
 };
 
 }  // namespace tandem::control

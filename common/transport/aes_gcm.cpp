@@ -3,6 +3,7 @@
 #include <intel-ipsec-mb.h>
 #include <sodium.h>
 
+#include <atomic>
 #include <cstring>
 
 #include "common/base/raw_bytes.h"
@@ -17,19 +18,19 @@ static_assert(sizeof(gcm_key_data) <= 1024 && alignof(gcm_key_data) <= 64);
 gcm_key_data* key_data(std::byte* p) noexcept { return reinterpret_cast<gcm_key_data*>(p); }
 const gcm_key_data* key_data(const std::byte* p) noexcept { return reinterpret_cast<const gcm_key_data*>(p); }
 
-/// Returns the code for this processor; null if none suits. Callers only read it, so all threads share one.
-const IMB_MGR* code() {
-  static const IMB_MGR* const chosen = []() -> IMB_MGR* {
-    IMB_MGR* const manager = alloc_mb_mgr(0);
-    if (manager == nullptr) return nullptr;
-    init_mb_mgr_auto(manager, nullptr);
-    constexpr std::uint64_t kNeeded = IMB_FEATURE_AESNI | IMB_FEATURE_PCLMULQDQ | IMB_FEATURE_SELF_TEST_PASS;
-    if (imb_get_errno(manager) == 0 && (manager->features & kNeeded) == kNeeded) return manager;
-    free_mb_mgr(manager);
-    return nullptr;
-  }();
-  return chosen;
+const IMB_MGR* choose_code() {
+  IMB_MGR* const manager = alloc_mb_mgr(0);
+  if (manager == nullptr) return nullptr;
+  init_mb_mgr_auto(manager, nullptr);
+  constexpr std::uint64_t kNeeded = IMB_FEATURE_AESNI | IMB_FEATURE_PCLMULQDQ | IMB_FEATURE_SELF_TEST_PASS;
+  if (imb_get_errno(manager) == 0 && (manager->features & kNeeded) == kNeeded) return manager;
+  free_mb_mgr(manager);
+  return nullptr;
 }
+/// The code for this processor; null if none suits, or before the first `available`. Callers only read it, so all
+/// threads share one.
+std::atomic<const IMB_MGR*> chosen_code{nullptr};
+const IMB_MGR* code() noexcept { return chosen_code.load(std::memory_order_acquire); }
 
 using TagBytes = std::array<std::byte, kTagSize>;
 /// Compares in constant time.
@@ -43,7 +44,11 @@ bool equal(std::span<const std::byte, kTagSize> a, const TagBytes& b) noexcept {
 
 }  // namespace
 
-bool AesGcm::available() { return code() != nullptr; }
+bool AesGcm::available() {
+  static const IMB_MGR* const chosen = choose_code();
+  chosen_code.store(chosen, std::memory_order_release);
+  return chosen != nullptr;
+}
 
 void AesGcm::expand(const tandem::Secret<32>& key) noexcept {
   IMB_AES256_GCM_PRE(code(), raw(key.bytes.data()), key_data(expanded_.data()));

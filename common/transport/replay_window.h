@@ -19,8 +19,9 @@ class ReplayWindow {
     if (newest_ - counter >= kSize) return Verdict::kTooOld;
     return bit(counter) ? Verdict::kDuplicate : Verdict::kLate;
   }
-  Verdict record(std::uint64_t counter) noexcept {
-    const Verdict v = check(counter);
+  Verdict record(std::uint64_t counter) noexcept { return record(counter, check(counter)); }
+  /// @param v  what `check` returned, since when nothing was recorded
+  Verdict record(std::uint64_t counter, Verdict v) noexcept {
     if (v == Verdict::kNewer) {
       const std::uint64_t first = any_ ? newest_ + 1 : counter;
       if (counter - first >= kSize) {

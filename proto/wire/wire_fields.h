@@ -31,6 +31,10 @@ constexpr bool one_byte(std::uint32_t value) noexcept { return value < 0x80; }
 constexpr std::uint16_t two_bytes(std::uint32_t value) noexcept {
   return static_cast<std::uint16_t>((value & 0x7f) | 0x80 | (value >> 7) << 8);
 }
+/// Two varints of one byte each, in memory order.
+constexpr std::uint16_t two_single_bytes(std::uint32_t first, std::uint32_t second) noexcept {
+  return static_cast<std::uint16_t>(first | second << 8);
+}
 
 /// Writes a whole body without range checks; the receiver checks ranges. @pre the span has room for the body
 class FieldWriter {
@@ -102,8 +106,13 @@ class FieldWriter {
     }
   }
   [[gnu::always_inline]] void array(std::uint32_t number, std::size_t bytes) noexcept {
-    structure(tag(number, Encoding::kPacked));
-    structure(static_cast<std::uint32_t>(bytes));
+    const std::uint32_t key = tag(number, Encoding::kPacked), length = static_cast<std::uint32_t>(bytes);
+    if (one_byte(key) && one_byte(length)) {
+      put(two_single_bytes(key, length));
+    } else {
+      structure(key);
+      structure(length);
+    }
   }
   template <class T>
   [[gnu::always_inline]] void put(T value) noexcept {
@@ -209,8 +218,13 @@ class FieldReader {
     }
   }
   [[gnu::always_inline]] void array(std::uint32_t number, std::size_t bytes) noexcept {
-    structure(tag(number, Encoding::kPacked));
-    structure(static_cast<std::uint32_t>(bytes));
+    const std::uint32_t key = tag(number, Encoding::kPacked), length = static_cast<std::uint32_t>(bytes);
+    if (one_byte(key) && one_byte(length)) {
+      differs_ |= static_cast<std::uint32_t>(get<std::uint16_t>() ^ two_single_bytes(key, length));
+    } else {
+      structure(key);
+      structure(length);
+    }
   }
   template <class T>
   [[gnu::always_inline]] T get() noexcept {

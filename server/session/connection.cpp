@@ -2,32 +2,26 @@
 
 namespace tandem::server {
 
-std::optional<Connection::Opened> Connection::authenticate(Time now, const transport::Header& header,
-                                                           std::span<const std::byte> bytes) noexcept {
-  const auto opened = link_->open(now, header, bytes);
-  return opened ? std::optional{*opened} : std::nullopt;
-}
-
-std::optional<Connection::Opened> Connection::handle(Time now, const PeerAddress& from, const Opened& opened,
-                                                     wire::Codec& codec) noexcept {
+bool Connection::handle(Time now, const PeerAddress& from, const Opened& opened, wire::Codec& codec) noexcept {
   if (!rate_.allow(now)) {
     link_->drop(transport::DropReason::kRate);
-    return std::nullopt;
+    return false;
   }
-  if (opened.type != wire::Type::kPathResponse) return opened;
+  if (opened.type != wire::Type::kPathResponse) [[likely]]
+    return true;
   if (const auto answer = codec.decode_path(opened.plaintext)) {
     link_->accept_other();
     if (path_validation_.on_response(from, answer->message.token)) proven_address_ = from;
   } else {
     link_->drop_body();
   }
-  return std::nullopt;
+  return false;
 }
 
 std::optional<Connection::Opened> Connection::open(Time now, const PeerAddress& from, const transport::Header& header,
                                                    std::span<const std::byte> bytes, wire::Codec& codec) noexcept {
   const auto opened = authenticate(now, header, bytes);
-  return opened ? handle(now, from, *opened, codec) : std::nullopt;
+  return opened && handle(now, from, *opened, codec) ? std::optional{*opened} : std::nullopt;
 }
 
 void Connection::on_accepted_message(Time now, const PeerAddress& from, const transport::SecureChannel::Opened& opened,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <expected>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,13 +27,16 @@ class Connection {
 
   using Opened = transport::SecureChannel::Opened;
 
-  /// Opens a datagram. @return its content; nullopt if it is not of this client, or was opened before
+  /// Opens a datagram. @return its content; an error if it is not of this client, or was opened before
   /// @param header  of the datagram `bytes`
-  [[nodiscard]] std::optional<Opened> authenticate(Time now, const transport::Header& header,
-                                                   std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
-  /// Handles path messages and the rate limit. @return a message for the owner; nullopt if it was handled or dropped
-  [[nodiscard]] std::optional<Opened> handle(Time now, const PeerAddress& from, const Opened& opened,
-                                             wire::Codec& codec) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::expected<Opened, transport::DropReason> authenticate(
+      Time now, const transport::Header& header, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME {
+    return link_->open(now, header, bytes);
+  }
+  /// Handles path messages and the rate limit. @return whether `opened` is for the owner; false if it was handled or
+  /// dropped
+  [[nodiscard]] bool handle(Time now, const PeerAddress& from, const Opened& opened,
+                            wire::Codec& codec) noexcept TANDEM_REALTIME;
   /// `authenticate`, then `handle`.
   [[nodiscard]] std::optional<Opened> open(Time now, const PeerAddress& from, const transport::Header& header,
                                            std::span<const std::byte> bytes,

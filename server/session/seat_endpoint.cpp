@@ -85,8 +85,8 @@ SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& fr
   const auto authentic = connection_->authenticate(now, header, bytes);
   if (!authentic) return heard;
   heard.plaintext = authentic->plaintext;
-  const auto opened = connection_->handle(now, from, *authentic, codec_);
-  if (!opened) return heard;
+  const Connection::Opened* const opened = &*authentic;
+  if (!connection_->handle(now, from, *opened, codec_)) return heard;
   transport::SecureChannel& link = connection_->link();
   if (!allowed(role_, opened->type)) {
     link.drop(transport::DropReason::kRole);
@@ -108,7 +108,8 @@ SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& fr
       }
       if (!opened->newer) break;  // the newest STATE wins; older ones never act
       bool jumped = jumps(next_->port, rx_->port);
-      for (std::size_t k = 0; k < further_rx_.size(); ++k) jumped |= jumps(further_next_[k], further_rx_[k]);
+      const bool several = !further_rx_.empty();
+      for (std::size_t k = 0; several && k < further_rx_.size(); ++k) jumped |= jumps(further_next_[k], further_rx_[k]);
       if (jumped && alive(now) && rx_->engaged && next_->engaged) misbehaviour_.report_misbehaviour(now);
       heard.accepted_state = true;
       connection_->on_accepted_message(now, from, *opened, *preamble, tokens);
@@ -117,7 +118,7 @@ SeatEndpoint::Received SeatEndpoint::on_datagram(Time now, const PeerAddress& fr
         sent_telemetry_ = true;
       }
       std::swap(rx_, next_);
-      further_rx_.swap(further_next_);
+      if (several) further_rx_.swap(further_next_);
       ++generation_;
       held_.restart();
       break;
@@ -162,10 +163,10 @@ bool SeatEndpoint::one_way() const noexcept {
 bool SeatEndpoint::jumps(const PortSample& next, const PortSample& last) noexcept {
   const double most = scene_->port == PortSpace::kTip ? kJumpMaxM : kJumpMaxRad;
   bool near = true, fell = false;
-  for (std::size_t a = 0, axes = scene_->dof; a < axes; ++a) {
+  each_axis(scene_->dof, [&](std::size_t a) {
     near &= std::abs(next.x[a] - last.x[a]) <= most;
     fell |= next.e_in[a] < last.e_in[a];
-  }
+  });
   energy_fell_ |= fell;
   return !near;
 }
@@ -206,7 +207,7 @@ void SeatEndpoint::move(std::size_t k, const control::NearEnd& near) noexcept {
   input_.weight = near.weight;
   input_.pass_on = near.heat_share;
   const PortSample& heard = last_sample(k);
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
+  each_axis(scene_->dof, [&](std::size_t a) {
     input_.x[a] = near.x[a];
     input_.dissipated[a] = near.dissipated[a];
     input_.rx.x[a] = heard.x[a] - near.offset[a];
@@ -214,7 +215,7 @@ void SeatEndpoint::move(std::size_t k, const control::NearEnd& near) noexcept {
     input_.rx.f[a] = heard.f[a];
     input_.rx.a[a] = heard.a[a];
     input_.rx.e_in[a] = heard.e_in[a];
-  }
+  });
   ends_[k]->move(input_);
 }
 

@@ -254,9 +254,10 @@ void Session::fill_force_messages(Time now) noexcept {
 }
 
 std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
-  std::optional<Transmit> out;
-  if (!send_.done()) out = send_.poll(now, clock_.tick(), participants_.closing(), buffer);
-  if (out) return out;
+  std::optional<Transmit> out =
+      send_.done() ? std::nullopt : send_.poll(now, clock_.tick(), participants_.closing(), buffer);
+  if (out) [[likely]]
+    return out;
   if (link_test_peers_.any()) out = link_test_peers_.poll_transmit(now, clock_.tick(), buffer);
   if (!out && watchers_.may_send()) out = watchers_.poll_transmit(now, clock_.tick(), buffer);
   if (out) return out;

@@ -92,7 +92,7 @@ void SharedControl::step_authority(bool released) noexcept {
     std::array<bool, kMastersMax> present{};
     for (std::size_t i = 0; i < masters_; ++i) present[i] = driven && present_[i];
     double dissipated = 0;
-    for (std::size_t a = 0; a < scene_->dof; ++a) dissipated += (1 - scene_->channel.eta) * tool.port().dissipated[a];
+    each_axis(scene_->dof, [&](std::size_t a) { dissipated += (1 - scene_->channel.eta) * tool.port().dissipated[a]; });
     if (tool.authority.settled(present)) {
       tool.authority.fill(dissipated);
       continue;
@@ -121,11 +121,12 @@ void SharedControl::move_spring(Time now, std::size_t i) noexcept {
   const bool master = i < masters_, present = present_[i];
   if (!master && !present && seat.alive(now)) rest_tool(scene_->seats[i].tool, seat.last_state().port.x);
   control::ChannelEnd& end = seat.end();
-  control::NearEnd near = hub_.near_end(i, end.state().k);
+  control::NearEnd& near = near_ends_[0];
+  hub_.find_near_end(i, end.state().k, near);
   const bool braked = master && hub_.meets_brake(i);
   near.engaged = present && !braked;
   step_offset(i, near.engaged);
-  near.offset = offsets_[i].all();
+  each_axis(scene_->dof, [&](std::size_t a) { near.offset[a] = offsets_[i][a]; });
   // No energy is paid or credited while the seat's authority moves to other seats.
   if (master && !present && !braked && hub_.has_authority(i)) return seat.hold(std::span{&near, 1});
   const AxisArray before = end.state().ref;
@@ -151,19 +152,19 @@ void SharedControl::step_offset(std::size_t i, bool engaged) noexcept {
   control::ReengageOffset& offset = offsets_[i];
   engaged_ticks_[i] = engaged ? engaged_ticks_[i] + 1 : 0;
   const double pace = offset.pace(engaged_ticks_[i] * dt_);
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
-    if (engaged) {
+  each_axis(scene_->dof, [&](std::size_t a) {
+    if (engaged) [[likely]] {
       offset.move(a, offset.decay(a, pace));
     } else {
       offset.set(a, seat.ever_heard() ? seat.last_state().port.x[a] - hub_.target(i)[a] : 0);
     }
-  }
+  });
 }
 
 void SharedControl::step_tools(double time) noexcept {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     Tool& tool = tools_[j];
-    for (std::size_t a = 0; a < scene_->dof; ++a) efforts_[a] = {};
+    each_axis(scene_->dof, [&](std::size_t a) { efforts_[a] = {}; });
     const control::VirtualTool* const body = replica_ ? tool.body() : nullptr;
     for (std::size_t i = 0; i < masters_; ++i) hub_.add_effort(i, j, seats_[i].end(j).state(), body, efforts_);
     const double share = scene_->tools[j].remote && slave_present(j) ? tool.slave_share() : 0;
@@ -269,12 +270,15 @@ void SharedControl::fill_tool_target(std::size_t i) noexcept {
   const control::EndState& end = seat.end().state();
   const AxisArray flow = hub_.step_target(i, present, end.k);
   PortSample& out = seat.tx.port;
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
-    out.x[a] = hub_.target(i)[a] + offsets_[i][a];
+  const AxisArray& target = hub_.target(i);
+  const AxisArray& heard = seat.last_state().port.v;
+  const control::ReengageOffset& offset = offsets_[i];
+  each_axis(scene_->dof, [&](std::size_t a) {
+    out.x[a] = target[a] + offset[a];
     // Until the seat is present, the target moves with its own hand, so that nothing pulls.
-    out.v[a] = present ? flow[a] + offsets_[i].last_step()[a] / dt_ : seat.last_state().port.v[a];
-    out.f[a] = end.k[a] * (end.ref[a] - hub_.target(i)[a]);
-  }
+    out.v[a] = present ? flow[a] + offset.last_step()[a] / dt_ : heard[a];
+    out.f[a] = end.k[a] * (end.ref[a] - target[a]);
+  });
   if (present) seat.end().replace_velocity(out.v);
   if (i < masters_ && coupling_ != control::HandCoupling::kEsc) fill_coupled_target(i, out);
 }
@@ -316,7 +320,7 @@ void SharedControl::fill_coupled_target(std::size_t i, PortSample& out) noexcept
 
 void SharedControl::fill_account(std::size_t i, std::size_t j, double alpha, wire::ToolForce& out) const noexcept {
   const control::ChannelEnd& end = seats_[i].end(j);
-  for (std::size_t a = 0; a < scene_->dof; ++a) out.port.e_in[a] = end.ledger(a).in_nj();
+  each_axis(scene_->dof, [&](std::size_t a) { out.port.e_in[a] = end.ledger(a).in_nj(); });
   out.alpha = alpha;
 }
 

@@ -79,8 +79,8 @@ class SharedControl {
   std::array<control::CoupledTarget, kMastersMax> coupled_targets_{};  ///< couplings other than ESC
   std::array<std::uint32_t, kSeatsMax> engaged_ticks_{};               ///< since the seat engaged
   std::array<double, kMastersMax> effort_max_{};                       ///< largest pull of a hand's motor [N]
-  std::array<control::NearEnd, kToolsMax> near_ends_{};                ///< scratch space of `move_predictions`
-  control::EscHub::Efforts efforts_{};                                 ///< scratch space of `step_tools`
+  std::array<control::NearEnd, kToolsMax> near_ends_{};      ///< scratch space of `move_spring` and `move_predictions`
+  control::EscHub::Efforts efforts_{};                       ///< scratch space of `step_tools`
   std::array<std::uint64_t, kToolsMax> slave_generation_{};  ///< newest STATE that the contact source received
 };
 

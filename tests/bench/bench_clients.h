@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -17,8 +19,8 @@
 
 namespace tandem::bench {
 
-/// Minimal client: seals STATE messages of an engaged hand at rest and answers path challenges. It uses only those
-/// fields of FORCE that it must echo, and sends telemetry as often as the server asks.
+/// Minimal client: seals STATE messages of an engaged hand and answers path challenges. It uses only those fields of
+/// FORCE that it must echo, and sends telemetry as often as the server asks. The hand rests, or swings along one axis.
 class BareClient {
  public:
   BareClient(const netsim::SimulatedJoin& joined)
@@ -40,7 +42,7 @@ class BareClient {
     ++forces_;
     telemetry_every_tick_ = force->message.telemetry_every_tick;
     state_.engaged = force->message.engage;
-    if (!settled_) state_.port.x = force->message.port.x;  // position of the tool: the coupling has no elongation
+    if (!settled_) rest_ = state_.port.x = force->message.port.x;  // of the tool: the coupling has no elongation
     settled_ = state_.engaged;
   }
   /// Writes the next datagram into `buffer`. @return size [bytes]; 0: none
@@ -52,7 +54,13 @@ class BareClient {
       return link_.seal(now, wire::Type::kPathResponse, buffer, plain);
     }
     state_.with_telemetry = telemetry_.due(tick, telemetry_every_tick_);
+    if (swings_ && settled_) swing(tick);
     return link_.seal(now, wire::Type::kState, buffer, codec_.encode(link_.preamble(now, tick), state_, body));
+  }
+  /// From now on the hand swings by 20 mm at 1.5 Hz; seats of one session one after the other.
+  void set_swinging(std::size_t seat) {
+    swings_ = true;
+    swing_phase_ = static_cast<double>(seat);
   }
   [[nodiscard]] const transport::SecureChannel& link() const { return link_; }
   [[nodiscard]] bool settled() const { return settled_; }
@@ -62,12 +70,21 @@ class BareClient {
   [[nodiscard]] std::uint64_t counter() const { return counter_; }
 
  private:
+  void swing(std::uint32_t tick) {
+    constexpr double kAmplitude = 0.02, kRate = 2 * std::numbers::pi * 1.5;  // [m, rad/s]
+    const double angle = kRate * 1e-3 * tick + swing_phase_;
+    state_.port.x[0] = rest_[0] + kAmplitude * std::sin(angle);
+    state_.port.v[0] = kAmplitude * kRate * std::cos(angle);
+  }
+
   transport::SecureChannel link_;
   wire::Codec codec_;
   wire::StateMessage state_;
   std::optional<wire::PathMessage> answer_;
   client::TelemetryPace telemetry_;
-  bool settled_ = false, telemetry_every_tick_ = true;
+  bool settled_ = false, telemetry_every_tick_ = true, swings_ = false;
+  AxisArray rest_{};
+  double swing_phase_ = 0;  ///< [rad]
   std::uint64_t counter_ = 0, forces_ = 0;
 };
 

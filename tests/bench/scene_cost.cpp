@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   using namespace tandem::bench;
   if (argc == 4 && std::strcmp(argv[1], "--serve") == 0) {
     const Row& row = row_of(argv[2]);
-    return serve(scene_of(row), row.recorded, row.watched, std::atoi(argv[3]), row.inputs);
+    return serve(scene_of(row), {row.recorded, row.watched, row.inputs}, std::atoi(argv[3]));
   }
   return print_table(argv[0]);
 }

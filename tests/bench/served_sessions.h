@@ -80,10 +80,16 @@ inline std::unique_ptr<client::SessionWatch> watcher_of(server::Session& session
                                                 session.seat_catalogue().tick(), joined.channel_params);
 }
 
+/// Work of a server besides its scene.
+struct Load {
+  bool recorded = false;                       ///< a report or trace is written: telemetry and a record at every tick
+  std::optional<bool> watched = std::nullopt;  ///< a console sees each session; true: a recorder
+  bool inputs = false;  ///< everything that enters a session is recorded; the journals are drained outside of the count
+  bool swinging = false;  ///< hands move
+};
+
 /// Runs `kSessions` sessions in memory, for callgrind. @return exit code
-/// @param watched  a console sees each session; true: a recorder
-/// @param inputs   everything that enters a session is recorded; the journals are drained outside of the count
-inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watched, int ticks, bool inputs = false) {
+inline int serve(const SceneSpec& scene, const Load& load, int ticks) {
   const std::size_t seats = scene.seats.size();
   std::vector<std::unique_ptr<server::Session>> sessions;
   std::vector<std::unique_ptr<server::InputJournal>> journals;
@@ -93,15 +99,17 @@ inline int serve(const SceneSpec& scene, bool recorded, std::optional<bool> watc
   std::vector<std::unique_ptr<client::SessionWatch>> watchers;
   Time now{std::chrono::hours(1)};
   for (std::size_t s = 0; s < kSessions; ++s) {
-    sessions.push_back(session_of(scene, recorded));
-    if (inputs) {
+    sessions.push_back(session_of(scene, load.recorded));
+    if (load.inputs) {
       journals.push_back(std::make_unique<server::InputJournal>(transport::HashKey{}));
       if (!sessions.back()->attach_journal(*journals.back(), Time{}, server::build_text())) return 1;
     }
-    for (std::size_t i = 0; i < seats; ++i)
+    for (std::size_t i = 0; i < seats; ++i) {
       clients.push_back(std::make_unique<BareClient>(
           *netsim::simulate_join(*sessions.back(), now, i, caps_of(scene, i), RandomKey{s}, i)));
-    if (watched) watchers.push_back(watcher_of(*sessions.back(), now, *watched));
+      if (load.swinging) clients.back()->set_swinging(i);
+    }
+    if (load.watched) watchers.push_back(watcher_of(*sessions.back(), now, *load.watched));
   }
   const std::size_t peers = clients.size() + watchers.size();
   std::vector<Carried> in(2 * peers), out(2 * peers);

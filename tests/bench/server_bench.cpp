@@ -12,6 +12,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -29,13 +30,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Returns the instructions inside `function` per client-tick after all hands are engaged; nothing if callgrind did not
-/// run.
-std::optional<double> per_client_tick(const std::string& self, const std::string& scene, const std::string& function) {
+/// Kinds of work whose instructions are counted.
+struct Work {
+  std::string_view name;
+  Load load;
+};
+constexpr Work kWorks[] = {{"rest", {}}, {"motion", {.swinging = true}}, {"recorded", {.recorded = true}}};
+
+/// Returns the instructions of a tick per client after all hands are engaged; nothing if callgrind did not run.
+std::optional<double> per_client_tick(const std::string& self, const std::string& scene, const Work& work) {
   constexpr int kFew = 300, kMany = 1300;
   const auto run = [&](int ticks) {
-    return count_instructions(self + " --serve " + scene + " " + std::to_string(ticks), function,
-                              "server_bench." + std::to_string(getpid()) + ".callgrind");
+    return count_instructions(self + " --serve " + scene + " " + std::to_string(ticks) + " " + std::string(work.name),
+                              "*serve_one_tick*", "server_bench." + std::to_string(getpid()) + ".callgrind");
   };
   const auto few = run(kFew), many = run(kMany);
   if (!few || !many) return std::nullopt;
@@ -43,8 +50,12 @@ std::optional<double> per_client_tick(const std::string& self, const std::string
 }
 
 void print_instructions(const std::string& self) {
-  std::printf("user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s  %s\n",
-              "scene", "seats", "instructions", "other work of the server");
+  std::printf(
+      "user-space instructions per sealed client-tick (callgrind; asked for contact_remote: at most 4500). Hands rest, "
+      "or swing by 20 mm at 1.5 Hz; recorded: at rest, a report of every tick is written\n%-18s %8s",
+      "scene", "seats");
+  for (const Work& work : kWorks) std::printf(" %9s", std::string(work.name).c_str());
+  std::printf("  other work of the server\n");
   const struct {
     const char *scene, *besides;
   } cases[] = {{"contact_remote", "one tool, its slave is a client"},
@@ -52,13 +63,24 @@ void print_instructions(const std::string& self) {
                {"two_by_two", "two tools"},
                {"eight_seats", "one tool, eight hands"}};
   for (const auto& c : cases) {
-    const auto all = per_client_tick(self, c.scene, "*serve_one_tick*");
-    if (!all) {
-      std::printf("%-18s [ NOT RUN ] valgrind is missing or failed\n", c.scene);
-      continue;
+    std::printf("%-18s %8zu", c.scene, test::shipped(c.scene).seats.size());
+    for (const Work& work : kWorks) {
+      const auto all = per_client_tick(self, c.scene, work);
+      if (!all) {
+        std::printf(" [ NOT RUN ] valgrind is missing or failed\n");
+        return;
+      }
+      std::printf(" %9.0f", *all);
     }
-    std::printf("%-18s %8zu %14.0f  %s\n", c.scene, test::shipped(c.scene).seats.size(), *all, c.besides);
+    std::printf("  %s\n", c.besides);
   }
+}
+
+/// Serves sessions for callgrind. @return exit code
+int serve_work(const char* scene, int ticks, std::string_view name) {
+  for (const Work& work : kWorks)
+    if (work.name == name) return serve(test::shipped(scene), work.load, ticks);
+  return 2;
 }
 
 /// Answers each datagram with `size` bytes, in batches, once per millisecond: the minimum cost of any server.
@@ -159,8 +181,7 @@ void compare_with_echo() {
 
 int main(int argc, char** argv) {
   const std::string only = argc > 1 ? argv[1] : "";
-  if (argc == 4 && only == "--serve")
-    return tandem::bench::serve(tandem::test::shipped(argv[2]), true, std::nullopt, std::atoi(argv[3]));
+  if (argc == 5 && only == "--serve") return tandem::bench::serve_work(argv[2], std::atoi(argv[3]), argv[4]);
   if (only != "--cpu") tandem::bench::print_instructions(argv[0]);
   if (only != "--instructions") tandem::bench::compare_with_echo();
   return 0;

@@ -24,6 +24,19 @@ void check_texts(const fs::path& prefix) {
   EXPECT_GE(scripts, 5U);
 }
 
+/// Checks that the libraries contain machine code only: objects for optimisation at link time fit one version of g++.
+void check_libraries(const fs::path& folder) {
+  std::size_t libraries = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".a") continue;
+    ++libraries;
+    const Done sections = shell("readelf --section-headers --wide " + quoted(entry.path()));
+    EXPECT_NE(sections.text.find(".text"), std::string::npos) << entry.path() << sections.text;
+    EXPECT_EQ(sections.text.find(".gnu.lto"), std::string::npos) << entry.path();
+  }
+  EXPECT_EQ(libraries, 5U);
+}
+
 /// Checks that the public headers are the only ones outside tandem/detail. Checks that each installed header finds all
 /// its includes and compiles without warnings (-Wall -Wextra -Wpedantic), with the folder `include` alone.
 void check_headers(const fs::path& include) {
@@ -73,6 +86,7 @@ TEST(Package, WorksForAnotherProjectAfterItWasMoved) {
   ASSERT_FALSE(HasFailure());
   check_texts(prefix);
   check_headers(prefix / "include");
+  check_libraries(prefix / "lib");
   for (const char* program : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-console", "tandem-demo"}) {
     const Done version = shell(quoted(prefix / "bin" / program) + " --version");
     EXPECT_EQ(version.code, 0) << program << version.text;

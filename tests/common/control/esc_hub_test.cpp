@@ -187,7 +187,8 @@ TEST(EscHub, MovesASlaveSeatBeyondTheToolByTheSurfaceForce) {
   hub.set_tool(1, {.x = {0.01}, .surface_force = {2}});
   hub.step_target(1, true, {400});
   EXPECT_DOUBLE_EQ(hub.target(1)[0], 0.01 - 0.005);
-  const NearEnd near = hub.near_end(1, {400});
+  NearEnd near;
+  hub.find_near_end(1, {400}, near);
   EXPECT_DOUBLE_EQ(near.x[0], 0.005);
   EXPECT_EQ(near.weight, 1);
   EXPECT_EQ(hub.tool(1).slave_goal(0, 0), 0.01) << "without a spring, the tool itself";
@@ -201,7 +202,8 @@ TEST(EscHub, AttachesOneSpringToTheWeightedMeanOfItsTools) {
     hub.set_authority(1, {0.5, 0.5}, true);  // not followed, but the seat's spring acts there by its authority
     hub.set_tool(0, {.x = {0.03}, .dissipated = {0.002}});
     hub.set_tool(1, {.x = {0.06}, .dissipated = {0.004}});
-    const NearEnd near = hub.near_end(0, {});
+    NearEnd near;
+    hub.find_near_end(0, {}, near);
     EXPECT_DOUBLE_EQ(near.weight, 1.5);
     EXPECT_DOUBLE_EQ(near.x[0], (0.03 + 0.5 * 0.06) / 1.5);
     EXPECT_DOUBLE_EQ(near.dissipated[0], mfs == FlowSourceMode::kTank ? 0.001 : 0.002) << "half is the tank's";
