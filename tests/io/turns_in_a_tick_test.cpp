@@ -106,7 +106,8 @@ class SendingWithinTheTick {
     }
   }
   void send(std::size_t c, std::span<std::byte> buffer) {
-    const std::size_t size = seated_.clients()[c]->send(io::monotonic_now(), static_cast<std::uint32_t>(ticks_), buffer);
+    const std::size_t size =
+        seated_.clients()[c]->send(io::monotonic_now(), static_cast<std::uint32_t>(ticks_), buffer);
     [[maybe_unused]] const auto sent = ::send(sockets_[c].get(), buffer.data(), size, 0);
   }
   void note(std::size_t session, Turns& turns) {

@@ -21,9 +21,9 @@ using netsim::ClientPhases;
 constexpr Duration kTick = 1ms;
 
 struct Loop {
-  double ticks = 0;      ///< from sending a STATE to the tick that uses the FORCE that answers it, mean
-  double most = 0;       ///< the longest of them
-  double waited = 0;     ///< time for which the STATEs had waited for the server's tick, mean [ticks]
+  double ticks = 0;   ///< from sending a STATE to the tick that uses the FORCE that answers it, mean
+  double most = 0;    ///< the longest of them
+  double waited = 0;  ///< time for which the STATEs had waited for the server's tick, mean [ticks]
 };
 
 /// Runs free motion and returns the loop of the leading hand in the third second.
@@ -85,25 +85,34 @@ TEST(ClientPhases, ThatAreShiftedGiveTheShortestLoopFromEveryStart) {
     }
 }
 
+/// Twice 480 us and a sixth of a tick are more than one tick: the FORCE arrives just after the client's tick.
+TEST(ClientPhases, ThatAreShiftedHaveOneTickMoreThanTheBestPhaseIfTheDelaysLeaveLessThanTheirWait) {
+  EXPECT_NEAR(loop_at(500us, 480us, false).ticks, 1, 1e-3);
+  EXPECT_NEAR(loop_at(500us, 480us, true).ticks, 2, 1e-3);
+  int longer = 0;
+  for (double p = 0.005; p < 1; p += 0.01) longer += loop_by_hand(p, 0.48) > 1 ? 1 : 0;
+  EXPECT_EQ(longer, 96) << "as at nearly all phases";
+}
+
 /// The table of 20 seeds is in ARCHITECTURE.md, "Order within a tick".
-TEST(ClientPhases, ThatAreShiftedCostNoDragAndAtMostTwoPercentOfTheStiffness) {
+TEST(ClientPhases, AtRestCostNoDragAndAtMostThreePercentOfTheStiffness) {
   constexpr std::uint64_t kSeeds = 2;
   for (const double one_way_ms : {0.03, 5.0}) {
     SCOPED_TRACE(one_way_ms);
-    std::map<std::string, double> drawn, shifted;
+    std::map<std::string, double> drawn, rested;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
       for (const auto& [key, value] : felt(shipped("contact_remote"), one_way_ms, ClientPhases::kDrawn, seed))
         drawn[key] += value / kSeeds;
-      for (const auto& [key, value] : felt(shipped("contact_remote"), one_way_ms, ClientPhases::kShifted, seed))
-        shifted[key] += value / kSeeds;
+      for (const auto& [key, value] : felt(shipped("contact_remote"), one_way_ms, ClientPhases::kRested, seed))
+        rested[key] += value / kSeeds;
     }
-    EXPECT_LE(shifted["loop_s"], drawn["loop_s"] + 1e-9);
-    EXPECT_LE(shifted["drag_05hz_n"], drawn["drag_05hz_n"]);
-    EXPECT_LE(shifted["drag_05hz_n_s_m"], drawn["drag_05hz_n_s_m"]);
-    EXPECT_GE(shifted["stiffness_felt_n_m"], 0.98 * drawn["stiffness_felt_n_m"]);
-    EXPECT_GE(shifted["stiffness_bone_held_n_m"], 0.98 * drawn["stiffness_bone_held_n_m"]);
-    EXPECT_LE(shifted["overshoot"], drawn["overshoot"] + 0.05) << "less damping lets the tool swing further";
-    EXPECT_LE(shifted["limit_cycle_n"], 0.02);
+    EXPECT_LE(rested["loop_s"], drawn["loop_s"] + 1e-9);
+    EXPECT_LE(rested["drag_05hz_n"], drawn["drag_05hz_n"]);
+    EXPECT_LE(rested["drag_05hz_n_s_m"], drawn["drag_05hz_n_s_m"]);
+    EXPECT_GE(rested["stiffness_felt_n_m"], 0.97 * drawn["stiffness_felt_n_m"]);
+    EXPECT_GE(rested["stiffness_bone_held_n_m"], 0.97 * drawn["stiffness_bone_held_n_m"]);
+    EXPECT_LE(rested["overshoot"], drawn["overshoot"] + 0.05) << "less damping lets the tool swing further";
+    EXPECT_LE(rested["limit_cycle_n"], 0.02);
   }
 }
 

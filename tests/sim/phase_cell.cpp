@@ -10,8 +10,7 @@ namespace tandem::test {
 double loop_of(const netsim::FeelSetup& setup, std::uint64_t seed) {
   constexpr double kFrom = 2, kEnd = 4;  // [s]
   const netsim::DrawnHand hand{setup.hands, seed, 0};
-  const netsim::FeelTrace trace =
-      netsim::run_probe(setup, {.length = kEnd, .hands = {{netsim::relaxed(hand)}}}, seed);
+  const netsim::FeelTrace trace = netsim::run_probe(setup, {.length = kEnd, .hands = {{netsim::relaxed(hand)}}}, seed);
   if (!trace.trouble.empty()) throw std::runtime_error(trace.trouble);
   return netsim::mean(trace.part(trace.hands[0].loop, kFrom, kEnd));
 }

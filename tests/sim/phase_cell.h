@@ -6,7 +6,7 @@
 #include "netsim/feel/feel_keys.h"
 #include "netsim/feel/probes.h"
 
-/// What the phases of the clients' ticks within the server's tick change in a hand's loop and in what the hand feels.
+/// Effect of the phases of the clients' ticks within the server's tick on the loop and the feel of a hand.
 namespace tandem::test {
 
 /// Numbers of one cell, by key.
