@@ -29,7 +29,7 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
   if (ticks_++ == 0) first_tick_ = now;
   swap_connection(now);
   socket_.receive(now, *seat_);
-  record_phase(now);
+  phase_.observe(seat_->link().timing(), now);
   if (commands_.apply(*seat_)) script_.cancel_retry();
   request_scripted_authority(now);
   const auto session_time = seat_->clock().session_time(now);
@@ -41,13 +41,6 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
   record(now, session_time);
   if (seat_->closed() && !std::exchange(close_signalled_, true)) finished_.signal();
   return command_;
-}
-
-void SeatRunner::record_phase(Time now) noexcept {
-  const transport::LinkTiming& timing = seat_->link().timing();
-  if (timing.rtt_samples() == 0 || timing.arrived() == heard_) return;
-  heard_ = timing.arrived();
-  phase_.record(timing.peer_silence(), timing.loop_age(now));
 }
 
 /// If only some exchanges are ticks, a shift of the exchange would not shift the tick.

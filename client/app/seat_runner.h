@@ -54,7 +54,6 @@ class SeatRunner final : public hal::ServoClient {
   [[nodiscard]] const ClientStatus& final_status() const noexcept { return recorder_.status(); }
 
  private:
-  void record_phase(Time now) noexcept;
   void swap_connection(Time now) noexcept;
   void request_scripted_authority(Time now) noexcept;
   void record(Time now, const std::optional<double>& session_time) noexcept;
@@ -68,7 +67,6 @@ class SeatRunner final : public hal::ServoClient {
   SampleQueue* samples_;
   TickDecimator pace_;
   TickPhase phase_;
-  Time heard_{};            ///< arrival of the FORCE that `phase_` has recorded
   hal::Command command_{};  ///< command of the last tick
   std::uint64_t ticks_ = 0;
   Time first_tick_{};

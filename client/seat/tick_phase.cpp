@@ -14,6 +14,12 @@ constexpr double kNegligible = 0.05;                  ///< [ticks]; a smaller er
 
 }  // namespace
 
+void TickPhase::observe(const transport::LinkTiming& timing, Time now) noexcept {
+  if (timing.rtt_samples() == 0 || timing.arrived() == heard_) return;
+  heard_ = timing.arrived();
+  record(timing.peer_silence(), timing.loop_age(now));
+}
+
 void TickPhase::record(Duration waited, Duration loop) noexcept {
   if (left_ != Duration{}) return;
   if (ignored_ > 0) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "common/base/time.h"
+#include "common/transport/link_timing.h"
 
 namespace tandem::client {
 
@@ -19,6 +20,8 @@ class TickPhase {
   /// @param tick  period of the ticks of client and server
   explicit TickPhase(Duration tick) noexcept : tick_(tick) {}
 
+  /// Records the newest FORCE, unless that is recorded. Called once per tick, after the tick's datagrams were received.
+  void observe(const transport::LinkTiming& timing, Time now) noexcept;
   /// Records a FORCE that has arrived.
   /// @param waited  time for which the server had received nothing newer than the STATE that it answers, 0 or more
   /// @param loop    time since that STATE was sent
@@ -35,6 +38,7 @@ class TickPhase {
   void plan(Duration loop) noexcept;
 
   Duration tick_;
+  Time heard_{};                    ///< arrival of the FORCE that was observed last
   double cosines_ = 0, sines_ = 0;  ///< sums over the directions of this measurement
   int count_ = 0;
   std::int64_t ignored_ = 0;  ///< FORCE messages to come that answer a STATE from before the end of the shift

@@ -25,6 +25,7 @@ struct FeelTrace {
     std::vector<double> work;
     double force_max = 0;              ///< largest force that motor and gate allow this seat [N]
     std::vector<std::uint32_t> trips;  ///< trips of the force gate since the start
+    std::vector<double> loop;  ///< time since the STATE was sent that the newest FORCE answers, at the hand's tick [s]
     /// Datagrams since the start: of the client, and of the server to it. Empty for scenes without `send`.
     std::vector<std::uint64_t> sent_up, sent_down;
   };

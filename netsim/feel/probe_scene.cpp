@@ -21,6 +21,24 @@ SimDeviceSpec placed(SimDeviceSpec device, const ProbeRun& run) {
   return device;
 }
 
+/// Clients that do not tick with the server wake up late by up to this, as real timers do.
+constexpr Duration kLateMax = std::chrono::microseconds(20);
+
+void set_phases(ClientPhases phases, SimulationConfig& config) {
+  if (phases == ClientPhases::kServers) return;
+  const RandomKey key = RandomKey{config.seed}.derive(0x7068'6173'65);
+  const Duration tick = from_seconds(1.0 / config.scene.tick_hz);
+  const Duration rested = (2 * tick - tick / 6 - config.network.up.floor % tick) % tick;
+  for (std::size_t i = 0; i < config.scene.seats.size(); ++i) {
+    const Duration drawn = from_seconds(key.uniform(i) / config.scene.tick_hz);
+    config.endpoints[config.scene.seats[i].name].wake = {.kind = WakeSpec::Kind::kUniform,
+                                                         .late_max = kLateMax,
+                                                         .phase = phases == ClientPhases::kRested ? rested : drawn,
+                                                         .shifts = phases == ClientPhases::kShifted};
+  }
+  config.stamped_arrivals = true;
+}
+
 hal::Vec3 vector_of(const server::Triple& v) { return {v[0], v[1], v[2]}; }
 
 void add_row(FeelTrace& trace, const Simulation& simulation) {
@@ -36,6 +54,10 @@ void add_row(FeelTrace& trace, const Simulation& simulation) {
     hand.alpha.push_back(seat.alpha);
     hand.work.push_back(simulation.client(i).motor_work());
     hand.trips.push_back(simulation.client(i).program().gate_trips());
+    const SimulatedClient& client = simulation.client(i);
+    hand.loop.push_back(client.seat() == nullptr
+                            ? kNaN
+                            : seconds(client.seat()->link().timing().loop_age(client.own_time(client.last_run()))));
     if (!simulation.scene().send.is_on() || simulation.seat(i) == nullptr) continue;
     const transport::SecureChannel* const down = simulation.session().seat(i).link();
     hand.sent_up.push_back(simulation.seat(i)->link().stats().sent);
@@ -100,6 +122,7 @@ SimulationConfig simulation_config_of(const FeelSetup& setup, const ProbeRun& ru
     other.alpha[1] = 1;
     scene.timeline = {{run.hand_over_at, other}};
   }
+  set_phases(setup.phases, out);
   return out;
 }
 

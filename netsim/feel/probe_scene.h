@@ -10,6 +10,17 @@
 
 namespace tandem::netsim {
 
+/// Phases of the clients' ticks within the server's.
+enum class ClientPhases : std::uint8_t {
+  kServers,  ///< all clients tick together, just before the server
+  /// Drawn for each client and kept, as of devices with a clock of their own. The server has the time of arrival of
+  /// each datagram.
+  kDrawn,
+  kShifted,  ///< as kDrawn, then each client shifts its ticks as the session begins (client/seat/tick_phase.h)
+  /// As kShifted, but the shifts were made long ago: each client has the phase at which they rest. For constant delays.
+  kRested,
+};
+
 /// Subject of a measurement: all parts of a scene that shape what hands feel, and the network.
 struct FeelSetup {
   SceneSpec scene;        ///< channel, coupling, gate, alpha slew, device of the first masters, first tool
@@ -20,6 +31,7 @@ struct FeelSetup {
     std::shared_ptr<const hal::sim::RecordedMotion> motion;
   };
   std::vector<Recording> recordings = {};  ///< recordings that the leader plays in addition to the drawn motions
+  ClientPhases phases = ClientPhases::kServers;
 };
 
 /// A hand of a probe: impedance and intended motion. Without a motion the hand's own model decides.

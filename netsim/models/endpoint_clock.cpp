@@ -16,9 +16,12 @@ void check_wake(const WakeSpec& wake, SpecErrors& found) {
   const Duration lowest = Duration::zero();
   if (wake.kind == WakeSpec::Kind::kUniform) {
     found.range<Duration>("wake.late_max", wake.late_max, lowest, std::chrono::seconds(1));
-  } else if (wake.late_max != lowest) {
-    found.add("wake.late_max", "needs kind uniform");
+    found.range<Duration>("wake.phase", wake.phase, lowest, std::chrono::seconds(1));
+    return;
   }
+  if (wake.late_max != lowest) found.add("wake.late_max", "needs kind uniform");
+  if (wake.phase != lowest) found.add("wake.phase", "needs kind uniform");
+  if (wake.shifts) found.add("wake.shifts", "needs kind uniform");
 }
 
 }  // namespace
@@ -56,7 +59,7 @@ Time EndpointClock::at(Time now) const noexcept {
 }
 
 WakeUps::WakeUps(const WakeSpec& spec, Duration tick, Time start, RandomKey key)
-    : spec_(spec), tick_(tick), start_(start), key_(key) {
+    : spec_(spec), tick_(tick), start_(start + spec.phase), key_(key) {
   SpecErrors found;
   check_wake(spec, found);
   found.above<Duration>("tick", tick, Duration::zero(), std::chrono::seconds(1));

@@ -22,6 +22,10 @@ struct WakeSpec {
   };
   Kind kind = Kind::kExact;
   Duration late_max{};  ///< kUniform [0, 1 s]
+  Duration phase{};     ///< kUniform: all deadlines are later by this [0, 1 s]
+  /// kUniform: the program shifts its deadlines as a client does that a timer of its machine paces
+  /// (client/seat/tick_phase.h).
+  bool shifts = false;
 
   friend bool operator==(const WakeSpec&, const WakeSpec&) = default;
 };
@@ -79,6 +83,11 @@ class WakeUps {
   /// simulations that advance in ticks.
   /// @param since  the `now` of the previous call; an overdue wake-up occurs at `since`
   [[nodiscard]] std::optional<Time> within(Time since, Time now) noexcept;
+  /// Moves the next wake-up and all after it. @param by  negative: earlier
+  void shift(Duration by) noexcept {
+    start_ += by;
+    next_ += by;
+  }
 
   [[nodiscard]] Time next() const noexcept { return next_; }                 ///< next wake-up
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }      ///< number of wake-ups so far

@@ -32,6 +32,7 @@ SimulatedClient::SimulatedClient(Setup setup)
     clock_.emplace(*setup.endpoint);
     if (setup.endpoint->wake.kind != WakeSpec::Kind::kExact)
       wake_.emplace(setup.endpoint->wake, tick_, Time{}, key_of(setup).derive(3));
+    if (setup.endpoint->wake.shifts) phase_.emplace(tick_);
   }
   if (std::ranges::any_of(kNeedsAttacker, [&](Fault::Kind kind) { return faults_.contains(kind); }))
     attacker_ = std::make_unique<Attacker>(key_of(setup).derive(1), *setup.scene, setup.seat);
@@ -53,12 +54,19 @@ std::string SimulatedClient::step(Time now, server::Session* session, Network& n
   new_datagrams_ = 0;
   ran_in_tick_ = false;
   motor_work_ = 0;
-  const std::optional<Time> wakes = wake_ ? wake_->within(now - tick_, now) : now;
-  const Time woke = wakes.value_or(now);
-  if (woke > now - tick_) advance_device(woke - (now - tick_));
-  std::string trouble = run_program(woke, wakes.has_value(), session, network, buffer);
-  const double before_run = motor_work_;
-  if (woke < now) advance_device(now - woke);
+  std::string trouble;
+  Time at = now - tick_;
+  double before_run = 0;
+  // A program that shifts its wake-ups towards an earlier tick wakes up twice in one.
+  do {
+    const std::optional<Time> wakes = wake_ ? wake_->within(at, now) : now;
+    const Time woke = wakes.value_or(now);
+    if (woke > at) advance_device(woke - at);
+    at = woke;
+    trouble = run_program(woke, wakes.has_value(), session, network, buffer);
+    before_run = motor_work_;
+  } while (phase_ && trouble.empty() && wake_->next() <= now);
+  if (at < now) advance_device(now - at);
   motor_work_after_run_ = ran_in_tick_ ? motor_work_ - before_run : 0;
   return trouble;
 }
@@ -75,8 +83,10 @@ std::string SimulatedClient::run_program(Time now, bool awake, server::Session* 
   if (awake && !faults_.active(Fault::Kind::kPause, now)) {
     receive(now, network, buffer);
     if (session != nullptr) {
+      const std::uint32_t joins = program_.joins();
       if (std::string trouble = program_.connect(now, *session, device_->caps(), attacker_.get()); !trouble.empty())
         return trouble;
+      if (phase_ && program_.joins() != joins) phase_->restart();
     }
     if (seat() != nullptr) run_seat(now, network, buffer);
   } else if (seat() != nullptr) {
@@ -113,6 +123,7 @@ void SimulatedClient::run_seat(Time now, Network& network, std::span<std::byte> 
   last_run_ = now;
   const Time own = own_time(now);
   client::Seat& core = *seat();
+  if (phase_) phase_->observe(core.link().timing(), own);
   if (!faults_.empty()) program_.apply_stop_faults(now, faults_);
   device_->set_session_time(hand_time(own));
   command_ = core.on_servo(own, sensors_.read(now, faults_, device_->state(), device_->caps().joints));
@@ -125,6 +136,7 @@ void SimulatedClient::run_seat(Time now, Network& network, std::span<std::byte> 
       bytes = attacker_->forge_state(cid, buffer.first(*size), core.force().stops);
     network.send(now, link_, Direction::kUp, bytes);
   }
+  if (phase_) wake_->shift(phase_->next_shift());
 }
 
 SimulatedClient::AttackDatagrams SimulatedClient::attack_datagrams(Time now) noexcept {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client/seat/tick_phase.h"
 #include "hal/sim/sim_device.h"
 #include "netsim/engine/network.h"
 #include "netsim/models/endpoint_clock.h"
@@ -91,6 +92,7 @@ class SimulatedClient {
   bool never_starts_;
   std::optional<EndpointClock> clock_;
   std::optional<WakeUps> wake_;
+  std::optional<client::TickPhase> phase_;  ///< of a program that shifts its wake-ups
   FaultSchedule faults_;
   std::unique_ptr<hal::sim::SimDevice> device_;
   SensorFaults sensors_;

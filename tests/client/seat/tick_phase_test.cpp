@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <utility>
 
@@ -57,8 +59,11 @@ struct Loop {
   Duration jitter{};       ///< of the way to the server, evenly spread
   double drift = 0;        ///< of the client's clock [1]
   std::uint64_t seed = 1;
+  int moves_at = 0;         ///< tick from which on the session's turn within the server's tick is later
+  Duration moves_by{};      ///< by this; negative: earlier
   Duration kept_waiting{};  ///< mean wait over the last second
   Duration shifted{};       ///< sum of the shifts without their signs
+  int away = 0;  ///< ticks after the move until every later STATE waits for a sixth of a tick, within 0.06 ticks
 
   void run(int ticks) {
     TickPhase phase{kTick};
@@ -73,7 +78,9 @@ struct Loop {
         answers.pop_front();
       }
       const Time arrives = now + delay + from_seconds(random.uniform() * seconds(jitter));
-      const Duration wait = (kTick - arrives.time_since_epoch() % kTick) % kTick;
+      const Duration turn = n < moves_at ? Duration{} : moves_by;
+      const Duration wait = (kTick - (arrives.time_since_epoch() - turn) % kTick) % kTick;
+      if (n >= moves_at && std::abs(seconds(wait) / seconds(kTick) - 1.0 / 6) > 0.06) away = n - moves_at + 1;
       answers.emplace_back(arrives + wait + delay, wait);
       if (n >= ticks - 1000) sum += seconds(wait), ++counted;
       const Duration shift = phase.next_shift();
@@ -108,6 +115,21 @@ TEST(TickPhase, FollowsTheDifferenceOfTheClocks) {
     loop.run(20'000);  // 4 ms apart without shifts
     EXPECT_NEAR(seconds(loop.kept_waiting), 1e-3 / 6, 0.1e-3) << drift;
   }
+}
+
+/// Sessions that begin or end move the turns of all sessions after them within the server's tick. A measurement in
+/// progress may mix both turns: then a second one, of 100 FORCE again, shifts by the rest.
+TEST(TickPhase, ReturnsToItsWaitWithin350TicksOfAMovedTurn) {
+  int most = 0;
+  for (int part = -10; part <= 10; ++part)
+    for (int moves_at = 2000; moves_at < 2100; moves_at += 10) {
+      Loop loop{.moves_at = moves_at, .moves_by = part * 50us};
+      loop.run(4000);
+      EXPECT_NEAR(seconds(loop.kept_waiting), 1e-3 / 6, 0.05e-3) << part;
+      EXPECT_LE(loop.away, 350) << part << ", " << moves_at;
+      most = std::max(most, loop.away);
+    }
+  EXPECT_GT(most, 100) << "no turn moved";
 }
 
 TEST(TickPhase, WaitsLongerOnAPathWhoseDelayVaries) {

@@ -59,6 +59,8 @@ TEST(EndpointClock, RejectsImpossibleValuesWithTheirKey) {
   EXPECT_EQ(keys({.steps = {{2s, 1s}, {2s, 25h}}}), "steps[1].by steps[1].at ");
   EXPECT_EQ(keys({.wake = {.late_max = 1ms}}), "wake.late_max ");
   EXPECT_EQ(keys({.wake = {.kind = WakeSpec::Kind::kUniform, .late_max = 2s}}), "wake.late_max ");
+  EXPECT_EQ(keys({.wake = {.kind = WakeSpec::Kind::kUniform, .phase = -1ns}}), "wake.phase ");
+  EXPECT_EQ(keys({.wake = {.phase = 1us, .shifts = true}}), "wake.phase wake.shifts ");
   EXPECT_THROW(EndpointClock({.drift_ppm = 2000}), std::invalid_argument);
   EXPECT_THROW(WakeUps({}, Duration::zero(), Time{}, RandomKey{1}), std::invalid_argument);
 }
@@ -98,6 +100,18 @@ TEST(WakeUps, GiveTheExactNanosecondWithinATick) {
   EXPECT_EQ(wakes.within(Time{10'003ms}, Time{10'004ms}), Time{10'003ms});
   EXPECT_EQ(wakes.skipped(), 3U);
   EXPECT_FALSE(wakes.within(Time{10'003ms}, Time{10'004ms - 1ns}));
+}
+
+TEST(WakeUps, KeepTheirPhaseUntilTheyAreShifted) {
+  WakeUps wakes{{.kind = WakeSpec::Kind::kUniform, .phase = 300us}, 1ms, Time{}, RandomKey{9}};
+  EXPECT_EQ(wakes.within(Time{}, Time{1ms}), Time{300us});
+  EXPECT_EQ(wakes.within(Time{1ms}, Time{2ms}), Time{1300us});
+  wakes.shift(10us);
+  EXPECT_EQ(wakes.within(Time{2ms}, Time{3ms}), Time{2310us});
+  wakes.shift(-320us);
+  EXPECT_EQ(wakes.within(Time{2310us}, Time{3ms}), Time{2990us}) << "twice within one tick of the caller";
+  EXPECT_EQ(wakes.within(Time{3ms}, Time{4ms}), Time{3990us});
+  EXPECT_EQ(wakes.skipped(), 0U);
 }
 
 TEST(WakeUps, AreLateByAKeyedShareAndNeverEarly) {
