@@ -150,7 +150,7 @@ int ticket_command(const TicketArguments& arguments) {
                             .role = *role,
                             .workstation = {workstation->spki},
                             .force_scale = static_cast<std::uint16_t>(std::lround(force_percent * 10.0)),
-                            .not_before = now,
+                            .not_before = std::max(now, workstation->enrolled_at),  // by another server's clock
                             .not_after = now + static_cast<std::int64_t>(std::stod(hours) * 3600.0),
                             .epoch_min = session->epoch,
                             .person = arguments.person};

@@ -50,6 +50,18 @@ struct Joining : RegistryFixture {
   SessionJoins joins{registry, commands, keys};
 };
 
+TEST(SessionJoins, RejectTicketsOfBeforeTheEnrolmentOfTheWorkstationAndUseThemUpNot) {
+  Joining j;
+  JoinRequest request = Joining::request("");
+  request.hello.credential = j.operators_ticket({std::byte{1}});
+  request.workstation.enrolled_at = auth::wall_seconds() + 60;  // again, after a revocation
+  const rpc::ErrorReply refused = error_of(j.join(request));
+  EXPECT_EQ(refused.code, ErrorCode::kTicket);
+  EXPECT_NE(refused.text.find("its revocation has voided"), std::string::npos) << refused.text;
+  request.workstation.enrolled_at = auth::wall_seconds() - 60;
+  EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(j.join(request)));
+}
+
 TEST(SessionJoins, RejectSeatsWhileTheServerDrainsButCheckConsolesFurther) {
   Joining j;
   j.registry.drain().begin();
