@@ -72,8 +72,8 @@ class RecoveryBackoff {
 /// Selects the shed level from the duration and lateness of ticks. Sans-I/O, no heap, one call per tick.
 ///
 /// Load of a tick = max(processor time / period, lateness / 5 ms). The level rises when more than 10 % of the ticks in
-/// a 0.1 s window exceed its threshold. The thresholds are 0.40, 0.44, ... 0.56, and 0.60 for the last level, which is
-/// the admission limit. The level falls after 5 s without a window in which more than 10 % of the ticks exceed the
+/// a 0.1 s window exceed its threshold. The thresholds are 0.40, 0.44, ... 0.56, and for the last level the admission
+/// limit. The level falls after 5 s without a window in which more than 10 % of the ticks exceed the
 /// threshold minus 0.10. If the level rises again within a minute, the next fall takes 10, then 20, then 40 s. It
 /// changes by one level per window, so that the effect of each level is measured. Lateness does not count for the last
 /// level. It is caused by other processes when ticks are late but short, and rejecting joins does not reduce it.
@@ -101,7 +101,7 @@ class LoadShedder {
 
   /// Load above which this level is entered.  @pre the level is above ShedLevel::kNone.
   [[nodiscard]] static constexpr double threshold(ShedLevel rung) noexcept {
-    return kFirst + kStep * (static_cast<int>(rung) - 1);
+    return rung == ShedLevel::kNewJoins ? LoadLimits{}.busy : kFirst + kStep * (static_cast<int>(rung) - 1);
   }
 
  private:
@@ -118,7 +118,7 @@ class LoadShedder {
   Time last_overload_{};  ///< time of the last three consecutive late ticks
   RecoveryBackoff overload_backoff_{std::chrono::seconds(1), std::chrono::seconds(4)};
 };
-static_assert(LoadShedder::threshold(ShedLevel::kNewJoins) > LoadLimits{}.tick - 1e-9 &&
-              LoadShedder::threshold(ShedLevel::kNewJoins) < LoadLimits{}.tick + 1e-9);
+static_assert(LoadShedder::threshold(ShedLevel::kEvaluatorsEvery3rd) < LoadShedder::threshold(ShedLevel::kNewJoins),
+              "optional load is shed before joins are rejected");
 
 }  // namespace tandem::server

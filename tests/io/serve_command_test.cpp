@@ -139,7 +139,7 @@ TEST(ManySessions, ReportAllConfigurationErrorsTogether) {
       folder.write("g.textproto", "version: 1 listen: \"127.0.0.1:0\" session { name: \"a\" scene: \"contact\" }");
   Process checked = server({"serve", good, "--check"});
   EXPECT_EQ(checked.wait(), 0) << checked.err();
-  EXPECT_NE(checked.out().find("limits.load_percent"), std::string::npos) << checked.out();
+  EXPECT_NE(checked.out().find("limits.core_percent"), std::string::npos) << checked.out();
 }
 
 TEST(ManySessions, ASecondSignalEndsAtOnce) {
@@ -284,7 +284,7 @@ TEST(Monitoring, ReportsWhyABusyServerRejectsJoins) {
   scene.replace(scene.find("tick_hz: 1000"), 13, "tick_hz: 10000");
   folder.write("press.textproto", scene);
   std::string config =
-      "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" limits { load_percent: 1 threads: 1 }";
+      "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" limits { core_percent: 1 threads: 1 }";
   for (int n = 0; n < 24; ++n) config += " session { name: \"s" + std::to_string(n) + "\" scene: \"press.textproto\" }";
   Process host = serving(folder.write("s.textproto", config));
   std::string metrics = host.after("metrics on http://");

@@ -1,6 +1,11 @@
 // Joins of seats, consoles and link tests, from the request to the Welcome or its error.
 #include "server/app/control/session_joins.h"
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "server/policy/shard_plan.h"
 #include "tests/server/app/control/registry_fixture.h"
 
 namespace tandem::server {
@@ -49,6 +54,30 @@ struct Joining : RegistryFixture {
   SessionCommands commands{registry, keys};
   SessionJoins joins{registry, commands, keys};
 };
+
+/// Clients that come at once are not measured yet. The limit is one and a half times what a client is expected to take.
+TEST(SessionJoins, RejectTheClientThatWouldPassTheLimitTogetherWithTheNewestOnes) {
+  Joining j;
+  for (const unsigned id : {2U, 3U}) j.add("lesson" + std::to_string(id), id, kCode);
+  j.serve();
+  SessionJoins joins{j.registry, j.commands, j.keys, LoadLimits{1.5 * expected_seat_cost(j.scene.tick_hz)}};
+  std::vector<std::optional<JoinReply>> replies;
+  for (const char* name : {"lesson", "lesson2", "lesson3"}) {
+    JoinRequest request = Joining::request("trainee", rpc::CodeCredential{kCode});
+    request.hello.session = std::string(name);
+    const std::size_t n = replies.size();
+    replies.emplace_back();
+    joins.admit(request, [&replies, n](JoinReply decided) { replies[n] = std::move(decided); });
+  }
+  j.wait_until([&] { return std::ranges::all_of(replies, [](const auto& r) { return r.has_value(); }); });
+  const auto welcomed = [](const auto& r) { return std::holds_alternative<rpc::Welcome>(*r); };
+  EXPECT_LE(std::ranges::count_if(replies, welcomed), 2) << "all three have asked before the first was admitted";
+  for (const auto& reply : replies) {
+    if (welcomed(reply)) continue;
+    EXPECT_EQ(error_of(*reply).code, ErrorCode::kFull);
+    EXPECT_NE(error_of(*reply).text.find("rejects new joins"), std::string::npos) << error_of(*reply).text;
+  }
+}
 
 TEST(SessionJoins, RejectTicketsOfBeforeTheEnrolmentOfTheWorkstationAndUseThemUpNot) {
   Joining j;
