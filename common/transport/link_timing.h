@@ -87,7 +87,7 @@ class LinkTiming {
     return Duration{rtts_.count() < kLearnEvery ? rtts_.quantile(0.99) : recent_p99_};
   }
   [[nodiscard]] std::uint64_t rtt_samples() const noexcept { return rtts_.count(); }
-  [[nodiscard]] const Histogram& rtts() const noexcept { return rtts_; }
+  [[nodiscard]] const LinkHistogram& rtts() const noexcept { return rtts_; }
   /// `peer_silence` is the time that the peer had received nothing from this end when it sent its newest datagram, on
   /// its clock. `echo_stall` is the time for which datagrams have arrived without a newer echo, on the own clock. It
   /// counts from the first datagram even if nothing was ever echoed.
@@ -117,7 +117,8 @@ class LinkTiming {
   std::uint64_t echo_counter_ = 0;
   Duration rtt_{}, one_way_{};
   WindowedMinimum rtt_floor_, transit_floor_;
-  Histogram rtts_, recent_;
+  LinkHistogram rtts_;
+  ShortLinkHistogram recent_;  ///< of at most kLearnEvery samples
   std::int64_t recent_p99_ = 0;
   RecentGaps gaps_;
 };
