@@ -16,14 +16,14 @@ using text::MessageValidator;
 
 using Limits = ConnectionLimitsSpec;
 constexpr std::array<MessageKey<Limits>, 9> kLimitKeys{{{"accepts_per_s", &Limits::accepts_per_s},
-                                                         {"accepts_burst", &Limits::accepts_burst},
-                                                         {"accepts_per_s_all", &Limits::accepts_per_s_all},
-                                                         {"pending", &Limits::pending},
-                                                         {"connections", &Limits::connections},
-                                                         {"deadline_s", &Limits::deadline_s},
-                                                         {"core_percent", &Limits::core_percent},
-                                                         {"created_sessions", &Limits::created_sessions},
-                                                         {"threads", &Limits::threads}}};
+                                                        {"accepts_burst", &Limits::accepts_burst},
+                                                        {"accepts_per_s_all", &Limits::accepts_per_s_all},
+                                                        {"pending", &Limits::pending},
+                                                        {"connections", &Limits::connections},
+                                                        {"deadline_s", &Limits::deadline_s},
+                                                        {"core_percent", &Limits::core_percent},
+                                                        {"created_sessions", &Limits::created_sessions},
+                                                        {"threads", &Limits::threads}}};
 constexpr std::array<MessageKey<AuditSpec>, 2> kAuditKeys{
     {{"file_mib", &AuditSpec::file_mib}, {"older_files", &AuditSpec::older_files}}};
 

@@ -31,9 +31,10 @@ struct LoadLimits {
                                                   const LoadLimits& limits) {
   const auto above = [&](const std::string& what) {
     return "this server rejects new joins: " + what +
-           format(", and new joins are accepted up to %.0f %%; try again when participants have left, or on another "
-                  "server",
-                  100 * limits.busy);
+           format(
+               ", and new joins are accepted up to %.0f %%; try again when participants have left, or on another "
+               "server",
+               100 * limits.busy);
   };
   if (own.core > limits.busy)
     return above(format("the session's thread works for %.0f %% of the time", 100 * own.core));

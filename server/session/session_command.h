@@ -45,7 +45,7 @@ struct CommandOutcome {
   bool recovering = false;  ///< waiting after a restart: a resume by an instructor continues without the missing seats
   std::uint32_t stops = 0, authority_version = 0, tick = 0;
   std::optional<RestoreCounts> restores{};  ///< of the session; nullopt: not known
-  double time = 0;      ///< session clock [s]
+  double time = 0;                          ///< session clock [s]
   bool may_act = true;  ///< false: the directory of the service is silent, so that no hand is engaged
   ShedLevel shed_level = ShedLevel::kNone;
   std::uint8_t masters = 0, tools = 0;

@@ -43,7 +43,8 @@ class ServerLink final : public LiveSource {
     client::JoinOptions join;  ///< `signals` is not used
     bool watch = true;         ///< with datagrams
     /// Joins again whenever the connection is lost. Without it a link follows a session that its service has moved to
-    /// another server, for kFollow, or until its ticket is refused: the old server makes the tickets of consoles valid again.
+    /// another server, for kFollow, or until its ticket is refused: the old server makes the tickets of consoles valid
+    /// again.
     bool again = false;
     bool list = false;                ///< also reads the list of the server's sessions
     std::function<void()> news = {};  ///< called by any thread after a new picture

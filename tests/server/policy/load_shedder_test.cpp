@@ -49,11 +49,14 @@ TEST(LoadShedder, RaisesTheLevelEvery100MillisecondsInOrder) {
 }
 
 TEST(LoadShedder, StopsBelowTheLevelWhoseThresholdIsNotReached) {
-  const std::vector<std::pair<double, ShedLevel>> table{
-      {0.39, ShedLevel::kNone},          {0.41, ShedLevel::kTelemetry},          {0.45, ShedLevel::kObservers20Hz},
-      {0.49, ShedLevel::kObservers10Hz}, {0.53, ShedLevel::kEvaluatorsEvery2nd}, {0.57, ShedLevel::kEvaluatorsEvery3rd},
-      {0.84, ShedLevel::kEvaluatorsEvery3rd},
-      {0.86, ShedLevel::kNewJoins}};
+  const std::vector<std::pair<double, ShedLevel>> table{{0.39, ShedLevel::kNone},
+                                                        {0.41, ShedLevel::kTelemetry},
+                                                        {0.45, ShedLevel::kObservers20Hz},
+                                                        {0.49, ShedLevel::kObservers10Hz},
+                                                        {0.53, ShedLevel::kEvaluatorsEvery2nd},
+                                                        {0.57, ShedLevel::kEvaluatorsEvery3rd},
+                                                        {0.84, ShedLevel::kEvaluatorsEvery3rd},
+                                                        {0.86, ShedLevel::kNewJoins}};
   for (const auto& [share, rung] : table) {
     Thread full, late;
     EXPECT_EQ(full.full(share, 2s).level, rung) << share;

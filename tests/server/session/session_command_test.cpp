@@ -328,8 +328,9 @@ TEST(Admission, RejectsJoinsByOneLimitOfTheMeanOfLongTicksAndOfTheMachine) {
   EXPECT_EQ(rejection_reason({0.85, 0.85}, 1.7, 2, limits), "") << "joins at the limit are accepted";
   for (const Load& load : {Load{0.86, 0.1}, Load{0.5, 0.86}, Load{0.1, 0.1, true}})
     EXPECT_NE(rejection_reason(load, 0.1, 2, limits).find("accepted up to 85 %"), std::string::npos);
-  EXPECT_NE(rejection_reason({0.86, 0.1}, 0.1, 2, limits).find("long ticks of the session's thread take 86 % of their time"),
-            std::string::npos);
+  EXPECT_NE(
+      rejection_reason({0.86, 0.1}, 0.1, 2, limits).find("long ticks of the session's thread take 86 % of their time"),
+      std::string::npos);
   EXPECT_NE(rejection_reason({0.5, 0.86}, 0.86, 2, limits).find("the session's thread works for 86 % of the time"),
             std::string::npos)
       << "receiving and sending count too";
