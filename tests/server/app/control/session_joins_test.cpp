@@ -2,6 +2,7 @@
 #include "server/app/control/session_joins.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -58,13 +59,14 @@ struct Joining : RegistryFixture {
 /// Clients that come at once are not measured yet. The limit is one and a half times what a client is expected to take.
 TEST(SessionJoins, RejectTheClientThatWouldPassTheLimitTogetherWithTheNewestOnes) {
   Joining j;
-  for (const unsigned id : {2U, 3U}) j.add("lesson" + std::to_string(id), id, kCode);
+  const std::array codes{kCode, "ABCDE12346", "ABCDE12347"};
+  for (const unsigned id : {2U, 3U}) j.add("lesson" + std::to_string(id), id, codes[id - 1]);
   j.serve();
   SessionJoins joins{j.registry, j.commands, j.keys, LoadLimits{1.5 * expected_seat_cost(j.scene.tick_hz)}};
   std::vector<std::optional<JoinReply>> replies;
-  for (const char* name : {"lesson", "lesson2", "lesson3"}) {
-    JoinRequest request = Joining::request("trainee", rpc::CodeCredential{kCode});
-    request.hello.session = std::string(name);
+  for (const char* code : codes) {
+    JoinRequest request = Joining::request("trainee", rpc::CodeCredential{code});
+    request.hello.session = std::string(code);
     const std::size_t n = replies.size();
     replies.emplace_back();
     joins.admit(request, [&replies, n](JoinReply decided) { replies[n] = std::move(decided); });
