@@ -129,8 +129,8 @@ class LinkTiming {
       64;  ///< datagrams in addition to the one per tick: challenges, requests, CLOSE
   static constexpr std::uint64_t kLearnEvery = 1000;
   [[nodiscard]] bool remembers(Time now, std::uint64_t counter) const noexcept {
-    return counter >= first_ && counter < next_ && next_ - counter <= mask_ + 1 &&
-           now - newest_ <= kMemory && now - sent_[counter & mask_].near(now) <= kMemory;
+    return counter >= first_ && counter < next_ && next_ - counter <= mask_ + 1 && now - newest_ <= kMemory &&
+           now - sent_[counter & mask_].near(now) <= kMemory;
   }
 
   Duration tick_;

@@ -108,7 +108,8 @@ TEST(LinkTiming, TakesNoTimeOfBeforeAPauseForANewOne) {
 
 TEST(BriefTime, IsTheStoredTimeWithinNineMinutes) {
   static_assert(sizeof(BriefTime) == 5);
-  for (const Duration since : {Duration{0}, Duration{1ns}, Duration{4s}, Duration{9min}, Duration{-1ns}, Duration{-9min}})
+  for (const Duration since :
+       {Duration{0}, Duration{1ns}, Duration{4s}, Duration{9min}, Duration{-1ns}, Duration{-9min}})
     for (const Duration now : {Duration{0}, Duration{1h}, Duration{(std::int64_t{1} << 40) - 1}, Duration{100 * 24h}})
       EXPECT_EQ(BriefTime{Time{now - since}}.near(Time{now}), Time{now - since}) << since.count() << " " << now.count();
 }
