@@ -289,11 +289,11 @@ TEST(Monitoring, ReportsWhyABusyServerRejectsJoins) {
   Process host = serving(folder.write("s.textproto", config));
   std::string metrics = host.after("metrics on http://");
   metrics = metrics.substr(0, metrics.find('/'));
-  // Known after the first thousand ticks.
+  // Known after the first second.
   double load = 0;
   for (int tries = 0; tries < 3000 && load == 0; ++tries) {
     const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n"),
-                      name = "\ntandem_tick_load{tick_hz=\"10000\",shard=\"0\"} ";
+                      name = "\ntandem_core_load{tick_hz=\"10000\",shard=\"0\"} ";
     const auto at = page.find(name);
     if (at != std::string::npos) load = std::atof(page.c_str() + at + name.size());
     if (load == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -105,14 +105,13 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
 }
 
 std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) {
-  double all = 0, of_session = 0;
   const auto load_of = [&](const Shard* shard) {
     return shard->load().cpu_share() + newcomers_[shard].expected(io::monotonic_now());
   };
+  double all = 0;
   for (const Shard* shard : registry_.requests().shards()) all += load_of(shard);
-  of_session = load_of(entry.registration.shard);
-  const ShardLoad& own = entry.registration.shard->load();
-  std::string why = rejection_reason({own.tick_share(), of_session, own.state().level == ShedLevel::kNewJoins}, all,
+  const Shard* const own = entry.registration.shard;
+  std::string why = rejection_reason({load_of(own), own->load().state().level == ShedLevel::kNewJoins}, all,
                                      std::thread::hardware_concurrency(), limits_);
   if (why.empty()) return std::nullopt;
   return ErrorReply{ErrorCode::kFull, std::move(why), 5};
