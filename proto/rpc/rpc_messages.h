@@ -241,7 +241,7 @@ struct StatusRecording {
   std::string trouble{};           ///< why it drops ticks now, at most kTextMax; empty: it drops none
   friend bool operator==(const StatusRecording&, const StatusRecording&) = default;
 };
-/// What Status::stops counts together.
+/// Stops, restarts and moves, which Status::stops counts together.
 struct StatusCounts {
   std::uint32_t stops = 0;     ///< stops and pauses
   std::uint32_t restarts = 0;  ///< restores after the end or death of its server

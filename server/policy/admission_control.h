@@ -9,7 +9,7 @@ namespace tandem::server {
 /// Load of a tick thread.
 struct Load {
   /// Share of its time that the thread works: processor time of receiving, ticks and sending over the last second [1].
-  /// Includes what the newest clients are expected to take (newcomer_load.h).
+  /// Includes what the newest clients are expected to take (new_client_load.h).
   double busy = 0;
   bool fully_shed = false;  ///< ShedLevel::kNewJoins (load_shedder.h): the same share, over a tenth of a second
 };
@@ -23,7 +23,7 @@ struct LoadLimits {
 
 /// Reason for rejecting a new join to a session of this thread, for display; empty: the join is accepted. There is one
 /// limit, for the thread and for the machine. It leaves time for moments of more work, so that hands that run never
-/// wait for a newcomer.
+/// wait for a new client.
 /// @param all_cores   load of all tick threads together [1]: several of them may share a processor
 /// @param processors  number of processors for them
 [[nodiscard]] inline std::string rejection_reason(const Load& own, double all_cores, unsigned processors,

@@ -106,7 +106,7 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
 
 std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) {
   const auto load_of = [&](const Shard* shard) {
-    return shard->load().cpu_share() + newcomers_[shard].expected(io::monotonic_now());
+    return shard->load().cpu_share() + new_clients_[shard].expected(io::monotonic_now());
   };
   double all = 0;
   for (const Shard* shard : registry_.requests().shards()) all += load_of(shard);
@@ -180,7 +180,7 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
   }
   reservation.offer(match, asked.ever_heard, force_scale, used);
   if (!asked.same_owner)
-    newcomers_[entry.registration.shard].add(io::monotonic_now(), expected_seat_cost(entry.scene().tick_hz));
+    new_clients_[entry.registration.shard].add(io::monotonic_now(), expected_seat_cost(entry.scene().tick_hz));
   SeatSetup own = entry.session().seat_catalogue().setup_for(asked.seat, request.hello.device);
   own.gate.force_max *= force_scale;
   return make_welcome(entry, static_cast<std::uint8_t>(asked.seat + 1), role, request.hello.has_aes, seat.name,

@@ -12,7 +12,7 @@
 #include "server/app/control/session_registry.h"
 #include "server/app/control/ticket_redemption.h"
 #include "server/policy/admission_control.h"
-#include "server/policy/newcomer_load.h"
+#include "server/policy/new_client_load.h"
 
 namespace tandem::server {
 
@@ -71,7 +71,7 @@ class SessionJoins final : public JoinHandler {
   auth::ServerKeystore& trust_;
   TicketRedemption tickets_;
   LoadLimits limits_;
-  std::map<const Shard*, NewcomerLoad> newcomers_;  ///< at most one entry per shard
+  std::map<const Shard*, NewClientLoad> new_clients_;  ///< at most one entry per shard
 };
 
 }  // namespace tandem::server

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "server/policy/admission_control.h"
-#include "server/policy/newcomer_load.h"
+#include "server/policy/new_client_load.h"
 #include "tests/server/session/session_fixture.h"
 #include "tests/support/alloc_guard.h"
 
@@ -338,7 +338,7 @@ TEST(Admission, RejectsJoinsByOneLimitForTheThreadAndTheMachine) {
 }
 
 TEST(Admission, CountsTheNewestClientsUntilAMeasurementHasThem) {
-  NewcomerLoad load;
+  NewClientLoad load;
   Time now{1h};
   for (int n = 0; n < 10; ++n, now += 50ms) load.add(now, 0.004);
   EXPECT_NEAR(load.expected(now), 0.04, 1e-12);

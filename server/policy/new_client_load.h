@@ -7,7 +7,7 @@ namespace tandem::server {
 /// Load that clients are expected to cause who joined so recently that no measurement has all of it. Without it, many
 /// joins within a second would all be accepted by the load of before them. Counts each join for 1.5 to 3 s: a load is
 /// measured over 1 s, and a client begins to send within half a second.
-class NewcomerLoad {
+class NewClientLoad {
  public:
   static constexpr Duration kPart = std::chrono::milliseconds(1500);
 
@@ -16,7 +16,7 @@ class NewcomerLoad {
     pass(now);
     newest_ += cost;
   }
-  /// Expected load of the newcomers, as share of one processor [1].
+  /// Expected load of the new clients, as share of one processor [1].
   [[nodiscard]] double expected(Time now) noexcept {
     pass(now);
     return newest_ + before_;
