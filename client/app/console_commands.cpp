@@ -174,6 +174,11 @@ std::string maker_of(const rpc::StatusStop& stop) {
   return text + (stop.why.empty() ? "" : ": " + sanitize(stop.why));
 }
 
+/// `1 stop`, `2 stops`
+std::string counted(std::uint32_t number, const char* thing) {
+  return format("%u %s%s", number, thing, number == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::vector<std::string> words_of(const std::string& line) {
@@ -314,8 +319,12 @@ std::string status_changes_text(const rpc::Status& before, const rpc::Status& no
 
 std::string status_text(const rpc::Status& s) {
   std::string text = format("%s: %s, %.1f s", s.name.c_str(), rpc::to_text(s.phase), s.time_s);
-  text += is_stopped(s) ? format("; `resume %u` ends it", s.stops)
-                        : format("; %u stops, restarts and moves so far", s.stops);
+  if (is_stopped(s)) text += format("; `resume %u` ends it", s.stops);
+  if (s.counts)
+    text += "; " + counted(s.counts->stops, "stop") + ", " + counted(s.counts->restarts, "restart") + " and " +
+            counted(s.counts->moves, "move") + " so far";
+  else if (!is_stopped(s))
+    text += format("; %u stops, restarts and moves so far", s.stops);
   text += format("; authority version %u%s", s.authority_version, s.draining ? "; the server is DRAINING" : "");
   if (s.phase == rpc::SessionPhase::kOverloaded)
     text += "; OVERLOADED: the server is too busy to keep time, all hands are released and engaged again automatically";
@@ -377,7 +386,10 @@ std::string status_json(const rpc::Status& s) {
   text += s.drain ? format("{\"left_s\": %u, \"sessions\": %u, \"people\": %u}", s.drain->left_s, s.drain->sessions,
                            s.drain->participants)
                   : "null";
-  text += ", \"held\": " + (s.held.empty() ? "null" : in_quotes(s.held));
+  text += ", \"held\": " + (s.held.empty() ? "null" : in_quotes(s.held)) + ", \"counts\": ";
+  text += s.counts ? format("{\"stops\": %u, \"restarts\": %u, \"moves\": %u}", s.counts->stops, s.counts->restarts,
+                            s.counts->moves)
+                   : "null";
   return text + ", \"recording\": " + recording_json(s.recording) + "}\n";
 }
 

@@ -69,7 +69,8 @@ using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::P
 /// `{"session", "id", "phase", "time_s", "stops", "authority_version", "draining", "shed", "seats": [{"name", "role",
 /// "taken", "heard", "person"}], "tools": [{"name", "alpha": {SEAT: WEIGHT}}], "stop": null or
 /// {"number", "kind", "seat", "workstation", "role", "why", "ago_s", "ends", "yours", "person"}, "drain": null or
-/// {"left_s", "sessions", "people"}, "held": null or why no tool moves,
+/// {"left_s", "sessions", "people"}, "held": null or why no tool moves, "counts": null (not known) or {"stops",
+/// "restarts", "moves"}, which `stops` counts together,
 /// "recording": null or as `recording_json`}`
 [[nodiscard]] std::string status_json(const rpc::Status& status);
 

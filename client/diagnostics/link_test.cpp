@@ -126,7 +126,7 @@ LinkTestResult LinkTest::findings(Time now) const {
     }
     f.jitter = transit_.jitter();
   }
-  if (const Histogram& rtts = channel_.link().timing().rtts(); rtts.count() > 0) {
+  if (const LinkHistogram& rtts = channel_.link().timing().rtts(); rtts.count() > 0) {
     f.rtt_min = seconds(rtt_min_);
     f.rtt_p50 = s(rtts.quantile(0.50));
     f.rtt_p99 = s(rtts.quantile(0.99));

@@ -63,6 +63,8 @@ std::expected<WorkstationRow, EnrollError> enroll(std::vector<WorkstationRow>& b
   if (old == book.end()) {
     book.push_back(row);
   } else {
+    // A key that was not revoked meanwhile stays enrolled since then, and its tickets count.
+    if (old->spki == row.spki) row.enrolled_at = std::min(row.enrolled_at, old->enrolled_at);
     *old = row;
   }
   codes.erase(given);

@@ -93,6 +93,9 @@ constexpr std::array<Words, kTicketChecks> kWords{{
     {"not_yet", "the ticket is not valid yet"},
     {"expired", "the ticket has expired; ask for a new one"},
     {"workstation", "the ticket was made for another workstation; use it there, or ask for one for this machine"},
+    {"enrolment",
+     "the ticket was made before this workstation was enrolled again: its revocation has voided all tickets of before; "
+     "ask for a new one"},
     {"session", "the ticket was made for another session; ask for one for this session"},
     {"epoch", "the ticket is for a later run of this session"},
     {"seat", "the ticket is for another seat"},
@@ -202,6 +205,7 @@ std::expected<Ticket, TicketError> check_ticket(std::span<const std::byte> bytes
   if (use.now < t.not_before) return broken(TicketCheck::kNotYet, t.not_before - use.now);
   if (use.now > t.not_after) return broken(TicketCheck::kExpired, use.now - t.not_after);
   if (t.workstation != use.workstation) return broken(TicketCheck::kWorkstation);
+  if (t.not_before < use.enrolled_at) return broken(TicketCheck::kEnrolment);
   if (t.session_id != use.session_id) return broken(TicketCheck::kSession);
   if (use.epoch < t.epoch_min) return broken(TicketCheck::kEpoch);
   if (t.seat != use.seat) return broken(TicketCheck::kSeat, 0, t.seat);

@@ -71,6 +71,7 @@ enum class TicketCheck : std::uint8_t {
   kNotYet,
   kExpired,
   kWorkstation,  ///< of another machine
+  kEnrolment,    ///< from before the workstation was enrolled, which was revoked meanwhile
   kSession,
   kEpoch,
   kSeat,
@@ -78,7 +79,7 @@ enum class TicketCheck : std::uint8_t {
   kUsed,
   kBookFull,  ///< the list of redeemed tickets is full
 };
-inline constexpr std::size_t kTicketChecks = 14;
+inline constexpr std::size_t kTicketChecks = 15;
 
 /// The violated rule with details.
 struct TicketError {
@@ -101,6 +102,9 @@ struct TicketUse {
   std::optional<AccessRole> role;  ///< of the seat in the scene; nullopt: any
   KeyFingerprint workstation;      ///< key that the TLS handshake proved
   std::int64_t now = 0;            ///< [s] since 1970, UTC
+  /// Time of the workstation's enrolment [s], from which on its tickets count: a revocation voids those before, also if
+  /// the same key is enrolled again.
+  std::int64_t enrolled_at = 0;
 };
 
 /// Checks all rules but single use, in the order of TicketCheck. No content of a ticket is trusted before its signature

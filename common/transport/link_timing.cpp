@@ -13,7 +13,7 @@ void LinkTiming::accepted(Time now, std::uint64_t echo_counter, Duration echo_ag
   if (known && (!echoed_ || echo_counter >= echo_counter_)) {
     echoed_ = true;
     echo_counter_ = echo_counter;
-    echo_sent_ = sent_[echo_counter & mask_];
+    echo_sent_ = sent_[echo_counter & mask_].near(now);
     // The round trip includes about one tick in which peer and own end wait for their next tick, even without a
     // network.
     rtt_ = std::max(Duration{0}, now - echo_sent_ - echo_age);

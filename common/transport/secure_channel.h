@@ -29,7 +29,7 @@ struct SecureChannelStats {
   std::uint64_t first = 0, newest = 0;  ///< counters of the peer between which loss is counted
   std::array<std::uint64_t, static_cast<std::size_t>(DropReason::kCount)> dropped{};
   Duration longest_gap{};  ///< between two applied datagrams
-  Histogram age;           ///< of the newest datagram, sampled once per tick [ns]
+  LinkHistogram age;       ///< of the newest datagram, sampled once per tick [ns]
   [[nodiscard]] std::uint64_t lost() const noexcept {
     const std::uint64_t span = accepted == 0 ? 0 : newest - first + 1;
     const std::uint64_t came = accepted + late + others + dropped[static_cast<std::size_t>(DropReason::kRate)];

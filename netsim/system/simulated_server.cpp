@@ -59,7 +59,7 @@ std::uint32_t SimulatedServer::due_ticks(Time now) noexcept {
 }
 
 void SimulatedServer::run(Time now) noexcept {
-  session_->lifecycle().set_load_state(load_shedder_.step(now, missed_ * tick_, tick_used_));
+  session_->lifecycle().set_load_state(load_shedder_.step(now, missed_ * tick_, tick_used_, tick_used_));
   session_->on_tick(now, missed_);
   if (session_->path_tokens().low())
     fill_path_tokens(*session_, RandomKey{config_->seed}.derive(kTokenKey), token_draws_ += server::PathTokens::kMax);

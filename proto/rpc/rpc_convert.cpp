@@ -273,6 +273,7 @@ bool read(const wire_pb::Status& in, Status& out) {
     if (!take_name(t.name(), tool.name) || tool.alpha.size() > kMastersMax) return false;
     if (!std::ranges::all_of(tool.alpha, [](double a) { return a >= 0 && a <= 1; })) return false;
   }
+  if (in.has_counts()) out.counts = {in.counts().stops(), in.counts().restarts(), in.counts().moves()};
   if (in.has_drain()) out.drain = {in.drain().left_s(), in.drain().sessions(), in.drain().people()};
   if (in.news_size() > static_cast<int>(kStatusEventsMax) || !is_text(in.held())) return false;
   out.held = in.held();
@@ -318,6 +319,11 @@ void write(const Status& in, wire_pb::Status& out) {
     news.set_text(n.text);
   }
   if (in.recording) write(*in.recording, *out.mutable_recording());
+  if (in.counts) {
+    out.mutable_counts()->set_stops(in.counts->stops);
+    out.mutable_counts()->set_restarts(in.counts->restarts);
+    out.mutable_counts()->set_moves(in.counts->moves);
+  }
   if (!in.drain) return;
   out.mutable_drain()->set_left_s(in.drain->left_s);
   out.mutable_drain()->set_sessions(in.drain->sessions);

@@ -241,6 +241,13 @@ struct StatusRecording {
   std::string trouble{};           ///< why it drops ticks now, at most kTextMax; empty: it drops none
   friend bool operator==(const StatusRecording&, const StatusRecording&) = default;
 };
+/// Stops, restarts and moves, which Status::stops counts together.
+struct StatusCounts {
+  std::uint32_t stops = 0;     ///< stops and pauses
+  std::uint32_t restarts = 0;  ///< restores after the end or death of its server
+  std::uint32_t moves = 0;     ///< restores at a server to which it was handed over
+  friend bool operator==(const StatusCounts&, const StatusCounts&) = default;
+};
 /// Status of a session for clients of its control connection.
 struct Status {
   Id session_id{};
@@ -262,6 +269,7 @@ struct Status {
   std::optional<StatusRecording> recording{};  ///< while the session is recorded
   /// Why the server cannot record the session, and the remedy, at most kTextMax. Empty: it can, or does.
   std::string no_recording{};
+  std::optional<StatusCounts> counts{};  ///< nullopt: the server does not know them
   friend bool operator==(const Status&, const Status&) = default;
 };
 

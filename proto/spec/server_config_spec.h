@@ -34,8 +34,7 @@ struct ConnectionLimitsSpec {
   double accepts_per_s = 10, accepts_burst = 100, accepts_per_s_all = 300;
   std::uint32_t pending = 256, connections = 2048;
   double deadline_s = 5;
-  double load_percent = 60;
-  double core_percent = 80;
+  double core_percent = 85;  ///< LoadLimits::busy (server/policy/admission_control.h)
   std::uint32_t created_sessions = 16;
   std::uint32_t threads = 0;  ///< 0: as many as the server may use processors
 };

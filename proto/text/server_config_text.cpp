@@ -15,16 +15,15 @@ using text::MessageKey;
 using text::MessageValidator;
 
 using Limits = ConnectionLimitsSpec;
-constexpr std::array<MessageKey<Limits>, 10> kLimitKeys{{{"accepts_per_s", &Limits::accepts_per_s},
-                                                         {"accepts_burst", &Limits::accepts_burst},
-                                                         {"accepts_per_s_all", &Limits::accepts_per_s_all},
-                                                         {"pending", &Limits::pending},
-                                                         {"connections", &Limits::connections},
-                                                         {"deadline_s", &Limits::deadline_s},
-                                                         {"load_percent", &Limits::load_percent},
-                                                         {"core_percent", &Limits::core_percent},
-                                                         {"created_sessions", &Limits::created_sessions},
-                                                         {"threads", &Limits::threads}}};
+constexpr std::array<MessageKey<Limits>, 9> kLimitKeys{{{"accepts_per_s", &Limits::accepts_per_s},
+                                                        {"accepts_burst", &Limits::accepts_burst},
+                                                        {"accepts_per_s_all", &Limits::accepts_per_s_all},
+                                                        {"pending", &Limits::pending},
+                                                        {"connections", &Limits::connections},
+                                                        {"deadline_s", &Limits::deadline_s},
+                                                        {"core_percent", &Limits::core_percent},
+                                                        {"created_sessions", &Limits::created_sessions},
+                                                        {"threads", &Limits::threads}}};
 constexpr std::array<MessageKey<AuditSpec>, 2> kAuditKeys{
     {{"file_mib", &AuditSpec::file_mib}, {"older_files", &AuditSpec::older_files}}};
 
@@ -173,6 +172,8 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
     out.sessions.push_back(session_from(in.session(i), validator, key));
   }
   text::read_keys(in.limits(), kLimitKeys, out.limits);
+  if (in.limits().has_load_percent())
+    out.limits.core_percent = std::min(out.limits.core_percent, in.limits().load_percent());
   for (int i = 0; i < in.metrics_host_size(); ++i) {
     const std::string& name = in.metrics_host(i);
     if (name.empty() || name.size() > 253 || name.find_first_of(": /[]\t") != std::string::npos)

@@ -11,6 +11,8 @@ static_assert(kShedLevels == enumerator_count<ShedLevel>());
 namespace {
 constexpr std::uint32_t kTenth = 10;  // 1/10 of a window's ticks; fewer are outliers
 
+constexpr ShedLevel kLastOfTicks = ShedLevel::kEvaluatorsEvery3rd;  // above it the share of the thread decides
+
 constexpr ShedLevel next(ShedLevel rung, int by) noexcept {
   return static_cast<ShedLevel>(static_cast<int>(rung) + by);
 }
@@ -19,23 +21,30 @@ constexpr ShedLevel next(ShedLevel rung, int by) noexcept {
 LoadShedder::LoadShedder(Duration period) noexcept
     : period_(period), window_(static_cast<std::uint32_t>(std::max<std::int64_t>(1, kWindow / period))) {}
 
-LoadState LoadShedder::step(Time now, Duration late, Duration used) noexcept {
-  const double cost = seconds(used) / seconds(period_), strain = std::max(cost, seconds(late) / seconds(kLateMost));
-  const auto on = [&](ShedLevel rung) { return rung == ShedLevel::kNewJoins ? cost : strain; };
+LoadState LoadShedder::step(Time now, Duration late, Duration used, Duration worked) noexcept {
+  const double strain = std::max(seconds(used) / seconds(period_), seconds(late) / seconds(kLateMost));
   const ShedLevel rung = load_state_.level;
-  above_ += rung < ShedLevel::kNewJoins && on(next(rung, 1)) > threshold(next(rung, 1)) ? 1 : 0;
-  above_release_ += rung > ShedLevel::kNone && on(rung) > threshold(rung) - kHysteresis ? 1 : 0;
+  above_ += rung < kLastOfTicks && strain > threshold(next(rung, 1)) ? 1 : 0;
+  above_release_ += rung > ShedLevel::kNone && strain > threshold(rung) - kHysteresis ? 1 : 0;
+  worked_ += worked;
+  if (window_began_ == Time{}) window_began_ = now - period_;
   if (++ticks_ >= window_) update_level(now);
   update_overload(now, late);
   return load_state_;
 }
 
 void LoadShedder::update_level(Time now) noexcept {
-  if (above_ * kTenth > window_) {
+  const double share = now > window_began_ ? seconds(worked_) / seconds(now - window_began_) : 0;
+  constexpr double kLimit = threshold(ShedLevel::kNewJoins);
+  const ShedLevel rung = load_state_.level;
+  const bool rises = rung == kLastOfTicks ? share > kLimit : above_ * kTenth > window_;
+  const bool stays =
+      rung == ShedLevel::kNewJoins ? share > kLimit - kHysteresisOfJoins : above_release_ * kTenth > window_;
+  if (rises) {
     level_backoff_.on_overload(now);
     load_state_.level = next(load_state_.level, 1);
     last_busy_window_ = now;
-  } else if (above_release_ * kTenth > window_) {
+  } else if (stays) {
     last_busy_window_ = now;
   } else if (load_state_.level > ShedLevel::kNone && now - last_busy_window_ >= level_backoff_.wait()) {
     load_state_.level = next(load_state_.level, -1);
@@ -43,6 +52,8 @@ void LoadShedder::update_level(Time now) noexcept {
     level_backoff_.on_recovery(now);
   }
   ticks_ = above_ = above_release_ = 0;
+  worked_ = {};
+  window_began_ = now;
 }
 
 void LoadShedder::update_overload(Time now, Duration late) noexcept {

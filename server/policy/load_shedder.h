@@ -72,11 +72,12 @@ class RecoveryBackoff {
 /// Selects the shed level from the duration and lateness of ticks. Sans-I/O, no heap, one call per tick.
 ///
 /// Load of a tick = max(processor time / period, lateness / 5 ms). The level rises when more than 10 % of the ticks in
-/// a 0.1 s window exceed its threshold. The thresholds are 0.40, 0.44, ... 0.56, and 0.60 for the last level, which is
-/// the admission limit. The level falls after 5 s without a window in which more than 10 % of the ticks exceed the
-/// threshold minus 0.10. If the level rises again within a minute, the next fall takes 10, then 20, then 40 s. It
-/// changes by one level per window, so that the effect of each level is measured. Lateness does not count for the last
-/// level. It is caused by other processes when ticks are late but short, and rejecting joins does not reduce it.
+/// a 0.1 s window exceed its threshold: 0.40, 0.44, ... 0.56. It rises to the last level when the thread works,
+/// receiving included, for a greater share of the window than the limit of new joins, and only from the level before.
+/// Lateness does not count there: it is caused by other processes, and rejecting joins does not reduce it. The level
+/// falls after 5 s without a window in which more than 10 % of the ticks exceed the threshold minus 0.10; from the last
+/// level, without one whose share exceeds the limit minus 0.02. If the level rises again within a minute, the next fall
+/// takes 10, then 20, then 40 s. It changes by one level per window, so that the effect of each level is measured.
 ///
 /// The third tick in a row that begins more than 5 ms late puts the sessions into OVERLOADED. They continue after a
 /// second without three such ticks in a row (2, 4 s if it happens again within a minute). The state is not latched, for
@@ -88,20 +89,22 @@ class LoadShedder {
   static constexpr Duration kLateMost = std::chrono::milliseconds(5);
   static constexpr unsigned kLateTicks = 3;
   static constexpr double kFirst = 0.40, kStep = 0.04, kHysteresis = 0.10;
+  static constexpr double kHysteresisOfJoins = 0.02;  ///< small, so that the limit is nearly the same after a moment
 
   /// @param period  tick period, positive
   explicit LoadShedder(Duration period) noexcept;
 
   /// Updates the load state for one tick.
   /// @param late  delay of this tick's start after its deadline
-  /// @param used  processor time of the tick before, sending included
+  /// @param used    processor time of the tick before, sending included
+  /// @param worked  processor time of the thread since the last call
   /// @return load state for this tick
-  LoadState step(Time now, Duration late, Duration used) noexcept TANDEM_REALTIME;
+  LoadState step(Time now, Duration late, Duration used, Duration worked) noexcept TANDEM_REALTIME;
   [[nodiscard]] const LoadState& load_state() const noexcept { return load_state_; }
 
   /// Load above which this level is entered.  @pre the level is above ShedLevel::kNone.
   [[nodiscard]] static constexpr double threshold(ShedLevel rung) noexcept {
-    return kFirst + kStep * (static_cast<int>(rung) - 1);
+    return rung == ShedLevel::kNewJoins ? LoadLimits{}.busy : kFirst + kStep * (static_cast<int>(rung) - 1);
   }
 
  private:
@@ -112,13 +115,15 @@ class LoadShedder {
   std::uint32_t window_;  ///< ticks
   LoadState load_state_;
   std::uint32_t ticks_ = 0, above_ = 0, above_release_ = 0;  ///< counted in this window
+  Duration worked_{};                                        ///< in this window
+  Time window_began_{};
   Time last_busy_window_{};  ///< end of the last window with load above the release threshold
   RecoveryBackoff level_backoff_{std::chrono::seconds(5), std::chrono::seconds(40)};
   unsigned late_ = 0;     ///< consecutive late ticks
   Time last_overload_{};  ///< time of the last three consecutive late ticks
   RecoveryBackoff overload_backoff_{std::chrono::seconds(1), std::chrono::seconds(4)};
 };
-static_assert(LoadShedder::threshold(ShedLevel::kNewJoins) > LoadLimits{}.tick - 1e-9 &&
-              LoadShedder::threshold(ShedLevel::kNewJoins) < LoadLimits{}.tick + 1e-9);
+static_assert(LoadShedder::threshold(ShedLevel::kEvaluatorsEvery3rd) < LoadShedder::threshold(ShedLevel::kNewJoins),
+              "optional load is shed before joins are rejected");
 
 }  // namespace tandem::server

@@ -21,6 +21,8 @@ double expected_cost(const SessionDemand& session) noexcept {
   return kClientTick * session.tick_hz * static_cast<double>(1 + session.seats);
 }
 
+double expected_seat_cost(double tick_hz) noexcept { return kClientTick * tick_hz; }
+
 std::vector<double> shard_rates(std::span<const SessionDemand> sessions, std::size_t threads, std::size_t created_max) {
   std::vector<Rate> rates;
   for (const SessionDemand& session : sessions) {

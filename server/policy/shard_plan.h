@@ -16,6 +16,9 @@ struct SessionDemand {
 /// with that of other sessions, until their cost is measured.
 [[nodiscard]] double expected_cost(const SessionDemand& session) noexcept;
 
+/// Expected processor time of one client of such a session [1].
+[[nodiscard]] double expected_seat_cost(double tick_hz) noexcept;
+
 /// Returns the tick rate of each shard [Hz]: one shard per rate, and the rest of `threads` for the rates with the
 /// greatest expected cost per shard. A rate gets no more shards than sessions.
 /// @param threads      wanted number of shards, at least 1; more if there are more rates

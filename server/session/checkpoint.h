@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
 
 #include "common/base/axes.h"
 #include "proto/spec/scene_spec.h"
+#include "server/session/restore_counts.h"
 #include "server/session/stop_latch.h"
 
 namespace tandem::server {
@@ -39,6 +41,9 @@ struct Checkpoint {
   std::uint8_t seats_n = 0, masters_n = 0, tools_n = 0, dof = 0;
   std::array<Seat, kSeatsMax> seats{};
   std::array<Tool, kToolsMax> tools{};
+  // The encoding has neither of these: it is read by releases that do not know them (session_snapshot.h keeps both).
+  std::optional<RestoreCounts> restores = RestoreCounts{};  ///< nullopt: not known
+  bool handed_over = false;  ///< the session ended here so that another server goes on with it
 };
 static_assert(std::is_trivially_copyable_v<Checkpoint> && sizeof(Checkpoint) <= 4096);
 

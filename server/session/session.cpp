@@ -99,6 +99,8 @@ Checkpoint Session::checkpoint() const noexcept {
   Checkpoint c;
   c.scene = scene_hash_;
   c.epoch = epoch_;
+  const CloseOut& closing = participants_.closing().session;
+  c.handed_over = closing.begun() && closing.reason() == wire::CloseReason::kServerReturns;
   c.session_tick = clock_.session_tick();
   c.seats_n = static_cast<std::uint8_t>(seats_.size());
   c.masters_n = static_cast<std::uint8_t>(masters_);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 
 #include "common/control/authority.h"
@@ -11,6 +12,7 @@
 #include "server/policy/load_shedder.h"
 #include "server/report/audit_event.h"
 #include "server/session/command_result.h"
+#include "server/session/restore_counts.h"
 #include "server/session/stop_latch.h"
 
 namespace tandem::server {
@@ -42,7 +44,8 @@ struct CommandOutcome {
   std::uint32_t connected_seats = 0;  ///< connected seats, bit i for seat i
   bool recovering = false;  ///< waiting after a restart: a resume by an instructor continues without the missing seats
   std::uint32_t stops = 0, authority_version = 0, tick = 0;
-  double time = 0;      ///< session clock [s]
+  std::optional<RestoreCounts> restores{};  ///< of the session; nullopt: not known
+  double time = 0;                          ///< session clock [s]
   bool may_act = true;  ///< false: the directory of the service is silent, so that no hand is engaged
   ShedLevel shed_level = ShedLevel::kNone;
   std::uint8_t masters = 0, tools = 0;

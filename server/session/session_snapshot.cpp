@@ -17,6 +17,39 @@ constexpr std::size_t kDigest = sizeof(Checkpoint::Hash);
 constexpr std::size_t kTextMaximum = 255, kPersonMaximum = 32;
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
+using Key = std::array<std::byte, 32>;
+
+// Releases of before RestoreCounts read and write the list of removed workstations as it is. Therefore the counts are
+// an entry of it that no fingerprint of a key can be: this label, flags, the epoch that wrote it, and three numbers.
+constexpr std::string_view kCountsLabel = "tandem-runs";
+constexpr std::byte kHandedOver{1};
+
+Key counts_entry(const Checkpoint& checkpoint) {
+  Key entry{};
+  std::memcpy(entry.data(), kCountsLabel.data(), kCountsLabel.size());
+  entry[kCountsLabel.size()] = checkpoint.handed_over ? kHandedOver : std::byte{0};
+  const std::array<std::uint32_t, 3> numbers{checkpoint.restores->restarts, checkpoint.restores->moves,
+                                             checkpoint.restores->numbers};
+  std::memcpy(entry.data() + kCountsLabel.size() + 1, &checkpoint.epoch, sizeof checkpoint.epoch);
+  std::memcpy(entry.data() + entry.size() - sizeof numbers, numbers.data(), sizeof numbers);
+  return entry;
+}
+
+bool is_counts_entry(const Key& entry) noexcept {
+  return text_of(std::span{entry}.first(kCountsLabel.size())) == kCountsLabel;
+}
+
+/// Reads the counts of an entry. They do not count if another epoch wrote the snapshot: that of an older release.
+void read_counts(const Key& entry, Checkpoint& checkpoint) {
+  std::uint64_t epoch = 0;
+  std::array<std::uint32_t, 3> numbers{};
+  std::memcpy(&epoch, entry.data() + kCountsLabel.size() + 1, sizeof epoch);
+  std::memcpy(numbers.data(), entry.data() + entry.size() - sizeof numbers, sizeof numbers);
+  if (epoch != checkpoint.epoch || numbers[2] > checkpoint.stops) return;
+  checkpoint.restores = {numbers[0], numbers[1], numbers[2]};
+  checkpoint.handed_over = entry[kCountsLabel.size()] == kHandedOver;
+}
+
 const char* cause(CheckpointError error) noexcept {
   switch (error) {
     case CheckpointError::kSize:
@@ -49,8 +82,10 @@ std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept) {
   put(kept.id);
   text(kept.name);
   text(kept.code);
-  out.push_back(static_cast<std::byte>(kept.removed_workstations.size()));
+  const bool counts = kept.checkpoint.restores && kept.removed_workstations.size() < kRemovedWorkstationsMax;
+  out.push_back(static_cast<std::byte>(kept.removed_workstations.size() + (counts ? 1 : 0)));
   for (const auto& key : kept.removed_workstations) put(key);
+  if (counts) put(counts_entry(kept.checkpoint));
   out.push_back(static_cast<std::byte>(kept.persons.size()));
   for (const std::string& name : kept.persons) text(name);
   std::array<std::byte, kCheckpointMax> checkpoint;
@@ -102,6 +137,10 @@ std::expected<SessionSnapshot, std::string> decode_snapshot(std::span<const std:
   const auto checkpoint = decode_checkpoint(rest);
   if (!checkpoint) return std::unexpected(cause(checkpoint.error()));
   kept.checkpoint = *checkpoint;
+  kept.checkpoint.restores.reset();
+  for (const Key& key : kept.removed_workstations)
+    if (is_counts_entry(key)) read_counts(key, kept.checkpoint);
+  std::erase_if(kept.removed_workstations, is_counts_entry);
   return kept;
 }
 

@@ -42,7 +42,8 @@ inline constexpr std::size_t kSnapshotMax =
     kCheckpointMax + 1024 + 32 * kRemovedWorkstationsMax + 33 * kSeatsMax;  ///< [bytes]
 
 /// Writes magic, wall time, id, name, code, number of removed workstations (one byte), their fingerprints, number of
-/// persons (one byte), their names, checkpoint, then the SHA-256 of all that.
+/// persons (one byte), their names, checkpoint, then the SHA-256 of all that. Counts of restores are one more entry of
+/// the removed workstations, if there is room: older releases keep it, and read the rest as ever.
 /// @return empty if the name is missing, or if a text or the list is too long
 [[nodiscard]] std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept);
 /// Parses any bytes. @return a snapshot with all numbers in range, or the reason for the rejection, as text for the

@@ -5,6 +5,11 @@
 namespace tandem::server {
 
 void StopControl::restore(const Checkpoint& from) noexcept {
+  restores_ = from.restores;
+  if (restores_) {
+    ++(from.handed_over ? restores_->moves : restores_->restarts);
+    restores_->numbers += start_->recovering() ? 1 : 0;
+  }
   if (start_->recovering()) {
     // A new number, which an instructor can name to resume without the missing seats.
     latch_.restore(StopLatch::Level::kNone, from.stops + 1);
@@ -15,6 +20,7 @@ void StopControl::restore(const Checkpoint& from) noexcept {
 
 void StopControl::save(Checkpoint& to) const noexcept {
   to.stops = latch_.stops();
+  to.restores = restores_;
   to.stop = start_->recovering() ? std::max(start_->stop_before(), latch_.level()) : latch_.level();
 }
 
@@ -40,7 +46,9 @@ CommandResult StopControl::resume(Time now, const Requester& by, std::uint32_t n
 void StopControl::resume_after_restart(Time now, std::uint8_t seat, std::uint32_t number) noexcept {
   audit_->emit(now, AuditEvent::What::kAllBack, seat, number);
   start_->begin(now);
-  if (start_->stop_before() != StopLatch::Level::kNone) latch_.raise(start_->stop_before(), {});
+  if (start_->stop_before() == StopLatch::Level::kNone) return;
+  latch_.raise(start_->stop_before(), {});
+  if (restores_) ++restores_->numbers;
 }
 
 void StopControl::stop_for_fault(Time now) noexcept {

@@ -26,7 +26,8 @@ class StopControl {
         start_(&start),
         audit_(&audit),
         latch_(scene.has_instructor()) {}
-  /// Restores the stop of a checkpoint. A session that waits for its seats raises it again when it resumes.
+  /// Restores the stop of a checkpoint, and counts this restore. A session that waits for its seats raises the stop
+  /// again when it resumes.
   /// @pre the start condition is restored
   void restore(const Checkpoint& from) noexcept;
   /// Writes number and level of the stop that a restart restores.
@@ -52,6 +53,8 @@ class StopControl {
   /// Another client has taken the seat.
   void clear_seat(std::size_t seat) noexcept { latch_.clear_seat(seat); }
   [[nodiscard]] const StopLatch& latch() const noexcept { return latch_; }
+  /// Restores of the session so far; nullopt: an older release has restored it, which did not count them.
+  [[nodiscard]] const std::optional<RestoreCounts>& restores() const noexcept { return restores_; }
 
  private:
   std::size_t seats_;
@@ -59,6 +62,7 @@ class StopControl {
   StartCondition* start_;
   AuditTrail* audit_;
   StopLatch latch_;
+  std::optional<RestoreCounts> restores_ = RestoreCounts{};
 };
 
 }  // namespace tandem::server

@@ -71,6 +71,7 @@ struct Seen {
   double p50 = 0, p99 = 0;  ///< of the loop [us]
   double answered = 0;      ///< answers / datagrams sent
   double late = 0;          ///< 99th percentile of the lateness with which the clients sent [us]
+  double tick = 0;          ///< processor time of a tick of the server, p99 of 1000, as share of its period
 };
 
 constexpr std::size_t state_bytes() { return wire::state_size(kThreeAxes, false) + kSealed; }
@@ -164,8 +165,12 @@ std::optional<Seen> see_shard(const SceneSpec& scene, std::size_t sessions, cons
   const Duration before = cpu_of(served->thread.native_handle());
   crowd.run(kLength, send, hear, stay);
   const double share = seconds(cpu_of(served->thread.native_handle()) - before) / seconds(kLength);
-  return Seen{share, quantile_us(loops, 0.5), quantile_us(loops, 0.99),
-              static_cast<double>(loops.size()) / static_cast<double>(count), quantile_us(crowd.take_lateness(), 0.99)};
+  return Seen{share,
+              quantile_us(loops, 0.5),
+              quantile_us(loops, 0.99),
+              static_cast<double>(loops.size()) / static_cast<double>(count),
+              quantile_us(crowd.take_lateness(), 0.99),
+              served->seated.shard().load().tick_share()};
 }
 
 /// Returns the pairs per second that the echo's thread answers while more datagrams arrive than it can answer.
@@ -192,7 +197,8 @@ double saturated_echo(const std::vector<int>& on) {
 
 struct Row {
   std::size_t sessions = 0;
-  std::vector<double> share{}, p50{}, p99{}, any_p50{}, any_p99{}, echo_p50{}, echo_p99{}, beyond{}, answered{}, late{};
+  std::vector<double> share{}, p50{}, p99{}, any_p50{}, any_p99{}, echo_p50{}, echo_p99{}, beyond{}, answered{}, late{},
+      tick{};
   bool settled = true;
 };
 
@@ -209,6 +215,7 @@ void measure(Row& row, const SceneSpec& scene, const std::vector<int>& on) {
   row.echo_p50.push_back(echo.p50), row.echo_p99.push_back(echo.p99);
   row.beyond.push_back(shard->p99 - echo.p99);
   row.answered.push_back(shard->answered), row.late.push_back(shard->late);
+  row.tick.push_back(shard->tick);
 }
 
 bool good(const Row& row) {
@@ -227,8 +234,8 @@ void find_limit(const SceneSpec& scene, const std::vector<int>& on, int rounds,
     for (Row& row : rows) measure(row, scene, on);
     std::fprintf(stderr, "round %d of %d\n", round + 1, rounds);
   }
-  std::printf("%7s %7s %20s %20s %20s %10s %9s %10s\n", "clients", "core", "loop p50 / p99 [us]", "any phase", "echo",
-              "p99 beyond", "answered", "late p99");
+  std::printf("%7s %7s %8s %20s %20s %20s %10s %9s %10s\n", "clients", "core", "tick p99", "loop p50 / p99 [us]",
+              "any phase", "echo", "p99 beyond", "answered", "late p99");
   std::size_t most = 0;
   bool all = true;
   for (const Row& row : rows) {
@@ -239,10 +246,10 @@ void find_limit(const SceneSpec& scene, const std::vector<int>& on, int rounds,
       std::printf("%7zu  not every hand was engaged\n", clients);
       continue;
     }
-    std::printf("%7zu %7.2f %11.0f / %6.0f %11.0f / %6.0f %11.0f / %6.0f %10.0f %7.1f %% %10.0f\n", clients,
-                median(row.share), median(row.p50), median(row.p99), median(row.any_p50), median(row.any_p99),
-                median(row.echo_p50), median(row.echo_p99), median(row.beyond), 100 * median(row.answered),
-                median(row.late));
+    std::printf("%7zu %7.2f %8.2f %11.0f / %6.0f %11.0f / %6.0f %11.0f / %6.0f %10.0f %7.1f %% %10.0f\n", clients,
+                median(row.share), median(row.tick), median(row.p50), median(row.p99), median(row.any_p50),
+                median(row.any_p99), median(row.echo_p50), median(row.echo_p99), median(row.beyond),
+                100 * median(row.answered), median(row.late));
   }
   std::printf(
       "clients with a p99 of at most %.0f us beyond the echo's: %zu; echo, saturated: %.0f pairs/s of a core; share "

@@ -65,7 +65,7 @@ class Played {
     made.role = std::string_view(seat) == "trainer" ? AccessRole::kInstructor : AccessRole::kTrainee;
     made.workstation =
         auth::KeyFingerprint{auth::find_workstation(*host.keys->registry().workstations(), kWorkstation)->spki};
-    made.not_before = auth::wall_seconds() - 60;
+    made.not_before = auth::wall_seconds();
     made.not_after = auth::wall_seconds() + 600;
     const auto bytes = auth::sign_ticket(made, host.keys->ticket_key());
     if (!bytes) fail(bytes.error());

@@ -69,7 +69,7 @@ class Crowd {
     ticket.session_id = host.sessions.front();
     ticket.role = AccessRole::kOperator;
     ticket.workstation = workstation_.fingerprint();
-    ticket.not_before = now - 60;
+    ticket.not_before = now;
     ticket.not_after = now + 600;
     const auto signed_ticket = auth::sign_ticket(ticket, host.keys->ticket_key());
     if (!signed_ticket) fail(signed_ticket.error());

@@ -43,5 +43,28 @@ TEST(GatewayService, PersonsFollowTheirSessionWithTheTicketThatTheyHave) {
   EXPECT_NE(gone["text"].get<std::string>().find("sign in again"), std::string::npos) << gone;
 }
 
+TEST(GatewayService, StopsAskingWhenTheTicketOfAPersonIsRefusedAndSaysTheCause) {
+  if (etcd_program("etcd").empty() || etcd_program("etcdctl").empty()) GTEST_SKIP() << kNoEtcd;
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 1);
+  const std::string state = service.folder().file("a");
+  const WebGateway gateway(address_of(a), {"--sign-in", "--state", service.enrolled("desk")});
+  const std::string ticket = first_line(LiveService::run(
+      {"ticket", "--session", "lab", "--role", "operator", "--workstation", "desk", "--state", state}));
+  const HttpReply reply =
+      http_post(gateway.at, "/join", "application/json", Json{{"ticket", ticket}}.dump(), gateway.at.origin());
+  ASSERT_EQ(reply.status, 200U) << reply.body;
+  WebPage page(gateway.at, cookie_of(reply));
+  EXPECT_EQ(page.next("hello")["type"], "hello");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // times of tickets and enrolments are in seconds
+  LiveService::run({"revoke", "desk", "--state", state});
+  const Json lost = page.until([](const Json& m) { return m["type"] == "notice" && m["server"] == "lost"; });
+  EXPECT_FALSE(lost.is_null());
+  static_cast<void>(service.enrolled_at("a", "desk"));
+  const Json gone = page.until([](const Json& m) { return m["type"] == "notice" && m["server"] == "gone"; });
+  EXPECT_NE(gone["text"].get<std::string>().find("its revocation has voided"), std::string::npos) << gone;
+}
+
 }  // namespace
 }  // namespace tandem::test

@@ -92,7 +92,7 @@ class Joiner {
     ticket.session_id = std::get<rpc::SessionList>(*listed).sessions.at(0).id;
     ticket.role = AccessRole::kOperator;
     ticket.workstation = keys_.workstation.fingerprint();
-    ticket.not_before = auth::wall_seconds() - 1;
+    ticket.not_before = auth::wall_seconds();
     ticket.not_after = ticket.not_before + 60;
     const auto bytes = auth::sign_ticket(ticket, keys_.ticket_key);
     if (!bytes) return failed("no ticket");

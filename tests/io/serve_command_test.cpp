@@ -139,7 +139,7 @@ TEST(ManySessions, ReportAllConfigurationErrorsTogether) {
       folder.write("g.textproto", "version: 1 listen: \"127.0.0.1:0\" session { name: \"a\" scene: \"contact\" }");
   Process checked = server({"serve", good, "--check"});
   EXPECT_EQ(checked.wait(), 0) << checked.err();
-  EXPECT_NE(checked.out().find("limits.load_percent"), std::string::npos) << checked.out();
+  EXPECT_NE(checked.out().find("limits.core_percent"), std::string::npos) << checked.out();
 }
 
 TEST(ManySessions, ASecondSignalEndsAtOnce) {
@@ -284,16 +284,16 @@ TEST(Monitoring, ReportsWhyABusyServerRejectsJoins) {
   scene.replace(scene.find("tick_hz: 1000"), 13, "tick_hz: 10000");
   folder.write("press.textproto", scene);
   std::string config =
-      "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" limits { load_percent: 1 threads: 1 }";
+      "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" limits { core_percent: 1 threads: 1 }";
   for (int n = 0; n < 24; ++n) config += " session { name: \"s" + std::to_string(n) + "\" scene: \"press.textproto\" }";
   Process host = serving(folder.write("s.textproto", config));
   std::string metrics = host.after("metrics on http://");
   metrics = metrics.substr(0, metrics.find('/'));
-  // Known after the first thousand ticks.
+  // Known after the first second.
   double load = 0;
   for (int tries = 0; tries < 3000 && load == 0; ++tries) {
     const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n"),
-                      name = "\ntandem_tick_load{tick_hz=\"10000\",shard=\"0\"} ";
+                      name = "\ntandem_core_load{tick_hz=\"10000\",shard=\"0\"} ";
     const auto at = page.find(name);
     if (at != std::string::npos) load = std::atof(page.c_str() + at + name.size());
     if (load == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -82,6 +82,8 @@ TEST_F(ServiceConsole, FollowsItsSessionWhenItMovesAndWhenItsServerEnds) {
   ASSERT_TRUE(console.process().wait_for(followed + followed)) << console.process().out() << console.process().err();
   console.type("sessions");
   EXPECT_TRUE(console.process().wait_for("seats free")) << console.process().out();
+  console.type("status");
+  EXPECT_TRUE(console.process().wait_for("; 0 stops, 0 restarts and 2 moves so far")) << console.process().out();
   console.type("quit");
   EXPECT_EQ(console.process().wait(), 0) << console.process().err();
 }
@@ -132,6 +134,9 @@ TEST_F(ServiceConsole, ComesBackByItsTicketWhenItsServerDiesAndNoOtherConsoleDoe
   const std::string followed = "this console has followed session lab to its new server\n";
   ASSERT_TRUE(console.process().wait_for("`resume 1` ends it\n" + followed))
       << console.process().out() << console.process().err() << a_again.err();
+  EXPECT_TRUE(console.process().wait_for("it was on before the server was restarted")) << "it takes orders again";
+  console.type("status");
+  EXPECT_TRUE(console.process().wait_for("; 1 stop, 2 restarts and 0 moves so far")) << console.process().out();
   console.type("quit");
   EXPECT_EQ(console.process().wait(), 1) << "two orders were not carried out";
 

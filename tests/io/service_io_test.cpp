@@ -258,16 +258,22 @@ TEST_F(Service, MovedSessionTakesItsHandsAlong) {
   const std::string config = pressed.service().folder().file("a.textproto");
   EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}), "session lab is at server b now\n");
   pressed.wait_until_active("b");
-  EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}), "session lab is at server b already\n");
+  EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}),
+            "session lab is at server b already, and stays there\n");
   pressed.service().wait_for_sessions("b", 1);  // its list is at most a second old
   const Json listed = pressed.service().sessions("b");
   ASSERT_EQ(listed.size(), 1U);
   EXPECT_EQ(LiveService::run({"move", listed[0]["id"], "--to", "b", "--config", config}),
-            "session lab is at server b already\n");
+            "session lab is at server b already, and stays there\n");
   EXPECT_EQ(LiveService::run({"move", listed[0]["code"], "--to", "any", "--config", config}),
             "session lab may be at any server now\n");
   EXPECT_EQ(LiveService::run({"move", "lab", "--to", "any", "--config", config}),
             "session lab may be at any server already\n");
+  EXPECT_EQ(LiveService::run({"move", "lab", "--to", "b", "--config", config}),
+            "session lab is at server b already; from now on it stays there\n");
+  EXPECT_EQ(LiveService::run({"move", "lab", "--to", "any", "--config", config}),
+            "session lab may be at any server now\n")
+      << "it was to stay";
   for (const Words& wrong : {Words{"move", "lab", "--to", "c"}, Words{"move", "nothing", "--to", "a"}}) {
     Words words = wrong;
     words.insert(words.end(), {"--config", config});

@@ -70,6 +70,34 @@ TEST_F(ServiceWords, TicketsOfOneServerAdmitAtTheOwnerOfTheSession) {
   for (const char* column : {"STANDBY", "LEASE", "VOUCHER UNTIL"}) EXPECT_TRUE(contains(table, column)) << table;
 }
 
+TEST_F(ServiceWords, TicketsOfBeforeARevocationStayRefusedAtAllServersWhenTheOldKeyIsEnrolledAgain) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const std::string own = service.enrolled("desk"), a_state = service.folder().file("a"),
+                    b_state = service.folder().file("b"), config = service.folder().file("b.textproto");
+  const Words made{"ticket", "--session", "lab", "--seat", "trainee", "--workstation", "desk", "--state", a_state};
+  const std::string ticket = service.folder().write("ticket", first_line(LiveService::run(made)));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // times of tickets and enrolments are in seconds
+  LiveService::run({"revoke", "desk", "--state", a_state});
+  const auto known = [&] { return contains(service.folder().read("b/workstations.textproto"), "desk"); };
+  for (int i = 0; i < 1500 && known(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_FALSE(known());
+  static_cast<void>(service.enrolled_at("b", "desk"));  // with the key in its folder
+  for (const char* owner : {"a", "b"}) {
+    LiveService::run({"move", "lab", "--to", owner, "--config", config});
+    service.wait_for_sessions(owner, 1);
+    Process refused = client(address_of(service.of("a")), "trainee", {"--ticket-file", ticket, "--state", own});
+    EXPECT_EQ(refused.wait(), 1);
+    EXPECT_TRUE(contains(refused.err(), "its revocation has voided all tickets of before")) << refused.err();
+  }
+  const std::string next = service.folder().write("next", first_line(LiveService::run(made)));
+  Process joined = client(address_of(b), "trainee", {"--ticket-file", next, "--state", own});
+  EXPECT_TRUE(joined.wait_for("seat trainee at " + address_of(b))) << joined.err();
+}
+
 TEST_F(ServiceWords, AServerWhoseConfigurationDiffersSaysSo) {
   LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
   service.start("a");

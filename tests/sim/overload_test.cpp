@@ -164,7 +164,7 @@ TEST(Overload, BringsAnOverfullThreadBackToItsPeriodByShedding) {
   life.until(3300ms);
   EXPECT_LT(forces(life, 0) - before, 150u) << "every second tick is missed";
   life.until(10s);
-  EXPECT_EQ(life.simulation->session().lifecycle().load_state().level, ShedLevel::kNewJoins);
+  EXPECT_EQ(life.simulation->session().lifecycle().load_state().level, ShedLevel::kEvaluatorsEvery3rd);
   const auto heard = rates(life);
   EXPECT_EQ(heard[0], 1000u);
   for (std::size_t i = 1; i < heard.size(); ++i) EXPECT_NEAR(static_cast<double>(heard[i]), 333, 1);

@@ -53,16 +53,22 @@ int report(const std::string& text) {
   return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
 }
 
-/// Lets a session that an operator has moved be moved by the service again.
-int free_session(ServiceQuery& service, const std::string& session) {
-  const auto home = [&] {
-    const auto found = service.catalogue().entries().find(session);
-    return found == service.catalogue().entries().end() ? std::string{} : found->second.home;
-  };
-  if (home().empty()) return report("session " + session + " may be at any server already");
-  service.begin({{}, {directory::Put{service.keys().move(session), ServiceKeys::kAnyServer, 0}}, {}});
-  if (service.wait(kMoveMax, [&] { return home().empty(); }))
-    return report("session " + session + " may be at any server now");
+/// Server at which an operator wants the session; empty: any.
+std::string home_of(const ServiceQuery& service, const std::string& session) {
+  const auto found = service.catalogue().entries().find(session);
+  return found == service.catalogue().entries().end() ? std::string{} : found->second.home;
+}
+
+/// Lets a session stay at the server that has it, or be moved by the service again.
+/// @param home  that server; empty: any
+int keep_session(ServiceQuery& service, const std::string& session, const std::string& home) {
+  const std::string at =
+      "session " + session + (home.empty() ? " may be at any server" : " is at server " + home + " already");
+  if (home_of(service, session) == home) return report(at + (home.empty() ? " already" : ", and stays there"));
+  service.begin(
+      {{}, {directory::Put{service.keys().move(session), home.empty() ? ServiceKeys::kAnyServer : home, 0}}, {}});
+  if (service.wait(kMoveMax, [&] { return home_of(service, session) == home; }))
+    return report(at + (home.empty() ? " now" : "; from now on it stays there"));
   return print_error("move", "the server of session " + session +
                                  " did not take the order within 10 s; its log has the cause, and `tandem-server "
                                  "servers` says whether it has an older version, which does not know it");
@@ -79,9 +85,8 @@ int move_command(const MoveArguments& arguments) {
   const bool anywhere = arguments.to == kAny && service.view().server(kAny) == nullptr;
   if (const std::string problem = move_problem(service, arguments, session, anywhere); !problem.empty())
     return print_error("move", problem);
-  if (anywhere) return free_session(service, session);
-  if (service.view().session(session)->owner->name == arguments.to)
-    return report("session " + session + " is at server " + arguments.to + " already");
+  if (anywhere || service.view().session(session)->owner->name == arguments.to)
+    return keep_session(service, session, anywhere ? std::string{} : arguments.to);
   service.begin({{}, {directory::Put{service.keys().move(session), arguments.to, 0}}, {}});
   const bool moved = service.wait(kMoveMax, [&] {
     const auto* const seen = service.view().session(session);
@@ -112,8 +117,9 @@ void add_move_command(const io::Command& root) {
       .required();
   command.footer(
       "The session's server releases all hands, stores the last snapshot and hands the session over; the clients join "
-      "the other server by themselves. It stays there, unless that server drains or fails, until `--to any`.\n"
-      "Exit: 0 the other server has it, or it may move again; 1 it did not move, or the directory does not answer; 2 "
+      "the other server by themselves. It stays there, unless that server drains or fails, until `--to any`; so "
+      "does a session that is there already.\n"
+      "Exit: 0 the named server has it, or it may move again; 1 it did not move, or the directory does not answer; 2 "
       "wrong arguments or "
       "files.\n\n"
       "Examples\n"

@@ -90,7 +90,7 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
   ServerOptions plan{
       .command = "serve",
       .control = {.state = path_beside_config(config, config.state.text),
-                  .load_limits = {limits.load_percent / 100, limits.core_percent / 100},
+                  .load_limits = {limits.core_percent / 100},
                   .metrics_hosts = config.metrics_hosts,
                   .audit = {static_cast<std::uint64_t>(config.audit.file_mib * (1 << 20)), config.audit.older_files}},
       .threads = limits.threads,

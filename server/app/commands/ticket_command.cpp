@@ -5,6 +5,7 @@
 #include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
 #include "common/base/command_hints.h"
+#include "common/base/format.h"
 #include "common/base/sanitize.h"
 #include "common/io/command_line.h"
 #include "common/io/reachable_address.h"
@@ -16,6 +17,8 @@
 
 namespace tandem::server {
 namespace {
+
+constexpr std::int64_t kClockStep = 60;  // [s] by which the clocks of two servers may differ
 
 struct TicketArguments {
   std::string session, seat, workstation, person, role, state, hours = "4", force = "100";
@@ -129,6 +132,13 @@ int ticket_command(const TicketArguments& arguments) {
                (state->membership() == nullptr
                     ? ""
                     : "; if another server of the service has just enrolled it, try again in a second"));
+  const std::int64_t now = auth::wall_seconds();
+  if (workstation != nullptr && workstation->enrolled_at > now + kClockStep)
+    errors.add("--workstation: by the clock of this server, " + arguments.workstation +
+               format(" is enrolled %lld s later than now, and no ticket of before counts: the clock of a server is "
+                      "wrong, or was. Set it, then `tandem-server revoke ",
+                      static_cast<long long>(workstation->enrolled_at - now)) +
+               arguments.workstation + "` and enrol it again");
   std::expected<std::optional<ServiceList>, std::string> service;
   if (*serving) service = read_service_list(*state->folder());
   if (!service) return print_error("ticket", service.error());
@@ -143,14 +153,13 @@ int ticket_command(const TicketArguments& arguments) {
     errors.add("--person: \"" + sanitize(arguments.person, 64) + "\" must be 1 to 32 characters of A-Z a-z 0-9 _ -");
   if (!errors.empty() || !role) return print_usage_errors("ticket", errors);
 
-  const std::int64_t now = auth::wall_seconds();
   const auth::Ticket ticket{.ticket_id = auth::random_bytes<auth::Id16>(),
                             .session_id = session->id,
                             .seat = arguments.seat,
                             .role = *role,
                             .workstation = {workstation->spki},
                             .force_scale = static_cast<std::uint16_t>(std::lround(force_percent * 10.0)),
-                            .not_before = now,
+                            .not_before = std::max(now, workstation->enrolled_at),  // by another server's clock
                             .not_after = now + static_cast<std::int64_t>(std::stod(hours) * 3600.0),
                             .epoch_min = session->epoch,
                             .person = arguments.person};

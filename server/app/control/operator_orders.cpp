@@ -135,7 +135,7 @@ void SessionCommands::complete(rpc::SessionCreated& created, const rpc::CreateSe
                               .role = role,
                               .workstation = {workstation->spki},
                               .force_scale = auth::Ticket::kFullForce,
-                              .not_before = now,
+                              .not_before = std::max(now, workstation->enrolled_at),  // by another server's clock
                               .not_after = now + life,
                               .epoch_min = entry->registration.epoch,
                               .person = holder.person};

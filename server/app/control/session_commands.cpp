@@ -179,6 +179,8 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
                      .seats = {},
                      .tools = {},
                      .stop = latest_stop(outcome.stop_latch, scene, outcome.stop_age, outcome.connected_seats)};
+  if (const auto& restores = outcome.restores)
+    status.counts = {outcome.stops - restores->numbers, restores->restarts, restores->moves};
   if (drain.active()) status.drain = registry_.drain_progress();
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     status.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), outcome.seats[i].taken,

@@ -12,6 +12,7 @@
 #include "server/app/control/setup_bytes.h"
 #include "server/app/control/slot_join.h"
 #include "server/policy/roles.h"
+#include "server/policy/shard_plan.h"
 #include "server/session/connection_id.h"
 
 namespace tandem::server {
@@ -103,12 +104,15 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
   join_seat(entry, request, std::move(answer));
 }
 
-std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) const {
+std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) {
+  const auto load_of = [&](const Shard* shard) {
+    return shard->load().cpu_share() + new_clients_[shard].expected(io::monotonic_now());
+  };
   double all = 0;
-  for (const Shard* shard : registry_.requests().shards()) all += shard->load().cpu_share();
-  const ShardLoad& own = entry.registration.shard->load();
-  std::string why = rejection_reason({own.tick_share(), own.cpu_share(), own.state().level == ShedLevel::kNewJoins},
-                                     all, std::thread::hardware_concurrency(), limits_);
+  for (const Shard* shard : registry_.requests().shards()) all += load_of(shard);
+  const Shard* const own = entry.registration.shard;
+  std::string why = rejection_reason({load_of(own), own->load().state().level == ShedLevel::kNewJoins}, all,
+                                     std::thread::hardware_concurrency(), limits_);
   if (why.empty()) return std::nullopt;
   return ErrorReply{ErrorCode::kFull, std::move(why), 5};
 }
@@ -152,6 +156,8 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
   SeatReservation& reservation = entry.seats[asked.seat];
   if (asked.same_owner && !reservation.may_resume(match, asked.silence, asked.ever_heard, io::monotonic_now()))
     return nothing_to_resume();
+  // Again, because other clients have joined since `admit`.
+  if (auto busy = asked.same_owner ? std::nullopt : overload_reply(entry)) return std::move(*busy);
   const SeatSpec& seat = entry.scene().seats[asked.seat];
   const AccessRole role = access_role(seat.role);
   // A ticket can only lower the force. A resume has no ticket and keeps the stored scale and name.
@@ -173,6 +179,8 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
                       0};
   }
   reservation.offer(match, asked.ever_heard, force_scale, used);
+  if (!asked.same_owner)
+    new_clients_[entry.registration.shard].add(io::monotonic_now(), expected_seat_cost(entry.scene().tick_hz));
   SeatSetup own = entry.session().seat_catalogue().setup_for(asked.seat, request.hello.device);
   own.gate.force_max *= force_scale;
   return make_welcome(entry, static_cast<std::uint8_t>(asked.seat + 1), role, request.hello.has_aes, seat.name,

@@ -2,6 +2,7 @@
 
 #include <expected>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "server/app/control/session_registry.h"
 #include "server/app/control/ticket_redemption.h"
 #include "server/policy/admission_control.h"
+#include "server/policy/new_client_load.h"
 
 namespace tandem::server {
 
@@ -61,7 +63,7 @@ class SessionJoins final : public JoinHandler {
                                                                  const std::string& code, AccessRole role);
   void stop_watching(SessionEntry& entry, const rpc::Welcome& joined);
   /// Error reply if the shard or the machine is too busy for a new join; nullopt if not.
-  [[nodiscard]] std::optional<rpc::ErrorReply> overload_reply(const SessionEntry& entry) const;
+  [[nodiscard]] std::optional<rpc::ErrorReply> overload_reply(const SessionEntry& entry);
 
   SessionRegistry& registry_;
   SessionCommands& commands_;
@@ -69,6 +71,7 @@ class SessionJoins final : public JoinHandler {
   auth::ServerKeystore& trust_;
   TicketRedemption tickets_;
   LoadLimits limits_;
+  std::map<const Shard*, NewClientLoad> new_clients_;  ///< at most one entry per shard
 };
 
 }  // namespace tandem::server

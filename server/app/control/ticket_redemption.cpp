@@ -23,9 +23,9 @@ std::expected<auth::Ticket, rpc::ErrorReply> TicketRedemption::redeem(const Sess
                                                                       const rpc::TicketCredential& ticket,
                                                                       std::optional<AccessRole> role, Time now) {
   const auto attempt = [&] {
-    return trust_.tickets().redeem(ticket.bytes,
-                                   {entry.registration.id, entry.registration.epoch, request.hello.seat, role,
-                                    auth::KeyFingerprint{request.workstation.spki}, auth::wall_seconds()});
+    return trust_.tickets().redeem(ticket.bytes, {entry.registration.id, entry.registration.epoch, request.hello.seat,
+                                                  role, auth::KeyFingerprint{request.workstation.spki},
+                                                  auth::wall_seconds(), request.workstation.enrolled_at});
   };
   auto redeemed = attempt();
   // This server has seen the ticket before, as an earlier owner of the session. All other rules hold for it.

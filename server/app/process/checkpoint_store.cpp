@@ -58,7 +58,10 @@ CheckpointStore::Found CheckpointStore::find(const std::string& name, const Scen
     found.incompatibility = kept.error();
   } else {
     found.incompatibility = wanted ? incompatibility(*kept, name, scene, now) : "--no-restore was given";
-    if (found.incompatibility.empty()) found.snapshot = std::move(*kept);
+    if (found.incompatibility.empty()) {
+      found.snapshot = std::move(*kept);
+      found.snapshot->checkpoint.handed_over = false;  // the server that goes on is the one that wrote it
+    }
   }
   if (found.snapshot) return found;
   std::error_code error;

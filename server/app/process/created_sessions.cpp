@@ -104,8 +104,8 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
   double all = 0;
   for (const auto& shard : shards_.all()) all += shard->load().cpu_share();
   const ShardLoad& own = shards_.all()[place->shard]->load();
-  if (std::string why = rejection_reason({own.tick_share(), own.cpu_share(), own.state().level == ShedLevel::kNewJoins},
-                                         all, io::available_processors(), options_.control.load_limits);
+  if (std::string why = rejection_reason({own.cpu_share(), own.state().level == ShedLevel::kNewJoins}, all,
+                                         io::available_processors(), options_.control.load_limits);
       !why.empty())
     return ErrorReply{ErrorCode::kFull, std::move(why), 5};
 

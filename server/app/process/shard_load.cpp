@@ -1,6 +1,7 @@
 #include "server/app/process/shard_load.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tandem::server {
 namespace {
@@ -24,7 +25,7 @@ std::uint32_t ShardLoad::begin_tick(Time now, Duration late, bool serving) noexc
     machine_.late_ticks += machine_.late ? 1 : 0;
     machine_.missed_ticks += missed;
   }
-  machine_.load_state = shedder_.step(now, machine_.realtime ? late : late / kLateUnpromised, used_);
+  machine_.load_state = shedder_.step(now, machine_.realtime ? late : late / kLateUnpromised, used_, worked_);
   shed_level_.store(machine_.load_state.level, std::memory_order_relaxed);
   overloaded_.store(machine_.load_state.overloaded, std::memory_order_relaxed);
   return missed;
@@ -32,6 +33,7 @@ std::uint32_t ShardLoad::begin_tick(Time now, Duration late, bool serving) noexc
 
 void ShardLoad::end_tick(Time now, Duration before, Duration after) noexcept {
   used_ = after - before;
+  worked_ = after - std::exchange(worked_until_, after);
   spent_.add(used_.count());
   lengths_.add(used_);
   if (spent_.count() >= kLoadTicks) {

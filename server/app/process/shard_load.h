@@ -51,7 +51,9 @@ class ShardLoad {
   Duration period_;
   LoadShedder shedder_;
   MachineStatus machine_;
-  Duration used_{};  ///< processor time of the last tick
+  Duration used_{};    ///< processor time of the last tick
+  Duration worked_{};  ///< of the thread from the end of the tick before until the end of the last one
+  Duration worked_until_{};
   Histogram spent_;
   Time core_since_{};
   Duration core_used_{};

@@ -27,11 +27,11 @@ class TickQueue {
         tools_(std::min(tools, kToolsMax) * sizeof(ToolRecord)),
         bytes_(std::make_unique<std::byte[]>(ticks * stride())) {}
 
-  /// Returns the capacity with which a queue takes about 1.5 MB, but at most 2 s of ticks at 1 kHz and at least a
+  /// Returns the capacity with which a queue takes about 1.45 MB, but at most 2 s of ticks at 1 kHz and at least a
   /// quarter. The reader may be late by so many ticks before records are dropped.
   [[nodiscard]] static std::size_t capacity_for(std::size_t seats, std::size_t tools) noexcept {
     const std::size_t stride = kHeader + seats * sizeof(SeatRecord) + tools * sizeof(ToolRecord);
-    return std::clamp<std::size_t>((3U << 19) / stride, 256, 2048);
+    return std::clamp<std::size_t>(1'450'000 / stride, 256, 2048);
   }
 
   /// For the writing thread. @return false if the record was dropped

@@ -45,7 +45,8 @@ std::string DirectorySnapshots::take_snapshot(Entry& entry) {
   if (arrived) {
     std::vector<std::byte> bytes(kCheckpointMax);
     bytes.resize(encode_checkpoint(checkpoint, bytes));
-    if (bytes == entry.taken && !entry.changed) return {};
+    const bool leaves = checkpoint.handed_over != entry.snapshot.checkpoint.handed_over;
+    if (bytes == entry.taken && !entry.changed && !leaves) return {};
     entry.taken = std::move(bytes);
     entry.snapshot.checkpoint = checkpoint;
   }

@@ -284,7 +284,7 @@ void ServiceHost::publish_load() {
     loads.push_back({std::move(use.name), use.measured, use.expected, waiting});
   }
   record_.expected = kExpectedStep * std::round(expected / kExpectedStep);
-  record_.capacity = parts_.options.control.load_limits.core * io::available_processors();
+  record_.capacity = parts_.options.control.load_limits.busy * io::available_processors();
   record_.drains = parts_.control.registry().drain().due().has_value();
   thread_->quietly([&](ServiceMember& member, Time) {
     member.describe(record_);

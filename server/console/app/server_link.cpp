@@ -173,9 +173,12 @@ void ServerLink::lose(const std::string& why) {
 
 bool ServerLink::joins_again() const { return options_.again || (follows_until_ && Clock::now() < *follows_until_); }
 
-void ServerLink::stop_following() {
+void ServerLink::stop_following(const std::string& why) {
   if (!std::exchange(follows_until_, std::nullopt)) return;
-  update([](LivePicture& picture) { picture.again = false; });
+  update([&](LivePicture& picture) {
+    picture.again = false;
+    if (!why.empty()) picture.warning = why;
+  });
 }
 
 bool ServerLink::join() {
@@ -190,7 +193,10 @@ bool ServerLink::join() {
     report(std::unexpected(joined.error().reason));
     return false;
   }
-  if (!joined) return false;
+  if (!joined) {
+    if (joined.error().ticket_refused) stop_following(joined.error().reason);
+    return false;
+  }
   adopt(std::move(*joined));
   return true;
 }

@@ -43,7 +43,8 @@ class ServerLink final : public LiveSource {
     client::JoinOptions join;  ///< `signals` is not used
     bool watch = true;         ///< with datagrams
     /// Joins again whenever the connection is lost. Without it a link follows a session that its service has moved to
-    /// another server, for kFollow: the old server makes the tickets of consoles valid again.
+    /// another server, for kFollow, or until its ticket is refused: the old server makes the tickets of consoles valid
+    /// again.
     bool again = false;
     bool list = false;                ///< also reads the list of the server's sessions
     std::function<void()> news = {};  ///< called by any thread after a new picture
@@ -75,7 +76,8 @@ class ServerLink final : public LiveSource {
   void lose(const std::string& why);
   [[nodiscard]] bool join();
   [[nodiscard]] bool joins_again() const;
-  void stop_following();
+  /// @param why  the server gave, which the picture then has in place of the cause of the loss; empty: none
+  void stop_following(const std::string& why = {});
   [[nodiscard]] bool ask_status();
   void ask_sessions();
   void ask_scenes();

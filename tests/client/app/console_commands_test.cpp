@@ -187,7 +187,7 @@ TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
             "\"seat\": \"\", \"workstation\": \"desk\", \"role\": \"operator\", "
             "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true, \"person\": null}, "
             "\"drain\": null, "
-            "\"held\": null, \"recording\": null}\n");
+            "\"held\": null, \"counts\": null, \"recording\": null}\n");
   rpc::Status named = lesson();
   named.seats[0].person = "ann";
   named.stop->person = "otto";
@@ -195,6 +195,18 @@ TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
   EXPECT_NE(status_json(named).find("\"yours\": true, \"person\": \"otto\""), std::string::npos);
   EXPECT_NE(status_text(named).find("here, ann\n"), std::string::npos) << status_text(named);
   EXPECT_NE(status_text(named).find("STOPPED by otto at desk"), std::string::npos) << status_text(named);
+}
+
+TEST(ConsoleCommands, TellStopsRestartsAndMovesApart) {
+  rpc::Status s = lesson();
+  s.counts = rpc::StatusCounts{1, 0, 2};
+  EXPECT_NE(status_text(s).find("`resume 3` ends it; 1 stop, 0 restarts and 2 moves so far;"), std::string::npos)
+      << status_text(s);
+  EXPECT_NE(status_json(s).find("\"counts\": {\"stops\": 1, \"restarts\": 0, \"moves\": 2}"), std::string::npos);
+  s.phase = rpc::SessionPhase::kRunning;
+  EXPECT_NE(status_text(s).find("12.3 s; 1 stop, 0 restarts and 2 moves so far;"), std::string::npos);
+  s.counts.reset();
+  EXPECT_NE(status_text(s).find("; 3 stops, restarts and moves so far;"), std::string::npos) << "an older server";
 }
 
 TEST(ConsoleCommands, ReportEventsOnceAndOnlyThoseAfterTheFirstStatus) {

@@ -176,6 +176,9 @@ TEST(Ticket, ReportsTheNameOfTheBrokenRule) {
   EXPECT_EQ(rule_of(bytes, test::ticket_key(1), right), TicketCheck::kKey);
   EXPECT_EQ(rule_of(bytes, key, use([](TicketUse& u) { u.workstation.sha256[31] ^= std::byte{1}; })),
             TicketCheck::kWorkstation);
+  EXPECT_TRUE(check_ticket(bytes, key.verifier(), use([](TicketUse& u) { u.enrolled_at = test::kNow; })))
+      << "enrolled in the same second";
+  EXPECT_EQ(rule_of(bytes, key, use([](TicketUse& u) { u.enrolled_at = test::kNow + 1; })), TicketCheck::kEnrolment);
   EXPECT_EQ(rule_of(bytes, key, use([](TicketUse& u) { u.session_id[0] ^= std::byte{1}; })), TicketCheck::kSession);
   EXPECT_EQ(rule_of(bytes, key, use([](TicketUse& u) { u.epoch = 6; })), TicketCheck::kEpoch);
   EXPECT_EQ(rule_of(bytes, key, use([](TicketUse& u) { u.seat = "trainer"; })), TicketCheck::kSeat);

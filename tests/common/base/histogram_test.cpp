@@ -120,6 +120,43 @@ TEST(Histogram, HoldsEveryValueInOneOfContiguousBuckets) {
   });
 }
 
+TEST(Histogram, OfALinkHasTheSameQuantilesInLessMemory) {
+  static_assert(4 * sizeof(ShortLinkHistogram) < sizeof(Histogram) && 3 * sizeof(LinkHistogram) < sizeof(Histogram));
+  RandomStream random{9};
+  Histogram whole;
+  LinkHistogram link;
+  ShortLinkHistogram brief;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto ns = static_cast<std::int64_t>(random.bits() >> (25 + random.below(39)));
+    whole.add(ns);
+    link.add(ns);
+    brief.add(ns);
+  }
+  for (const double q : {0.0, 0.01, 0.25, 0.5, 0.75, 0.99, 1.0}) {
+    EXPECT_EQ(link.quantile(q), whole.quantile(q)) << q;
+    EXPECT_EQ(brief.quantile(q), whole.quantile(q)) << q;
+  }
+  const std::int64_t hour = 3'600'000'000'000;
+  link.add(hour);
+  EXPECT_EQ(link.quantile(1), hour) << "beyond its bins";
+  EXPECT_EQ(link.count(), 20'001U);
+}
+
+TEST(Histogram, KeepsItsQuantilesWhenABinIsFull) {
+  ShortLinkHistogram h, other;
+  for (int i = 0; i < 400'000; ++i) h.add(i % 100 < 99 ? 10 : 50);
+  EXPECT_EQ(h.count(), 400'000U);
+  EXPECT_EQ(h.quantile(0.5), 10);
+  EXPECT_EQ(h.quantile(0.98), 10);
+  EXPECT_EQ(h.quantile(0.995), 50);
+  EXPECT_NEAR(h.mean(), 10.4, 1e-9);
+  for (int i = 0; i < 60'000; ++i) other.add(50);
+  h.merge(other);
+  EXPECT_EQ(h.count(), 460'000U);
+  EXPECT_EQ(h.quantile(0.01), 10);
+  EXPECT_EQ(h.quantile(1), 50);
+}
+
 TEST(Histogram, MergesLikeDirectAdding) {
   Histogram a, b, both;
   for (int i = 0; i < 1000; ++i) {

@@ -93,6 +93,27 @@ TEST(LinkTiming, KeepsFourSecondsOfHistoryAtEveryRate) {
   }
 }
 
+TEST(LinkTiming, TakesNoTimeOfBeforeAPauseForANewOne) {
+  constexpr Duration kRepeats{std::int64_t{1} << 40};  // of the stored times
+  LinkTiming f(1ms);
+  f.sent(at(0ms), 0);
+  f.accepted(at(kRepeats + 1s), 0, 0ms, 0);
+  EXPECT_EQ(f.rtt_samples(), 0U) << "nothing was sent for 18 min";
+  f.sent(at(kRepeats + 2s), 1);
+  f.accepted(at(kRepeats + 3s), 0, 0ms, 1);
+  EXPECT_EQ(f.rtt_samples(), 0U) << "an echo of before the pause";
+  f.accepted(at(kRepeats + 3s), 1, 0ms, 2);
+  EXPECT_EQ(f.rtt(), 1s);
+}
+
+TEST(BriefTime, IsTheStoredTimeWithinNineMinutes) {
+  static_assert(sizeof(BriefTime) == 5);
+  for (const Duration since :
+       {Duration{0}, Duration{1ns}, Duration{4s}, Duration{9min}, Duration{-1ns}, Duration{-9min}})
+    for (const Duration now : {Duration{0}, Duration{1h}, Duration{(std::int64_t{1} << 40) - 1}, Duration{100 * 24h}})
+      EXPECT_EQ(BriefTime{Time{now - since}}.near(Time{now}), Time{now - since}) << since.count() << " " << now.count();
+}
+
 TEST(LinkTiming, AllocatesBoundedMemoryOnce) {
   for (const Duration tick : {Duration{1ns}, Duration{100us}, Duration{1h}}) {
     const test::AllocGuard made;

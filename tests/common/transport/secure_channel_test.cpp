@@ -55,6 +55,12 @@ TEST(SecureChannel, CarriesBytesFromOneEndToTheOther) {
   }
 }
 
+/// A session of 16 seats with kept inputs takes at most 4 MB (tests/bench/growth_curves.cpp), 0.6 MB of it links.
+TEST(SecureChannel, TakesAtMost40KilobytesAt1kHz) {
+  static_assert(sizeof(SecureChannel) + 4096 * sizeof(BriefTime) <= 40'000);
+  EXPECT_GE(LinkTiming::kMemory / 1ms, 4000) << "the times that it keeps";
+}
+
 TEST(SecureChannel, RefusesEveryFlippedBit) {
   Pair p;
   for (int n = 0; n < 3; ++n) {

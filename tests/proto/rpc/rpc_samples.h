@@ -161,6 +161,9 @@ inline Status status(RandomStream& r) {
               name(r, true)};
   }
   if (r.below(2) == 0)
+    m.counts = {static_cast<std::uint32_t>(r.below(9)), static_cast<std::uint32_t>(r.below(9)),
+                static_cast<std::uint32_t>(r.below(9))};
+  if (r.below(2) == 0)
     m.drain = {static_cast<std::uint32_t>(r.below(3601)), static_cast<std::uint32_t>(r.below(33)),
                static_cast<std::uint32_t>(r.below(300))};
   m.notes = static_cast<std::uint32_t>(r.below(3) * 700);

@@ -24,7 +24,7 @@ TEST(ServerConfig, UsesTheDefaultLimitsForThreeLines) {
   EXPECT_EQ(config->sessions[0].scene.line, 3);
   EXPECT_TRUE(config->sessions[0].restart);
   EXPECT_FALSE(config->sessions[0].tickets_only);
-  EXPECT_EQ(config->limits.load_percent, 60);
+  EXPECT_EQ(config->limits.core_percent, 85);
   EXPECT_EQ(config->limits.pending, 256u);
   EXPECT_FALSE(config->log.json);
 }
@@ -45,12 +45,23 @@ TEST(ServerConfig, ReportsAllMistakesWithTheirPlaces) {
 TEST(ServerConfig, RejectsLimitsLooserThanTheDefaults) {
   for (const char* limit :
        {"accepts_per_s: 10.1", "accepts_burst: 101", "accepts_per_s_all: 301", "connections: 2049", "deadline_s: 5.1",
-        "load_percent: 60.1", "core_percent: 80.1", "created_sessions: 257", "threads: 65"})
+        "load_percent: 60.1", "core_percent: 85.1", "created_sessions: 257", "threads: 65"})
     EXPECT_NE(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
   for (const char* limit : {"accepts_per_s: 10", "accepts_burst: 100", "accepts_per_s_all: 300", "connections: 2048",
-                            "deadline_s: 5", "load_percent: 60", "core_percent: 80", "created_sessions: 256",
+                            "deadline_s: 5", "load_percent: 60", "core_percent: 85", "created_sessions: 256",
                             "created_sessions: 0", "threads: 64", "threads: 0"})
     EXPECT_EQ(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
+}
+
+TEST(ServerConfig, TakesTheSmallerOfBothLimitsOfAnOlderConfiguration) {
+  const auto core_percent = [](const std::string& limits) {
+    const auto config = parse_server_config(std::string(kSmall) + "limits { " + limits + " }", "s.textproto");
+    return config ? config->limits.core_percent : -1;
+  };
+  EXPECT_EQ(core_percent("load_percent: 40"), 40);
+  EXPECT_EQ(core_percent("load_percent: 40 core_percent: 80"), 40);
+  EXPECT_EQ(core_percent("load_percent: 60 core_percent: 50"), 50);
+  EXPECT_EQ(core_percent("core_percent: 70"), 70);
 }
 
 TEST(ServerConfig, NamesAtMost256Sessions) {
@@ -184,11 +195,11 @@ TEST(ServerConfig, RequiresASession) {
 
 TEST(ServerConfig, ListsItsEffectiveValues) {
   const auto config = parse_server_config(
-      std::string(kSmall) + "limits { load_percent: 40 } log { format: JSON } reports: \"r\"", "s.textproto");
+      std::string(kSmall) + "limits { core_percent: 40 } log { format: JSON } reports: \"r\"", "s.textproto");
   ASSERT_TRUE(config);
   const std::string listing = effective_server_config_text(*config);
   for (const char* key :
-       {"session[0].name", "limits.load_percent", "40", "JSON", "limits.accepts_per_s", "reports", "restart"})
+       {"session[0].name", "limits.core_percent", "40", "JSON", "limits.accepts_per_s", "reports", "restart"})
     EXPECT_NE(listing.find(key), std::string::npos) << key << "\n" << listing;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "server/policy/admission_control.h"
+#include "server/policy/new_client_load.h"
 #include "tests/server/session/session_fixture.h"
 #include "tests/support/alloc_guard.h"
 
@@ -319,18 +320,34 @@ TEST(Commands, TakeNoHeapBetweenTicks) {
 
 // ---- Admission control ----
 
-TEST(Admission, RejectsJoinsAbove60PercentOfATickOr80PercentOfAProcessor) {
+TEST(Admission, RejectsJoinsByOneLimitForTheThreadAndTheMachine) {
   const LoadLimits limits;
-  EXPECT_EQ(limits.tick, 0.6);
-  EXPECT_EQ(limits.core, 0.8);
-  EXPECT_EQ(rejection_reason({0.6, 0.8}, 1.6, 2, limits), "") << "joins at the limits are accepted";
-  EXPECT_NE(rejection_reason({0.61, 0.1}, 0.1, 2, limits).find("ticks take 61 %"), std::string::npos);
-  EXPECT_NE(rejection_reason({0.5, 0.81}, 0.81, 2, limits).find("takes 81 % of a processor"), std::string::npos)
-      << "receiving and sending count too";
-  EXPECT_NE(rejection_reason({0.3, 0.5}, 1.7, 2, limits).find("85 % of its 2 processors"), std::string::npos)
+  EXPECT_EQ(limits.busy, 0.85);
+  EXPECT_EQ(rejection_reason({0.80}, 0.80, 2, limits), "") << "195 clients of a core, as measured";
+  EXPECT_NE(rejection_reason({0.90}, 0.90, 2, limits), "") << "225 clients of a core: no more";
+  EXPECT_EQ(rejection_reason({0.85}, 1.7, 2, limits), "") << "joins at the limit are accepted";
+  for (const Load& load : {Load{0.86}, Load{0.1, true}})
+    EXPECT_NE(rejection_reason(load, 0.1, 2, limits).find("accepted up to 85 %"), std::string::npos);
+  EXPECT_NE(rejection_reason({0.86}, 0.86, 2, limits).find("the session's thread works for 86 % of the time"),
+            std::string::npos);
+  EXPECT_NE(rejection_reason({0.5}, 1.8, 2, limits).find("the 2 processors busy for 90 % of the time"),
+            std::string::npos)
       << "several threads share them";
-  EXPECT_EQ(rejection_reason({0.3, 0.5}, 9, 0, limits), "") << "a machine that does not report its processors";
-  EXPECT_NE(rejection_reason({0.3, 0.1}, 0.1, 2, {0.2, 0.8}).find("below 20 %"), std::string::npos);
+  EXPECT_EQ(rejection_reason({0.5}, 9, 0, limits), "") << "a machine that does not report its processors";
+  EXPECT_NE(rejection_reason({0.3}, 0.1, 2, {0.2}).find("up to 20 %"), std::string::npos);
+}
+
+TEST(Admission, CountsTheNewestClientsUntilAMeasurementHasThem) {
+  NewClientLoad load;
+  Time now{1h};
+  for (int n = 0; n < 10; ++n, now += 50ms) load.add(now, 0.004);
+  EXPECT_NEAR(load.expected(now), 0.04, 1e-12);
+  EXPECT_NEAR(load.expected(now + 950ms), 0.04, 1e-12) << "1.45 s after the first";
+  EXPECT_NEAR(load.expected(now + 1100ms), 0.04, 1e-12) << "in the next part";
+  EXPECT_EQ(load.expected(now + 2700ms), 0) << "measured by now";
+  load.add(now + 1h, 0.004);
+  EXPECT_NEAR(load.expected(now + 1h), 0.004, 1e-12);
+  EXPECT_EQ(load.expected(now + 2h), 0);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "common/base/rng.h"
@@ -53,6 +55,40 @@ TEST(SessionSnapshot, SurvivesEncodingAndDecoding) {
   EXPECT_EQ(back->checkpoint.seats[1].resume, kept.checkpoint.seats[1].resume);
   EXPECT_EQ(back->checkpoint.seats[1].force_scale, 0.5);
   EXPECT_EQ(encode_snapshot(*back), bytes);
+}
+
+TEST(SessionSnapshot, KeepsCountsOfRestoresThroughReleasesThatDoNotKnowThem) {
+  SessionSnapshot kept = sample(test::shipped("contact"));
+  kept.checkpoint.stops = 9;
+  kept.checkpoint.restores = RestoreCounts{2, 3, 6};
+  kept.checkpoint.handed_over = true;
+  const auto back = decode_snapshot(encode_snapshot(kept));
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(back->checkpoint.restores, kept.checkpoint.restores);
+  EXPECT_TRUE(back->checkpoint.handed_over);
+  EXPECT_EQ(back->removed_workstations, kept.removed_workstations);
+
+  // An older release has the entry as one more removed workstation, and writes it again.
+  SessionSnapshot older = kept;
+  older.checkpoint.restores.reset();
+  std::vector<std::byte> bytes = encode_snapshot(kept);
+  constexpr std::string_view kLabel = "tandem-runs";
+  const auto at = std::ranges::search(bytes, std::as_bytes(std::span{kLabel})).begin();
+  ASSERT_NE(at, bytes.end());
+  std::copy_n(at, 32, older.removed_workstations.emplace_back().begin());
+  const auto same_owner = decode_snapshot(encode_snapshot(older));
+  ASSERT_TRUE(same_owner);
+  EXPECT_EQ(same_owner->checkpoint.restores, kept.checkpoint.restores);
+  older.checkpoint.epoch = 8;
+  older.checkpoint.stops = 10;
+  const auto restored = decode_snapshot(encode_snapshot(older));
+  ASSERT_TRUE(restored) << restored.error();
+  EXPECT_EQ(restored->checkpoint.restores, std::nullopt) << "the older release has restored it, and not counted that";
+  EXPECT_EQ(restored->removed_workstations, kept.removed_workstations);
+  kept.removed_workstations.resize(kRemovedWorkstationsMax);
+  const auto full = decode_snapshot(encode_snapshot(kept));
+  ASSERT_TRUE(full) << full.error();
+  EXPECT_EQ(full->removed_workstations.size(), kRemovedWorkstationsMax) << "no workstation is left out for the counts";
 }
 
 // A program that can write to the directory of a service can compute the digests too.

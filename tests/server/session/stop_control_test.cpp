@@ -109,6 +109,35 @@ TEST(StopControl, ResumesAfterARestartWithoutTheMissingSeatsAndRaisesTheOldStopA
   }
 }
 
+TEST(StopControl, CountsStopsRestartsAndMovesApart) {
+  Checkpoint kept;
+  kept.begun = true;
+  std::uint32_t newest = 0;
+  const auto restored = [&](bool handed_over, bool stops) {
+    kept.handed_over = handed_over;
+    Stoppable s;
+    s.start.restore(kept);
+    s.stop.restore(kept);
+    EXPECT_EQ(s.stop.resume(kNow, kOperator, ++newest), Result::kDone) << "the waiting after a restore has a number";
+    newest += s.stop.latch().latched() ? 1 : 0;  // the stop of before is raised again
+    if (stops) s.stop.request(kNow, kOperator), ++newest;
+    s.start.save(kept);
+    s.stop.save(kept);
+    EXPECT_EQ(kept.stops, newest);
+  };
+  restored(false, true);
+  restored(true, false);
+  restored(false, true);
+  EXPECT_EQ(kept.restores, (RestoreCounts{.restarts = 2, .moves = 1, .numbers = 5}));
+  EXPECT_EQ(kept.stops - kept.restores->numbers, 2u) << "two orders to stop";
+
+  Stoppable unknown;
+  kept.restores.reset();
+  unknown.start.restore(kept);
+  unknown.stop.restore(kept);
+  EXPECT_EQ(unknown.stop.restores(), std::nullopt);
+}
+
 TEST(StopControl, EndsAStopOfTheRecoveryBeforeTheRecovery) {
   Stoppable s;
   Checkpoint from;

@@ -90,7 +90,7 @@ TEST(AuthCommands, KnowTheRunningServersAddressSessionsAndSeats) {
   const Ran given = server({"enroll", "a", "--state", state});
   ASSERT_EQ(given.code, 0) << given.err;
   EXPECT_EQ(auth::EnrolmentString::from_text(line(given.out))->address, "lab:7000");
-  (void)door.enrolled("w");
+  (void)door.enrolled("w", auth::wall_seconds());
   for (const std::string session : {"contact", "ABCDE12345", "abcde-12345"}) {
     const Ran made =
         server({"ticket", "--session", session, "--seat", "trainer", "--workstation", "w", "--state", state});
@@ -98,6 +98,12 @@ TEST(AuthCommands, KnowTheRunningServersAddressSessionsAndSeats) {
     EXPECT_EQ(auth::claimed_role(*auth::ticket_from_text(line(made.out))), AccessRole::kInstructor)
         << "the seat's role, instructor";
   }
+  (void)door.enrolled("ahead", auth::wall_seconds() + 3600);
+  const Ran ahead =
+      server({"ticket", "--session", "contact", "--seat", "trainer", "--workstation", "ahead", "--state", state});
+  EXPECT_EQ(ahead.code, 2);
+  EXPECT_NE(ahead.err.find(" s later than now"), std::string::npos) << ahead.err;
+  EXPECT_NE(ahead.err.find("`tandem-server revoke ahead`"), std::string::npos) << ahead.err;
   const Ran wrong = server(
       {"ticket", "--session", "contakt", "--seat", "trainer", "--workstation", "v", "--hours", "13", "--state", state});
   EXPECT_EQ(wrong.code, 2);

@@ -164,9 +164,9 @@ class ControlServerFixture {
     return std::move(*auth::ServerKeystore::open(folder.path("server")));
   }
   /// Enrolls a workstation with this name. @return its identity
-  auth::Identity enrolled(const std::string& name) const {
+  auth::Identity enrolled(const std::string& name, std::int64_t at = kNow) const {
     auth::Identity made = auth::Identity::make(name, auth::test::counting<16>(), kNow);
-    EXPECT_EQ(beside().registry().enroll_without_code({name, made.fingerprint().sha256, kNow}), "");
+    EXPECT_EQ(beside().registry().enroll_without_code({name, made.fingerprint().sha256, at}), "");
     return made;
   }
   std::expected<auth::ControlClient, auth::ClientError> connect(const auth::Identity& as, int signals = -1) const {

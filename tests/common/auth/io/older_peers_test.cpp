@@ -45,10 +45,12 @@ TEST(OlderPeers, GetNoPhaseInAnyReplyThatTheyDoNotKnow) {
   rpc::Status status;
   rpc::SessionCreated created;
   status.phase = created.session.phase = SessionPhase::kHeld;
+  status.counts = rpc::StatusCounts{1, 2, 3};
   for (rpc::Body reply : {rpc::Body(list), rpc::Body(status), rpc::Body(created)}) {
     rpc::write_for_older_peer(reply);
     if (const auto* written = std::get_if<rpc::Status>(&reply)) {
       EXPECT_EQ(written->phase, SessionPhase::kRunning);
+      EXPECT_EQ(written->counts, std::nullopt);
     }
     if (const auto* written = std::get_if<rpc::SessionCreated>(&reply)) {
       EXPECT_EQ(written->session.phase, SessionPhase::kRunning);

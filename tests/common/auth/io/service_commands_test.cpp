@@ -21,7 +21,7 @@ struct Beside : ::testing::Test {
     state = door.folder.path("server");
     write("serving.textproto",
           print_serving({"lab:7000", {{door.sessions->session_id, "ABCDE12345", "contact", 3, {}}}}));
-    (void)door.enrolled("w");
+    (void)door.enrolled("w", auth::wall_seconds());
   }
   void write(const char* file, const std::string& text) const {
     EXPECT_EQ(auth::StateDirectory::open(state, auth::StateDirectory::Missing::kIsAnError)

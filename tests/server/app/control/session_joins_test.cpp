@@ -1,6 +1,12 @@
 // Joins of seats, consoles and link tests, from the request to the Welcome or its error.
 #include "server/app/control/session_joins.h"
 
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "server/policy/shard_plan.h"
 #include "tests/server/app/control/registry_fixture.h"
 
 namespace tandem::server {
@@ -49,6 +55,43 @@ struct Joining : RegistryFixture {
   SessionCommands commands{registry, keys};
   SessionJoins joins{registry, commands, keys};
 };
+
+/// Clients that come at once are not measured yet. The limit is one and a half times what a client is expected to take.
+TEST(SessionJoins, RejectTheClientThatWouldPassTheLimitTogetherWithTheNewestOnes) {
+  Joining j;
+  const std::array codes{kCode, "ABCDE12346", "ABCDE12347"};
+  for (const unsigned id : {2U, 3U}) j.add("lesson" + std::to_string(id), id, codes[id - 1]);
+  j.serve();
+  SessionJoins joins{j.registry, j.commands, j.keys, LoadLimits{1.5 * expected_seat_cost(j.scene.tick_hz)}};
+  std::vector<std::optional<JoinReply>> replies;
+  for (const char* code : codes) {
+    JoinRequest request = Joining::request("trainee", rpc::CodeCredential{code});
+    request.hello.session = std::string(code);
+    const std::size_t n = replies.size();
+    replies.emplace_back();
+    joins.admit(request, [&replies, n](JoinReply decided) { replies[n] = std::move(decided); });
+  }
+  j.wait_until([&] { return std::ranges::all_of(replies, [](const auto& r) { return r.has_value(); }); });
+  const auto welcomed = [](const auto& r) { return std::holds_alternative<rpc::Welcome>(*r); };
+  EXPECT_LE(std::ranges::count_if(replies, welcomed), 2) << "all three have asked before the first was admitted";
+  for (const auto& reply : replies) {
+    if (welcomed(reply)) continue;
+    EXPECT_EQ(error_of(*reply).code, ErrorCode::kFull);
+    EXPECT_NE(error_of(*reply).text.find("rejects new joins"), std::string::npos) << error_of(*reply).text;
+  }
+}
+
+TEST(SessionJoins, RejectTicketsOfBeforeTheEnrolmentOfTheWorkstationAndUseThemUpNot) {
+  Joining j;
+  JoinRequest request = Joining::request("");
+  request.hello.credential = j.operators_ticket({std::byte{1}});
+  request.workstation.enrolled_at = auth::wall_seconds() + 60;  // again, after a revocation
+  const rpc::ErrorReply refused = error_of(j.join(request));
+  EXPECT_EQ(refused.code, ErrorCode::kTicket);
+  EXPECT_NE(refused.text.find("its revocation has voided"), std::string::npos) << refused.text;
+  request.workstation.enrolled_at = auth::wall_seconds() - 60;
+  EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(j.join(request)));
+}
 
 TEST(SessionJoins, RejectSeatsWhileTheServerDrainsButCheckConsolesFurther) {
   Joining j;

@@ -81,6 +81,7 @@ TEST(TickQueue, TakesAboutTwoMegabytesForAnyScene) {
       EXPECT_LE((TickQueue{ticks, seats, tools}.size_bytes()), 3'000'000u) << seats << " seats, " << tools << " tools";
     }
   EXPECT_GE(TickQueue::capacity_for(3, 1), 1000u) << "a second";
+  EXPECT_LE((TickQueue{TickQueue::capacity_for(16, 1), 16, 1}.size_bytes()), 1'520'000u) << "of 4 MB for the session";
 }
 
 TEST(TickQueue, CarriesRecordsInOrderBetweenTwoThreads) {
