@@ -13,9 +13,7 @@
 
 namespace tandem::control {
 namespace {
-
 constexpr double kDt = 0.001;
-
 EscHub hub_of(std::size_t masters, std::size_t tools, FlowSourceMode mfs = FlowSourceMode::kOpen, double tank = 0.05) {
   return EscHub({.axes = 1, .masters = masters, .tools = tools, .mfs = mfs, .tank = tank, .dt = kDt});
 }
