@@ -210,8 +210,8 @@ std::optional<JournalEvent> JournalReader::read_datagram(Fields& fields) {
   const std::size_t size = fields.get<std::uint16_t>();
   const Duration dt{fields.get<std::int64_t>()};
   const auto ahead = fields.get<std::uint64_t>();
-  const auto address =
-      (word & server::input::kNewAddress) != 0 ? std::optional{fields.get<std::uint64_t>()} : std::nullopt;
+  const bool new_address = (word & server::input::kNewAddress) != 0;
+  const std::uint64_t address = new_address ? fields.get<std::uint64_t>() : 0;
   if ((word & server::input::kTokenTaken) != 0) d.token = fields.get<std::uint64_t>();
   d.plaintext = fields.bytes(size);
   if (!fields.whole()) return std::nullopt;
@@ -223,10 +223,10 @@ std::optional<JournalEvent> JournalReader::read_datagram(Fields& fields) {
     return std::nullopt;
   }
   Seat& seat = seats_[d.seat];
-  if (address) {
+  if (new_address) {
     seat.from = {};
-    seat.from.size = sizeof *address;
-    std::memcpy(seat.from.bytes.data(), &*address, sizeof *address);
+    seat.from.size = sizeof address;
+    std::memcpy(seat.from.bytes.data(), &address, sizeof address);
   }
   d.type = static_cast<wire::Type>(type);
   d.counter = seat.next_counter + ahead;
