@@ -1,6 +1,7 @@
 #include "netsim/app/run_log.h"
 
 #include "common/io/whole_file.h"
+#include "netsim/profiles/app/network_options.h"
 #include "netsim/profiles/decision_csv.h"
 
 namespace tandem::netsim {
