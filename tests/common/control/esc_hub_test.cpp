@@ -196,8 +196,8 @@ TEST(EscHub, AttachesOneSpringToTheWeightedMeanOfItsTools) {
   for (const FlowSourceMode mfs : {FlowSourceMode::kOpen, FlowSourceMode::kTank}) {
     EscHub hub = hub_of(2, 2, mfs);
     hub.set_follow(0, 0, 1);
-    hub.set_authority(0, {0.5, 0.5}, false);
     hub.set_authority(1, {0.5, 0.5}, true);  // not followed, but the seat's spring acts there by its authority
+    hub.set_authority(0, {0.5, 0.5}, false);
     hub.set_tool(0, {.x = {0.03}, .dissipated = {0.002}});
     hub.set_tool(1, {.x = {0.06}, .dissipated = {0.004}});
     NearEnd near;
