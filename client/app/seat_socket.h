@@ -28,6 +28,7 @@ class SeatSocket {
 
   io::UdpSocket socket_;
   io::ReceiveBatch in_;
+  Time read_until_{};  ///< datagrams that had arrived by then were read
   io::SendBatch out_;
   std::array<std::array<std::byte, transport::kDatagramMax>, kSendMax> buffers_;
 };

@@ -83,12 +83,12 @@ void Seat::reconnect(Connection& next) noexcept {
   fresh_ = false;
 }
 
-void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
+void Seat::on_datagram(Time arrived, std::span<const std::byte> bytes) noexcept {
   transport::SecureChannel& link = channel_.link();
-  const auto opened = link.open(now, bytes);
+  const auto opened = link.open(arrived, bytes);
   if (!opened) return;
   if (opened->type == wire::Type::kForce) {
-    on_force(now, *opened);
+    on_force(arrived, *opened);
   } else if (opened->type == wire::Type::kClose) {
     const auto decoded = channel_.codec().decode_close(opened->plaintext);
     if (!decoded) return link.drop_body();
@@ -100,21 +100,21 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
   }
 }
 
-void Seat::on_force(Time now, const transport::SecureChannel::Opened& datagram) noexcept {
+void Seat::on_force(Time arrived, const transport::SecureChannel::Opened& datagram) noexcept {
   transport::SecureChannel& link = channel_.link();
   const auto decoded = channel_.codec().decode_force(datagram.plaintext, tools_.further_next());
   if (!decoded) return link.drop_body();
   if (!datagram.newer) return;  // a datagram older than the newest one must not act
-  link.accept(now, datagram, decoded->preamble);
+  link.accept(arrived, datagram, decoded->preamble);
   if (force().session == wire::SessionState::kWaiting && decoded->message.session == wire::SessionState::kRunning)
-    link.restart_statistics(now);
+    link.restart_statistics(arrived);
   tools_.receive(decoded->message);
   held_.restart();
   fresh_ = true;
   for (std::size_t k = 0; k < tools_.size(); ++k)
     if (const LocalContactList& contacts = tools_.received(k).contacts; contacts.size > 0)
       coupling_->set_contacts(k, contacts.all());
-  clock_.on_force(force(), now - link.timing().age(now));
+  clock_.on_force(force(), link.timing().peer_sent());
   requests_.on_force(force());
 }
 
@@ -200,8 +200,7 @@ std::optional<hal::Vec3> offset_from_leader(const Seat& seat, Time now) noexcept
 
 void Seat::rest() noexcept {
   const transport::LinkTiming& f = link().timing();
-  coupling_->reset(coupling_input(f.heard() ? std::max(0.0, 0.5 * seconds(f.rtt_p50()) - 0.5 * dt_) : 0),
-                   tools_.heard());
+  coupling_->reset(coupling_input(f.heard() ? 0.5 * seconds(f.rtt_p50()) : 0), tools_.heard());
 }
 
 void Seat::fill_state(Time now, bool homed, const AxisArray& wanted) noexcept {

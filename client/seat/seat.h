@@ -56,7 +56,8 @@ class Seat {
 
   /// Handles one received datagram. Drops and counts datagrams that are invalid, older than the newest one, or of a
   /// type that a client does not receive.
-  void on_datagram(Time now, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  /// @param arrived  as the kernel stamped it: a client that shifts its ticks reads the same datagram earlier or later
+  void on_datagram(Time arrived, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
   /// Advances the seat by one tick of 1 / `SeatSetup::tick_hz` and returns the joint effort for the device.
   /// @param now     time of the tick
   /// @param device  reading of the device, HAL frame, SI units. A stale, non-finite or implausible reading is not used:
@@ -101,7 +102,7 @@ class Seat {
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes [N or N m]
 
  private:
-  void on_force(Time now, const transport::SecureChannel::Opened& datagram) noexcept TANDEM_REALTIME;
+  void on_force(Time arrived, const transport::SecureChannel::Opened& datagram) noexcept TANDEM_REALTIME;
   /// True if local stop, session state, role, guards and sensor all allow this seat to be engaged.
   [[nodiscard]] bool may_engage() const noexcept;
   [[nodiscard]] Coupling::Input coupling_input(double age) const noexcept;

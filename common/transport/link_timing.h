@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "common/base/histogram.h"
@@ -94,11 +95,21 @@ class LinkTiming {
   [[nodiscard]] Duration loop_age(Time now) const noexcept {
     return echoed_ ? now - echo_sent_ : std::chrono::hours(24);
   }
+  /// Called once per tick, after the datagrams that have arrived were accepted, before `age`.
+  void tick(Time now) noexcept {
+    if (std::exchange(in_use_, true)) return;
+    one_way_ -= std::clamp(now - arrived_, Duration{}, tick_) / 2;
+  }
   /// Returns the one-way age of the newest datagram: RTT/2 of the best case, plus its delay beyond the best transit,
-  /// plus the time since its arrival; 24 h before the first datagram.
+  /// plus the time since its arrival; 24 h before the first datagram. The waits for the ticks of both ends, which the
+  /// phase between their clocks divides at random, count half at each end. So the age is half of the loop where both
+  /// ways are equal. With the true ages, where a server uses a STATE at once and a client a FORCE a tick later, a tool
+  /// follows a hand worse (ARCHITECTURE.md, "Order within a tick").
   [[nodiscard]] Duration age(Time now) const noexcept {
     return heard_ ? one_way_ + (now - arrived_) : std::chrono::hours(24);
   }
+  /// Returns the time at which the peer sent the newest datagram, on the own clock, without these waits.
+  [[nodiscard]] Time peer_sent() const noexcept { return arrived_ - transit_; }
   [[nodiscard]] Duration silence(Time now) const noexcept { return heard_ ? now - arrived_ : std::chrono::hours(24); }
   /// Returns the time since the peer last confirmed new data of this end. A datagram with a newer echo confirms, or,
   /// before the first echo, the first datagram. It is at least `silence`. It also grows while the peer sends but
@@ -140,9 +151,10 @@ class LinkTiming {
   Time newest_{};  ///< of the sent ones
   bool heard_ = false, echoed_ = false;
   Time arrived_{}, echo_sent_{}, echo_moved_{};
-  Duration peer_silence_{};
+  bool in_use_ = true;  ///< a tick has used the newest datagram
+  Duration peer_silence_{}, peer_wait_{};
   std::uint64_t echo_counter_ = 0;
-  Duration rtt_{}, one_way_{};
+  Duration rtt_{}, transit_{}, one_way_{};
   WindowedMinimum rtt_floor_, transit_floor_;
   LinkHistogram rtts_;
   ShortLinkHistogram recent_;  ///< of at most kLearnEvery samples

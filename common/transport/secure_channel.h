@@ -89,8 +89,9 @@ class SecureChannel {
     const Duration silence = any_acted_ ? now - last_acted_ : Duration{0};
     return silence > std::chrono::milliseconds(200) ? std::max(stats_.longest_gap, silence) : stats_.longest_gap;
   }
-  /// Samples the age for the statistics; called once per tick.
+  /// Samples the age for the statistics. Called once per tick, before the age is used.
   void tick(Time now) noexcept {
+    timing_.tick(now);
     if (timing_.heard()) stats_.age.add(timing_.age(now).count());
   }
   /// Resets the counters but keeps keys and timing. Reports count from the start of the session.

@@ -17,7 +17,7 @@ constexpr double kTremorFade = 0.5;                      // [s]
 constexpr double kKeyboardSpeed = 0.3;                   // [m/s]
 constexpr double kClockJump = 0.05, kClockExact = 1e-6;  // [s]
 constexpr double kClockGain = 0.05;                      // share of a small clock difference that is closed per period
-constexpr double kAtRest = 1e-6;                         // [m/s]
+constexpr double kAtRest = 3e-6;                         // [m/s]; a circle has this speed 1.4 ms after its start
 
 /// Returns the blend from the fixed point `from` to the moving `to`, with minimum jerk.
 MotionPoint blend(const Vec3& from, const MotionPoint& to, double since, double length) noexcept {

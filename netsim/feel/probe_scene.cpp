@@ -36,7 +36,6 @@ void set_phases(ClientPhases phases, SimulationConfig& config) {
                                                          .phase = phases == ClientPhases::kRested ? rested : drawn,
                                                          .shifts = phases == ClientPhases::kShifted};
   }
-  config.stamped_arrivals = true;
 }
 
 hal::Vec3 vector_of(const server::Triple& v) { return {v[0], v[1], v[2]}; }

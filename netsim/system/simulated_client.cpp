@@ -100,7 +100,7 @@ void SimulatedClient::receive(Time now, Network& network, std::span<std::byte> b
     const auto bytes = buffer.first(std::min(d->size, buffer.size()));
     if (first_seen_.is_first(d->index)) ++new_datagrams_;
     if (attacker_) attacker_->remember(Direction::kDown, bytes);
-    deliver(now, bytes);
+    deliver(d->at, bytes);
   }
   if (attacker_ == nullptr) return;
   if (faults_.active(Fault::Kind::kReplay, now)) deliver(now, attacker_->replayed(Direction::kDown));
@@ -108,8 +108,8 @@ void SimulatedClient::receive(Time now, Network& network, std::span<std::byte> b
     deliver(now, attacker_->random_bytes(seat() != nullptr ? seat()->link().own_cid() : 0));
 }
 
-void SimulatedClient::deliver(Time now, std::span<const std::byte> bytes) noexcept {
-  if (seat() != nullptr) seat()->on_datagram(own_time(now), bytes);
+void SimulatedClient::deliver(Time at, std::span<const std::byte> bytes) noexcept {
+  if (seat() != nullptr) seat()->on_datagram(own_time(at), bytes);
 }
 
 /// Returns the time that the simulated hand follows; nullopt while the session clock is stopped, and the hand then

@@ -85,7 +85,7 @@ class SimulatedClient {
   void receive(Time now, Network& network, std::span<std::byte> buffer);
   [[nodiscard]] std::optional<double> hand_time(Time own) const noexcept;
   void run_seat(Time now, Network& network, std::span<std::byte> buffer);
-  void deliver(Time now, std::span<const std::byte> bytes) noexcept;
+  void deliver(Time at, std::span<const std::byte> bytes) noexcept;
 
   std::uint32_t link_;  ///< its link on the network: the number of its seat
   Duration tick_;

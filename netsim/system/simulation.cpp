@@ -203,7 +203,7 @@ void Simulation::receive_at_server() {
       const auto bytes = std::span{buffer_}.first(std::min(d->size, buffer_.size()));
       checker_.on_server_datagram(i, d->index);
       clients_[i].remember_for_replay(bytes);
-      server_.session().on_datagram(setup_.stamped_arrivals ? d->at : now_, endpoint_of(i, d->address), bytes);
+      server_.session().on_datagram(d->at, endpoint_of(i, d->address), bytes);
     }
   }
 }

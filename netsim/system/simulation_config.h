@@ -56,9 +56,6 @@ struct SimulationConfig {
   /// Receives all inputs of the session, and of those after restarts of the server (netsim/replay); null: none. Drain
   /// it after every tick. Must outlive the simulation.
   server::InputJournal* journal = nullptr;
-  /// The server gets each datagram with its time of arrival, as from a kernel that stamps them. False: with the time of
-  /// the tick that reads it, as clients do. Both are one if all delays are whole ticks.
-  bool stamped_arrivals = false;
   bool keep_record = true;  ///< false: Simulation::record() stays empty; for runs that only judge invariants
 };
 

@@ -175,6 +175,8 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   if (over()) return;
   if (journal_ != nullptr) [[unlikely]]
     journal_->tick(now, missed, {lifecycle_.load_state(), telemetry_due(), record_interval_, lifecycle_.may_act()});
+  for (SeatEndpoint& seat : seats_)
+    if (auto* link = seat.link()) link->tick(now);
   const std::uint32_t catch_up = clock_.begin_tick(now, missed);
   for (std::uint32_t i = 0; i <= catch_up && !over(); ++i) run_one_tick(now);
   // Until the session runs, every tick makes a record, so that the first running one has a record at any interval.
@@ -186,8 +188,6 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   }
   if (participants_.any_removal()) participants_.step_removals(now);
   fill_force_messages(now);
-  for (SeatEndpoint& seat : seats_)
-    if (auto* link = seat.link()) link->tick(now);
   send_.begin_tick(now, clock_.tick(), lifecycle_.load_state().level, participants_.closing());
   if (link_test_peers_.any()) link_test_peers_.on_tick(now);
   if (watchers_.any()) serve_watchers(now);

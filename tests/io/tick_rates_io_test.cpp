@@ -16,11 +16,8 @@
 namespace tandem::test {
 namespace {
 
-/// Tolerance of the force ratio. Live at 100 Hz, in about one session of eight the reference decays slowly after the
-/// motion, as 1/t. The force is then 8 to 16 % too large a second later (tests/REPORT.md): its account gets energy
-/// from motion, and there is hardly any. It depends on the phase between the ticks of client and server; virtual time
-/// does not show it. A machine that stands still during the motion has the same effect at every rate.
-constexpr double within(const PressScene& press) { return press.tick_hz < 200 && !press.replica ? 0.2 : 0.05; }
+/// Tolerance of the force ratio.
+constexpr double kWithin = 0.05;
 
 /// A live session at one tick rate: a server and a client.
 struct Live {
@@ -125,10 +122,10 @@ bool expect_one_force(const Folder& folder, const Live& live, bool last) {
   std::printf("[   live   ] %.0f Hz: %.3f N live, %.3f N in virtual time, %.3f N by the springs\n", live.press.tick_hz,
               felt, simulated, live.press.force());
   if (live.witness.machine_stood_still()) return false;
-  const double most = within(live.press);
-  if (!last && (std::abs(felt / simulated - 1) > most || std::abs(felt / live.press.force() - 1) > most)) return false;
-  EXPECT_NEAR(felt / simulated, 1, within(live.press));
-  EXPECT_NEAR(felt / live.press.force(), 1, within(live.press));
+  if (!last && (std::abs(felt / simulated - 1) > kWithin || std::abs(felt / live.press.force() - 1) > kWithin))
+    return false;
+  EXPECT_NEAR(felt / simulated, 1, kWithin);
+  EXPECT_NEAR(felt / live.press.force(), 1, kWithin);
   return true;
 }
 

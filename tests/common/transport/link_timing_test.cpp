@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "common/base/rng.h"
 #include "tests/support/alloc_guard.h"
@@ -147,25 +149,64 @@ TEST(LinkTiming, DetectsOldDatagramsReleasedInOrder) {
   EXPECT_NEAR(seconds(f.age(at(3s))), 0.899, 0.002);  // the one-way age shows the delay too
 }
 
-TEST(LinkTiming, EstimatesTheOneWayAgeThroughJitter) {
-  RandomStream random{4};
+/// Both directions between this end and a peer that echoes truly. This end sends every millisecond and reads what has
+/// arrived since. `own` and `other` are drawn delays of the two directions.
+/// @param lateness  by how much the peer sends its datagram of a tick after that tick's time
+/// @return the largest error of `peer_sent`, and of the age beyond the true one with half of both waits, from 1 s on
+/// [s]
+double worst_age_error(const std::function<Duration()>& own, const std::function<Duration()>& other,
+                       const std::function<Duration(int tick)>& lateness) {
+  constexpr Duration kSkew = 1234567ms;  // the peer's clock started at another time
   LinkTiming f(1ms);
-  constexpr Duration kFloor = 20ms, kSkew = 1234567ms;  // the peer's clock started at another time
-  Time last_arrival{};
+  std::vector<Time> at_peer, sent_by_peer, back;  // by counter; a direction keeps the order
   double worst = 0;
+  int heard = 0;
+  Time sent_in_use{};
+  Duration shared{};
   for (int ms = 0; ms < 4000; ++ms) {
     const Time now = at(ms * 1ms);
     f.sent(now, static_cast<std::uint64_t>(ms));
-    if (ms < 100) continue;
-    const Duration transit = kFloor + from_seconds(random.uniform(0, 0.010));
-    const Time made = now - transit;  // the peer sent the arriving datagram then
-    const auto peer_tick = static_cast<std::uint32_t>((made - Time{1h} + kSkew) / 1ms);
-    f.accepted(now, static_cast<std::uint64_t>(ms - 40), 0ms, peer_tick);
-    last_arrival = now;
-    if (ms > 1000) worst = std::max(worst, std::abs(seconds(f.age(now) - transit)));
+    at_peer.push_back(std::max(now + other(), at_peer.empty() ? now : at_peer.back()));
+    sent_by_peer.push_back(now + lateness(ms));
+    back.push_back(std::max(sent_by_peer.back() + own(), back.empty() ? now : back.back()));
+    for (; heard < ms && back[static_cast<std::size_t>(heard)] <= now; ++heard) {
+      const auto k = static_cast<std::size_t>(heard);
+      const auto echo = std::upper_bound(at_peer.begin(), at_peer.end(), sent_by_peer[k]) - at_peer.begin();
+      if (echo == 0) continue;
+      const Duration held = sent_by_peer[k] - at_peer[static_cast<std::size_t>(echo - 1)];
+      f.accepted(back[k], static_cast<std::uint64_t>(echo - 1), held,
+                 static_cast<std::uint32_t>((at(heard * 1ms) - Time{1h} + kSkew) / 1ms));
+      sent_in_use = sent_by_peer[k],
+      shared = (std::min(held, Duration{1ms}) - std::min(now - back[k], Duration{1ms})) / 2;
+    }
+    f.tick(now);
+    if (ms <= 1000) continue;
+    worst = std::max({worst, std::abs(seconds(f.peer_sent() - sent_in_use)),
+                      std::abs(seconds(f.age(now) - (now - sent_in_use + shared)))});
   }
-  EXPECT_LE(worst, 0.0025);
-  EXPECT_EQ(f.age(last_arrival + 7ms) - f.age(last_arrival), 7ms);
+  EXPECT_GT(heard, 3900);
+  return worst;
+}
+
+TEST(LinkTiming, EstimatesTheOneWayAgeThroughJitter) {
+  RandomStream random{4};
+  const auto delay = [&] { return 20ms + from_seconds(random.uniform(0, 0.010)); };
+  EXPECT_LE(worst_age_error(delay, delay, [](int) { return 0ms; }), 0.0025);
+}
+
+/// A peer that shifts its ticks looks like one whose datagrams are delayed, if only arrivals are compared.
+TEST(LinkTiming, EstimatesTheOneWayAgeWhileThePeerShiftsItsTicks) {
+  const auto five = [] { return 5ms; };
+  for (const Duration step : {10us, -10us}) {
+    const auto shift = [step](int ms) { return 500us + std::clamp(ms - 1500, 0, 40) * step; };
+    EXPECT_LE(worst_age_error(five, five, shift), 1e-6) << step / 1us << " us per tick";
+  }
+}
+
+TEST(LinkTiming, ReportsADelayOfItsOwnDirectionWhole) {
+  int sent = 0;
+  const auto longer = [&] { return ++sent > 2000 ? 13ms : 5ms; };
+  EXPECT_LE(worst_age_error(longer, [] { return 5ms; }, [](int) { return 0ms; }), 1e-6);
 }
 
 TEST(LinkTiming, LearnsTheExpectedRoundTrip) {
