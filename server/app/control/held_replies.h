@@ -8,6 +8,7 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "common/base/time.h"
 #include "common/io/clock.h"
