@@ -11,6 +11,7 @@
 #include "client/app/console_lines.h"
 #include "common/auth/io/control_client.h"
 #include "common/base/format.h"
+#include "common/base/sanitize.h"
 #include "common/io/clock.h"
 #include "common/io/exit_code.h"
 #include "common/io/help_text.h"
@@ -123,7 +124,11 @@ std::optional<Answer> ConsoleClient::ask(const rpc::Body& question) {
   return std::nullopt;
 }
 
-bool ConsoleClient::order(const rpc::Body& command) { return ask<rpc::Ok>(command).has_value(); }
+bool ConsoleClient::order(const rpc::Body& command) {
+  const auto done = ask<rpc::Ok>(command);
+  if (done && !done->not_stored.empty()) complain("WARNING: " + sanitize(done->not_stored));
+  return done.has_value();
+}
 
 std::optional<rpc::SessionList> ConsoleClient::sessions() {
   return rpc::all_sessions([this](const rpc::Body& page) { return ask<rpc::SessionList>(page); }, console_.service);

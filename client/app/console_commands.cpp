@@ -333,6 +333,8 @@ std::string status_text(const rpc::Status& s) {
   if (s.stop && !is_stopped(s))
     text += format("  last stop: %.0f s ago, by %s\n", s.stop->ago_s, maker_of(*s.stop).c_str());
   if (!s.held.empty()) text += "  BRAKED: " + sanitize(s.held) + "\n";
+  if (!s.not_stored.empty())
+    text += "  NOT STORED: " + sanitize(s.not_stored) + "; a kill of the server undoes a stop\n";
   if (s.drain) text += "  " + drain_text(*s.drain) + "\n";
   if (s.recording) text += "  " + recording_text(*s.recording) + "\n";
   for (const rpc::StatusSeat& seat : s.seats)
@@ -390,6 +392,7 @@ std::string status_json(const rpc::Status& s) {
   text += s.counts ? format("{\"stops\": %u, \"restarts\": %u, \"moves\": %u}", s.counts->stops, s.counts->restarts,
                             s.counts->moves)
                    : "null";
+  text += ", \"not_stored\": " + (s.not_stored.empty() ? "null" : in_quotes(s.not_stored));
   return text + ", \"recording\": " + recording_json(s.recording) + "}\n";
 }
 

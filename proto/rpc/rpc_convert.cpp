@@ -221,8 +221,11 @@ bool read(const wire_pb::Pong& in, Pong& out) {
   return true;
 }
 void write(const Pong& in, wire_pb::Pong& out) { out.set_nonce(in.nonce); }
-bool read(const wire_pb::Ok&, Ok&) { return true; }
-void write(const Ok&, wire_pb::Ok&) {}
+bool read(const wire_pb::Ok& in, Ok& out) {
+  out.not_stored = in.not_stored();
+  return is_text(out.not_stored);
+}
+void write(const Ok& in, wire_pb::Ok& out) { out.set_not_stored(in.not_stored); }
 
 bool read(const wire_pb::StatusRequest& in, StatusRequest& out) { return take(in.session_id(), out.session_id); }
 void write(const StatusRequest& in, wire_pb::StatusRequest& out) { out.set_session_id(text_of(in.session_id)); }
@@ -281,8 +284,9 @@ bool read(const wire_pb::Status& in, Status& out) {
     if (n.number() == 0 || !is_text(n.text())) return false;
     out.events.push_back({n.number(), n.text()});
   }
-  if (!is_text(in.no_recording())) return false;
+  if (!is_text(in.no_recording()) || !is_text(in.not_stored())) return false;
   out.no_recording = in.no_recording();
+  out.not_stored = in.not_stored();
   if (in.has_recording() && !read(in.recording(), out.recording.emplace())) return false;
   return !in.has_stop() || read(in.stop(), out.stop.emplace());
 }
@@ -297,6 +301,7 @@ void write(const Status& in, wire_pb::Status& out) {
   out.set_shed(in.shed);
   out.set_notes(in.notes);
   out.set_no_recording(in.no_recording);
+  out.set_not_stored(in.not_stored);
   for (const StatusSeat& s : in.seats) {
     auto& seat = *out.add_seat();
     seat.set_name(s.name);

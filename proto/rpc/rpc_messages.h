@@ -173,6 +173,9 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 struct Ok {
+  /// Why the order, which was carried out, is not stored, with the remedy; at most kTextMax. Empty: it is, or the
+  /// server stores nothing.
+  std::string not_stored{};
   friend bool operator==(const Ok&, const Ok&) = default;
 };
 
@@ -270,6 +273,8 @@ struct Status {
   /// Why the server cannot record the session, and the remedy, at most kTextMax. Empty: it can, or does.
   std::string no_recording{};
   std::optional<StatusCounts> counts{};  ///< nullopt: the server does not know them
+  /// Why the server cannot store the state of the session, with the remedy; at most kTextMax. Empty: it can.
+  std::string not_stored{};
   friend bool operator==(const Status&, const Status&) = default;
 };
 

@@ -7,13 +7,20 @@ namespace tandem::server {
 using directory::Outcome;
 
 void FencedWriter::set(const std::string& session, const std::string& key, std::string value,
-                       directory::Revision revision) {
+                       directory::Revision revision, std::uint64_t mark) {
   if (value.size() > kValueMax || (waiting_.size() >= kKeysMax && !waiting_.contains(key))) {
     ++counters_.overflowed;
     return;
   }
   Value& entry = waiting_[key];
-  entry = {session, std::move(value), revision, entry.alone && entry.revision == revision};
+  entry = {session, std::move(value), revision, entry.alone && entry.revision == revision, mark, entry.first};
+}
+
+void FencedWriter::hurry(const std::string& key) {
+  const auto found = waiting_.find(key);
+  if (found == waiting_.end()) return;
+  found->second.first = true;
+  next_ = {};
 }
 
 void FencedWriter::drop(const std::string& session) {
@@ -34,20 +41,11 @@ void FencedWriter::again(bool alone) {
   sent_.clear();
 }
 
-std::optional<directory::Request> FencedWriter::poll_request(Time now, directory::OperationId operation,
-                                                             Duration retry_after) {
-  if (operation_ != 0) {
-    if (now - sent_at_ < retry_after) return std::nullopt;
-    operation_ = 0;  // a later answer is ignored
-    ++counters_.unknown;
-    again(false);
-  }
-  if (waiting_.empty() || now < next_) return std::nullopt;
-  directory::Transaction transaction;
-  std::size_t bytes = 0;
+void FencedWriter::collect(bool first, directory::Transaction& transaction, std::size_t& bytes) {
+  if (!sent_.empty() && sent_.begin()->second.alone) return;
   for (auto entry = waiting_.begin(); entry != waiting_.end() && sent_.size() < kBatchMax;) {
     const auto& [key, value] = *entry;
-    if (!sent_.empty() && (value.alone || bytes + value.value.size() > kBatchBytesMax)) {
+    if (value.first != first || (!sent_.empty() && (value.alone || bytes + value.value.size() > kBatchBytesMax))) {
       ++entry;
       continue;
     }
@@ -60,6 +58,22 @@ std::optional<directory::Request> FencedWriter::poll_request(Time now, directory
     sent_.insert(waiting_.extract(entry++));
     if (alone) break;
   }
+}
+
+std::optional<directory::Request> FencedWriter::poll_request(Time now, directory::OperationId operation,
+                                                             Duration retry_after) {
+  if (operation_ != 0) {
+    if (now - sent_at_ < retry_after) return std::nullopt;
+    operation_ = 0;  // a later answer is ignored
+    ++counters_.unknown;
+    problem_ = "no answer in time";
+    again(false);
+  }
+  if (waiting_.empty() || now < next_) return std::nullopt;
+  directory::Transaction transaction;
+  std::size_t bytes = 0;
+  collect(true, transaction, bytes);
+  collect(false, transaction, bytes);
   operation_ = operation;
   sent_at_ = now;
   next_ = now + pause_;
@@ -72,9 +86,14 @@ bool FencedWriter::on_reply(const directory::Reply& reply) {
   ++counters_.batches;
   if (reply.outcome != Outcome::kDone) {
     ++counters_.unknown;
+    problem_ = reply.reason.empty() ? "no answer in time" : reply.reason;
     again(false);
   } else if (reply.held) {
     counters_.written += sent_.size();
+    problem_.clear();
+    for (const auto& [key, value] : sent_)
+      if (value.mark != 0) marks_.push_back(value.mark);
+    if (marks_.size() > kBatchMax) marks_.erase(marks_.begin(), marks_.end() - kBatchMax);
     sent_.clear();
   } else if (sent_.size() > 1) {
     again(true);
@@ -83,6 +102,13 @@ bool FencedWriter::on_reply(const directory::Reply& reply) {
     sent_.clear();
   }
   return true;
+}
+
+std::optional<std::uint64_t> FencedWriter::poll_written() {
+  if (marks_.empty()) return std::nullopt;
+  const std::uint64_t mark = marks_.front();
+  marks_.pop_front();
+  return mark;
 }
 
 }  // namespace tandem::server

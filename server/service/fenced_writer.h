@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,8 +31,13 @@ class FencedWriter {
   /// @param pause  between two transactions
   FencedWriter(directory::DirectoryKeys keys, Duration pause) : keys_(std::move(keys)), pause_(pause) {}
 
-  /// Sets the newest value of a key of a session. @param revision  of the ownership
-  void set(const std::string& session, const std::string& key, std::string value, directory::Revision revision);
+  /// Sets the newest value of a key of a session.
+  /// @param revision  of the ownership
+  /// @param mark      for `poll_written` once this value is written; 0: none
+  void set(const std::string& session, const std::string& key, std::string value, directory::Revision revision,
+           std::uint64_t mark = 0);
+  /// Has the waiting value of a key written first, without the pause.
+  void hurry(const std::string& key);
   /// Forgets the values of a session that are not written.
   void drop(const std::string& session);
   /// Whether a value of the session waits for its write or its answer.
@@ -44,6 +50,11 @@ class FencedWriter {
   [[nodiscard]] bool waits() const noexcept { return !waiting_.empty(); }
   /// Takes a reply. Returns whether it belongs to this object.
   bool on_reply(const directory::Reply& reply);
+  /// Returns the mark of a value that is in the directory now, each once. A value that lost its session has none.
+  [[nodiscard]] std::optional<std::uint64_t> poll_written();
+  /// Why the newest transaction is not written: an error of the store, or no answer in time. Empty: it is, or none was
+  /// begun.
+  [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
 
  private:
@@ -51,9 +62,12 @@ class FencedWriter {
     std::string session, value;
     directory::Revision revision = 0;
     bool alone = false;  ///< a transaction with several values did not hold
+    std::uint64_t mark = 0;
+    bool first = false;  ///< to be written before others
   };
 
   void again(bool alone);
+  void collect(bool first, directory::Transaction& transaction, std::size_t& bytes);
 
   directory::DirectoryKeys keys_;
   Duration pause_;
@@ -61,6 +75,8 @@ class FencedWriter {
   directory::OperationId operation_ = 0;
   Time next_{}, sent_at_{};
   Counters counters_;
+  std::deque<std::uint64_t> marks_;  ///< of written values; at most kBatchMax, as each reply is followed by polls
+  std::string problem_;
 };
 
 }  // namespace tandem::server

@@ -137,7 +137,13 @@ class ServiceMember {
   void end(const std::string& session);
   /// Another run replaces the session under the same ownership. kOpen follows.
   void replace(const std::string& session, ServiceSession spec);
-  void set_snapshot(const std::string& session, std::string bytes);
+  /// @param mark   for `poll_stored` once the snapshot is in the directory; 0: none
+  /// @param order  has it written before other values, without a pause
+  void set_snapshot(const std::string& session, std::string bytes, std::uint64_t mark = 0, bool order = false);
+  /// Returns the mark of a snapshot that the directory has now, each once.
+  [[nodiscard]] std::optional<std::uint64_t> poll_stored() { return writer_.poll_written(); }
+  /// Why snapshots do not reach the directory, with the remedy; empty: they do.
+  [[nodiscard]] std::string storage_problem() const;
   /// Sets the text of ServiceConsoles.
   void set_consoles(const std::string& session, std::string text);
   void set_listed(const std::string& session, std::string text);
@@ -212,7 +218,7 @@ class ServiceMember {
   void open(const std::string& session, Entry& entry, ServiceSession spec, std::string snapshot = {},
             std::string consoles = {});
   /// Sets a value of a session that is served here, or was until it moves; any other keeps its value.
-  void set_state(const std::string& session, const std::string& key, std::string value);
+  void set_state(const std::string& session, const std::string& key, std::string value, std::uint64_t mark = 0);
   void release(Time now, const std::string& session);
   void refuse(Entry& entry, const std::string& session, std::string why);
   [[nodiscard]] std::optional<directory::Request> request_of(const std::string& session, const Entry& entry) const;

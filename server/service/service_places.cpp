@@ -86,20 +86,28 @@ void ServiceMember::choose_standby(Time now, const std::string& session, Entry& 
     static_cast<void>(ownership_.set_standby(session, *chosen));
 }
 
-void ServiceMember::set_snapshot(const std::string& session, std::string bytes) {
-  set_state(session, keys_.snapshot(session), std::move(bytes));
+void ServiceMember::set_snapshot(const std::string& session, std::string bytes, std::uint64_t mark, bool order) {
+  set_state(session, keys_.snapshot(session), std::move(bytes), mark);
+  if (order) writer_.hurry(keys_.snapshot(session));
+}
+
+std::string ServiceMember::storage_problem() const {
+  if (writer_.problem().empty()) return {};
+  return "the directory of the service does not store it: " + writer_.problem() +
+         "; check that etcd runs and has space, hands are released while it is silent";
 }
 
 void ServiceMember::set_consoles(const std::string& session, std::string text) {
   set_state(session, keys_.consoles(session), std::move(text));
 }
 
-void ServiceMember::set_state(const std::string& session, const std::string& key, std::string value) {
+void ServiceMember::set_state(const std::string& session, const std::string& key, std::string value,
+                              std::uint64_t mark) {
   const auto found = entries_.find(session);
   if (found == entries_.end()) return;
   const Phase phase = found->second.phase;
   if (phase != Phase::kOpen && phase != Phase::kOpening && phase != Phase::kMoving) return;
-  writer_.set(session, key, std::move(value), found->second.revision);
+  writer_.set(session, key, std::move(value), found->second.revision, mark);
 }
 
 void ServiceMember::set_listed(const std::string& session, std::string text) {

@@ -101,6 +101,7 @@ CommandOutcome execute_command(Session& session, Time now, const SessionCommand&
                      .stops = stop.stops(),
                      .authority_version = session.authority().version(),
                      .tick = session.clock().session_tick(),
+                     .orders = session.stop_control().orders(),
                      .restores = session.stop_control().restores(),
                      .time = session.clock().time(),
                      .may_act = session.lifecycle().may_act(),

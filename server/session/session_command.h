@@ -44,6 +44,7 @@ struct CommandOutcome {
   std::uint32_t connected_seats = 0;  ///< connected seats, bit i for seat i
   bool recovering = false;  ///< waiting after a restart: a resume by an instructor continues without the missing seats
   std::uint32_t stops = 0, authority_version = 0, tick = 0;
+  std::uint32_t orders = 0;                 ///< Checkpoint::orders of every checkpoint that has this command
   std::optional<RestoreCounts> restores{};  ///< of the session; nullopt: not known
   double time = 0;                          ///< session clock [s]
   bool may_act = true;  ///< false: the directory of the service is silent, so that no hand is engaged

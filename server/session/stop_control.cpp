@@ -21,14 +21,16 @@ void StopControl::restore(const Checkpoint& from) noexcept {
 void StopControl::save(Checkpoint& to) const noexcept {
   to.stops = latch_.stops();
   to.restores = restores_;
+  to.orders = orders_;
   to.stop = start_->recovering() ? std::max(start_->stop_before(), latch_.level()) : latch_.level();
 }
 
 std::optional<StopLatch::Level> StopControl::request(Time now, const Requester& by, StopLatch::Level wanted) noexcept {
   const auto level = latch_.request(now, by.role, by.seat < seats_ ? by.seat : AuditEvent::kControlPlane, wanted);
-  if (level)
-    audit_->emit(now, *level == StopLatch::Level::kStopped ? AuditEvent::What::kStop : AuditEvent::What::kPause,
-                 by.audited_as, latch_.stops());
+  if (!level) return level;
+  ++orders_;
+  audit_->emit(now, *level == StopLatch::Level::kStopped ? AuditEvent::What::kStop : AuditEvent::What::kPause,
+               by.audited_as, latch_.stops());
   return level;
 }
 
@@ -36,10 +38,13 @@ CommandResult StopControl::resume(Time now, const Requester& by, std::uint32_t n
   if (start_->recovering() && !latch_.latched() && number == latch_.stops()) {
     if (!StopLatch::may_resume(by.role)) return CommandResult::kForbidden;
     resume_after_restart(now, by.audited_as, number);
+    ++orders_;
     return CommandResult::kDone;
   }
   const CommandResult became = latch_.resume(by.role, by.seat, number, participants_->connected(now));
-  if (became == CommandResult::kDone) audit_->emit(now, AuditEvent::What::kResume, by.audited_as, number);
+  if (became != CommandResult::kDone) return became;
+  ++orders_;
+  audit_->emit(now, AuditEvent::What::kResume, by.audited_as, number);
   return became;
 }
 

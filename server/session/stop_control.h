@@ -53,6 +53,8 @@ class StopControl {
   /// Another client has taken the seat.
   void clear_seat(std::size_t seat) noexcept { latch_.clear_seat(seat); }
   [[nodiscard]] const StopLatch& latch() const noexcept { return latch_; }
+  /// Stops, pauses and resumes that were carried out so far, also those that changed nothing.
+  [[nodiscard]] std::uint32_t orders() const noexcept { return orders_; }
   /// Restores of the session so far; nullopt: an older release has restored it, which did not count them.
   [[nodiscard]] const std::optional<RestoreCounts>& restores() const noexcept { return restores_; }
 
@@ -63,6 +65,7 @@ class StopControl {
   AuditTrail* audit_;
   StopLatch latch_;
   std::optional<RestoreCounts> restores_ = RestoreCounts{};
+  std::uint32_t orders_ = 0;
 };
 
 }  // namespace tandem::server

@@ -7,6 +7,7 @@
 #include <map>
 #include <thread>
 
+#include "tests/io/free_address.h"
 #include "tests/io/machine_witness.h"
 #include "tests/io/metrics_page.h"
 #include "tests/io/multi_client_fixture.h"
@@ -55,6 +56,24 @@ TEST(GatewayLive, ShowsHandsAndToolAndTakesOrders) {
   EXPECT_NE(event["text"].get<std::string>().find("stop 1 is over"), std::string::npos) << event;
   const Json resumed = state_where(page, [](const Json& state) { return state["phase"] == "RUNNING"; });
   EXPECT_TRUE(resumed["stop"].is_null());
+}
+
+TEST(GatewayLive, WarnsThatAStopWasCarriedOutAndIsNotStored) {
+  const Folder folder;
+  const std::string disk = folder.write("disk", "nospace");
+  Process host({"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + disk, TANDEM_SERVER,
+                "run", "one_axis", "--listen", free_address()});
+  ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
+  WebGateway gateway(address_of(host));
+  gateway.open_url();
+  WebPage page = gateway.page();
+  static_cast<void>(page.next("state"));
+  EXPECT_EQ(page.order({{"order", "stop"}, {"why", "a hand"}})["ok"], true);
+  const Json warned = page.until([](const Json& m) { return m["type"] == "notice" && m["level"] == "warning"; });
+  ASSERT_FALSE(warned.is_null());
+  const std::string text = warned["text"];
+  EXPECT_EQ(text.find("the session is STOPPED, but this is not stored yet: "), 0u) << text;
+  EXPECT_NE(text.find("No space left on device"), std::string::npos) << text;
 }
 
 TEST(GatewayLive, SendsThreeStatesAtMostWithoutAcknowledgement) {

@@ -133,6 +133,15 @@ std::string operator_message(const std::string& who, const rpc::Body& command) {
   return text + " by " + who + (why.empty() ? "" : ": " + sanitize(why));
 }
 
+std::string not_stored_text(const rpc::Body& command, const std::string& why) {
+  return truncate_utf8(
+      std::string("the session is ") + std::visit(WordsOf{}, command).done + ", but this is not stored yet: " + why +
+          ". If the server is killed before that, it restores the session " +
+          (std::holds_alternative<rpc::ResumeSession>(command) ? "as it was before, stopped"
+                                                               : "as it was before, and its hands may engage again"),
+      rpc::kTextMax);
+}
+
 rpc::Body command_reply(const rpc::Body& command, AccessRole role, const CommandOutcome& outcome,
                         const SeatCatalogue& seats) {
   const bool done = outcome.result == Result::kDone;

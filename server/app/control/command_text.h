@@ -20,6 +20,8 @@ namespace tandem::server {
                                        const CommandOutcome& outcome, const SceneSpec& scene);
 /// Message for the operator of the server about an executed command; empty: no message.
 [[nodiscard]] std::string operator_message(const std::string& who, const rpc::Body& command);
+/// Text for the sender of an order that was carried out and is not stored. @param why  cause and remedy
+[[nodiscard]] std::string not_stored_text(const rpc::Body& command, const std::string& why);
 /// Whether the sender may not give this command: its role lacks the right, or the client lost its seat.
 [[nodiscard]] bool is_forbidden(const CommandOutcome& outcome) noexcept;
 /// Reply to the client of any command except a status request: Ok, AuthorityReply or ErrorReply.

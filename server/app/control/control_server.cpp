@@ -186,6 +186,7 @@ void ControlServer::stop() {
     if (metrics_) metrics_->stop();
     plane_.stop();
     registry_.requests().stop_watching();
+    commands_.give_replies();
     audit_.close();
   });
 }

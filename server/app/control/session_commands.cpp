@@ -51,8 +51,11 @@ std::uint8_t seat_of(const rpc::Welcome& joined) noexcept {
 }  // namespace
 
 SessionCommands::SessionCommands(SessionRegistry& registry, auth::ServerKeystore& audit,
-                                 std::function<void(const std::string&)> on_message)
-    : registry_(registry), audit_(audit), on_message_(std::move(on_message)) {}
+                                 std::function<void(const std::string&)> on_message, std::function<Time()> clock)
+    : registry_(registry),
+      audit_(audit),
+      on_message_(std::move(on_message)),
+      held_(registry.requests().context(), std::move(clock)) {}
 
 void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                               std::function<void(rpc::Body)> answer) {
@@ -89,9 +92,22 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
   request.done = [this, entry, joined, who, over, name = workstation.name,
                   answer = std::move(answer)](ShardRequest& executed) {
     if (executed.result == JoinResult::kSessionOver) return answer(over);
-    answer(conclude(*entry, joined, name, who, executed));
+    reply(*entry, executed, conclude(*entry, joined, name, who, executed), answer);
   };
   registry_.post(*entry, std::move(request));
+}
+
+void SessionCommands::reply(const SessionEntry& entry, const ShardRequest& executed, rpc::Body body,
+                            const std::function<void(rpc::Body)>& answer) {
+  const rpc::Body& command = executed.command.body;
+  const bool resumes = std::holds_alternative<rpc::ResumeSession>(command);
+  const bool stored = resumes || std::holds_alternative<rpc::StopSession>(command) ||
+                      std::holds_alternative<rpc::PauseSession>(command);
+  if (!stored || !entry.registration.stored || !std::holds_alternative<rpc::Ok>(body)) return answer(std::move(body));
+  held_.hold(entry.registration.stored, executed.outcome.orders, resumes ? kResumeStoredWait : kStoredWait,
+             [answer, command](const std::string& why) {
+               answer(rpc::Ok{why.empty() ? std::string{} : not_stored_text(command, why)});
+             });
 }
 
 rpc::Body SessionCommands::conclude(SessionEntry& entry, const rpc::Welcome& joined, const std::string& workstation,
@@ -104,6 +120,7 @@ rpc::Body SessionCommands::conclude(SessionEntry& entry, const rpc::Welcome& joi
     entry.notices.set_stop(outcome.stops, workstation, joined.person, why);
   if (const auto* resume = std::get_if<rpc::ResumeSession>(&command); done && resume != nullptr)
     entry.notices.set_resume(resume->stop, who);
+  if (entry.registration.stored) entry.notices.set_storage_problem(entry.registration.stored->problem());
   const std::uint8_t ended_by = outcome.stop_latch.ended().by;
   entry.notices.update(outcome.stop_latch, entry.scene(),
                        ended_by < entry.seats.size() ? entry.seats[ended_by].person() : std::string{});
@@ -203,6 +220,7 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
   if (const std::uint8_t by = outcome.stop_latch.latest().by; status.stop && by < entry.seats.size())
     status.stop->person = entry.seats[by].person_at(io::monotonic_now() - from_seconds(outcome.stop_age));
   if (allowed(joined.role, Right::kScore) == Grant::kYes) status.notes = entry.notes.newest();
+  if (entry.registration.stored) status.not_stored = truncate_utf8(entry.registration.stored->problem(), rpc::kTextMax);
   entry.notices.complete(status);
   return status;
 }

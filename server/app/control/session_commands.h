@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -7,6 +8,9 @@
 #include <utility>
 
 #include "common/auth/io/server_keystore.h"
+#include "common/base/time.h"
+#include "common/io/clock.h"
+#include "server/app/control/held_replies.h"
 #include "server/app/control/session_note.h"
 #include "server/app/control/session_orders.h"
 #include "server/app/control/session_registry.h"
@@ -17,12 +21,21 @@ namespace tandem::server {
 /// the thread that takes them from SessionOrders, all others on the session's shard. It replies to the client, and
 /// reports each executed or forbidden command to the other participants, the audit log, the log and the operator of the
 /// server. All members run on the control plane's thread.
+///
+/// Stops, pauses and resumes act at once. Their replies wait until a restart would restore them, at most kStoredWait,
+/// and say so if it would not.
 class SessionCommands {
  public:
+  static constexpr Duration kStoredWait = std::chrono::seconds(1);
+  /// The same for a resume: a console sends its next order, perhaps a stop, after the reply.
+  static constexpr Duration kResumeStoredWait = std::chrono::milliseconds(300);
+
   /// @param audit       writes the audit log
   /// @param on_message  receives executed commands, one line each, for the operator of the server
+  /// @param clock       of the waits for the storage
   SessionCommands(SessionRegistry& registry, auth::ServerKeystore& audit,
-                  std::function<void(const std::string&)> on_message = {});
+                  std::function<void(const std::string&)> on_message = {},
+                  std::function<Time()> clock = io::monotonic_now);
 
   /// Sets the queue of orders to create, end and record sessions, before any command. Without it, such orders are
   /// rejected.
@@ -38,6 +51,8 @@ class SessionCommands {
   void drain(std::uint32_t grace_s, const std::string& who);
   /// Releases the seats and link-test slots of revoked workstations.
   void disconnect_revoked();
+  /// Gives the replies that wait for the storage: the server ends.
+  void give_replies() { held_.give_all(); }
 
  private:
   /// Queues an order about sessions, scenes or recordings.
@@ -55,6 +70,9 @@ class SessionCommands {
   /// @param who   workstation, role and seat of the client
   [[nodiscard]] rpc::Body conclude(SessionEntry& entry, const rpc::Welcome& joined, const std::string& workstation,
                                    const std::string& who, const ShardRequest& executed);
+  /// Gives the reply to an executed command, once its order is stored.
+  void reply(const SessionEntry& entry, const ShardRequest& executed, rpc::Body body,
+             const std::function<void(rpc::Body)>& answer);
   void record(SessionEntry& entry, const std::string& who, const SessionCommand& command,
               const CommandOutcome& outcome);
   [[nodiscard]] rpc::Status status_of(const SessionEntry& entry, const rpc::Welcome& joined,
@@ -66,6 +84,7 @@ class SessionCommands {
   std::function<void(const std::string&)> on_message_;
   std::function<std::string(const SessionNote&)> on_note_;
   SessionOrders* orders_ = nullptr;
+  HeldReplies held_;
 };
 
 }  // namespace tandem::server

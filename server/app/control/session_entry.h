@@ -16,6 +16,7 @@
 #include "server/app/control/status_notices.h"
 #include "server/app/process/live_session.h"
 #include "server/app/process/shard.h"
+#include "server/app/process/stored_orders.h"
 #include "server/app/recording/recording_desk.h"
 
 namespace tandem::server {
@@ -39,9 +40,10 @@ struct SessionRegistration {
   std::vector<auth::Id16> consoles{};
   /// Receives the tickets that return at the next owner whenever they change; null: they are not stored.
   std::function<void(std::vector<auth::Id16>)> on_consoles{};
-  std::vector<AuthoredNote> notes{};           ///< marks and sheets of an earlier run of the server, oldest first
-  std::shared_ptr<RecordingDesk> recording{};  ///< tells of the recording and takes notes for it; null: none
-  std::string no_recording{};                  ///< why the server cannot record it, and the remedy; empty: it can
+  std::vector<AuthoredNote> notes{};             ///< marks and sheets of an earlier run of the server, oldest first
+  std::shared_ptr<RecordingDesk> recording{};    ///< tells of the recording and takes notes for it; null: none
+  std::string no_recording{};                    ///< why the server cannot record it, and the remedy; empty: it can
+  std::shared_ptr<const StoredOrders> stored{};  ///< which orders a restart restores; null: it restores none
 };
 
 /// A registered session, and what the control plane alone knows about its clients.

@@ -24,6 +24,7 @@ class ShardRequests {
 
   explicit ShardRequests(asio::io_context& context) : context_(context), retry_timer_(context) {}
 
+  [[nodiscard]] asio::io_context& context() const noexcept { return context_; }
   /// Waits for completed requests of the shard.
   void watch(Shard& shard);
   /// Stops waiting for all shards, so that the context can end.

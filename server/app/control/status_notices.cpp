@@ -36,6 +36,13 @@ void StatusNotices::update(const StopLatch& latch, const SceneSpec& scene, const
       format("; force returns over %.1f s", scene.gate.ramp_in));
 }
 
+void StatusNotices::set_storage_problem(const std::string& why) {
+  if (const bool before = std::exchange(storage_fails_, !why.empty()); before == storage_fails_) return;
+  add(why.empty() ? "the state of the session is stored again: a stop survives a kill of the server"
+                  : "the state of the session is NOT STORED: " + why +
+                        ". Until that succeeds, a kill of the server undoes a stop");
+}
+
 void StatusNotices::complete(rpc::Status& status) const {
   status.events = events_;
   if (!status.stop || status.stop->number != stop_) return;

@@ -25,12 +25,16 @@ class StatusNotices {
   /// session's stop latch records.
   /// @param person  name of the person at the seat that ended it; empty: not named
   void update(const StopLatch& latch, const SceneSpec& scene, const std::string& person = {});
+  /// Adds an event when snapshots of the session begin to fail, and when they are stored again.
+  /// @param why  cause and remedy; empty: they are stored
+  void set_storage_problem(const std::string& why);
   /// Adds events, workstation, person and reason to a status.
   void complete(rpc::Status& status) const;
 
  private:
   std::vector<rpc::StatusEvent> events_;
   std::uint32_t count_ = 0;            ///< number of events so far
+  bool storage_fails_ = false;         ///< reported
   std::uint32_t resume_reported_ = 0;  ///< number of the newest stop whose end is in `events_`
   std::uint32_t resumed_ = 0;          ///< number of the stop that `resumer_` ended
   std::string resumer_;

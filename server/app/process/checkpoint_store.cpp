@@ -2,6 +2,7 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -14,12 +15,18 @@
 namespace tandem::server {
 namespace {
 
-/// Pause between two rounds of writing. If several checkpoints arrive in it, only the newest is written.
-constexpr auto kRest = std::chrono::milliseconds(20);
+/// Pause between two rounds of writing. If several checkpoints arrive in it, only the newest is written. An order of a
+/// console ends it.
+constexpr auto kRest = std::chrono::milliseconds(20), kLook = std::chrono::milliseconds(2);
 /// [s] An unchanged checkpoint is written again after this time, so that its file does not look too old.
 constexpr std::int64_t kRefreshS = 60;
 constexpr const char* kEnding = ".checkpoint";
 constexpr const char* kAside = ".unfit";
+
+/// A problem for participants: they get no paths of this computer.
+std::string without_path(const std::string& problem, const std::string& path) {
+  return "the checkpoint file " + (problem.starts_with(path + " ") ? problem.substr(path.size() + 1) : problem);
+}
 
 }  // namespace
 
@@ -132,15 +139,24 @@ void CheckpointStore::run() {
       entries.assign(entries_.begin(), entries_.end());
     }
     // In order: the entry of a session that is over precedes the entry of its successor with the same name.
-    for (const auto& entry : entries) service_entry(*entry);
-    const std::lock_guard lock{lock_};
-    entries_.remove_if([&](const auto& entry) { return entry->gone; });
+    for (const auto& entry : entries) {
+      for (const auto& first : entries)  // consoles wait for the orders of others, also while a disk is slow
+        if (first->over || first->mailbox->order_waits()) service_entry(*first);
+      service_entry(*entry);
+    }
+    {
+      const std::lock_guard lock{lock_};
+      entries_.remove_if([&](const auto& entry) { return entry->gone; });
+    }
     if (last) return;
-    std::this_thread::sleep_for(kRest);
+    const auto order_waits = [](const auto& entry) { return entry->mailbox->order_waits(); };
+    for (auto rest = kRest; rest > rest.zero() && std::ranges::none_of(entries, order_waits); rest -= kLook)
+      std::this_thread::sleep_for(kLook);
   }
 }
 
 void CheckpointStore::service_entry(Entry& entry) {
+  if (entry.gone) return;  // its file may be that of its successor by now
   if (entry.over) {
     entry.gone = true;
     static_cast<void>(folder_.remove(file_of(entry.snapshot.name)));
@@ -171,12 +187,20 @@ void CheckpointStore::write(Entry& entry, const Checkpoint& checkpoint) {
   std::vector<std::byte> bytes(kCheckpointMax);
   bytes.resize(encode_checkpoint(checkpoint, bytes));
   const std::int64_t now = auth::wall_seconds();
-  if (bytes == entry.written && now - entry.snapshot.written_s < kRefreshS && now >= entry.snapshot.written_s) return;
+  StoredOrders& stored = entry.mailbox->stored();
+  if (bytes == entry.written && now - entry.snapshot.written_s < kRefreshS && now >= entry.snapshot.written_s)
+    return stored.set_stored(checkpoint.orders);
   entry.snapshot.checkpoint = checkpoint;
   entry.snapshot.written_s = now;
-  const std::string problem =
-      folder_.replace(file_of(entry.snapshot.name), std::span<const std::byte>(encode_snapshot(entry.snapshot)));
-  if (problem.empty()) entry.written = std::move(bytes);
+  const std::string file = file_of(entry.snapshot.name);
+  const std::string problem = folder_.replace(file, std::span<const std::byte>(encode_snapshot(entry.snapshot)));
+  if (problem.empty()) {
+    entry.written = std::move(bytes);
+    stored.set_stored(checkpoint.orders);
+  } else {
+    entry.written.clear();  // the file may be either one
+    stored.set_failed(checkpoint.orders, without_path(problem, folder_.path_of(file)));
+  }
   const bool before = std::exchange(entry.failing, !problem.empty());
   if (!problem.empty() && !before)
     on_error_("session " + entry.snapshot.name + ": " + problem + "; after a crash it would start from the beginning");

@@ -27,7 +27,8 @@ class CheckpointStore final : public SnapshotKeeper {
  public:
   /// @param folder   directory for its owner only; created if missing
   /// @param prefix   of the file names, to distinguish servers that share a directory
-  /// @param trouble  receives write errors on the store's thread, once per session until a write succeeds
+  /// @param trouble  receives write errors on the store's thread, once per session until a write succeeds. The
+  /// mailbox of the session has them too (CheckpointMailbox::stored).
   [[nodiscard]] static std::expected<std::unique_ptr<CheckpointStore>, std::string> open(
       const std::string& folder, std::string prefix, std::function<void(const std::string&)> trouble);
   ~CheckpointStore() override;
@@ -63,7 +64,7 @@ class CheckpointStore final : public SnapshotKeeper {
     /// Newer than `snapshot`'s; guarded by the store's `lock_`.
     std::optional<std::vector<std::array<std::byte, 32>>> removed_workstations{};
     std::optional<std::vector<std::string>> persons{};  ///< the same
-    std::vector<std::byte> written{};                   ///< bytes of the checkpoint as last written
+    std::vector<std::byte> written{};                   ///< bytes of the checkpoint in the file; empty: not known
     bool failing = false, gone = false;
   };
 

@@ -131,7 +131,9 @@ void SessionInstance::set_keeper(SnapshotKeeper* keeper) {
   kept.name = options_->name;
   kept.code = code_;
   kept.written_s = 0;
-  live_session_->persist_to(keeper->add(std::move(kept)), epoch_);
+  auto mailbox = keeper->add(std::move(kept));
+  stored_ = std::shared_ptr<const StoredOrders>(mailbox, &mailbox->stored());
+  live_session_->persist_to(std::move(mailbox), epoch_);
 }
 
 void SessionInstance::keep_inputs(Time start, InputKeeper& keeper, const SessionSnapshot* kept) {

@@ -79,6 +79,8 @@ class SessionInstance {
   /// Keeps the newest snapshots of the session; null: nothing does. It must outlive this.
   [[nodiscard]] SnapshotKeeper* keeper() const noexcept { return keeper_; }
   void set_keeper(SnapshotKeeper* keeper);
+  /// Which orders of the session are stored; null: nothing is.
+  [[nodiscard]] std::shared_ptr<const StoredOrders> stored() const noexcept { return stored_; }
   /// Makes this a session of a service: both as OwnedSession has them.
   void set_owned(std::function<void(bool)> on_over, std::vector<auth::Id16> consoles) {
     on_over_ = std::move(on_over);
@@ -127,6 +129,7 @@ class SessionInstance {
   const SessionOptions* options_;
   std::optional<Time> ends_at_;
   SnapshotKeeper* keeper_ = nullptr;
+  std::shared_ptr<const StoredOrders> stored_;
   std::function<void(bool)> on_over_;
   std::vector<auth::Id16> consoles_;
   auth::Id16 id_;

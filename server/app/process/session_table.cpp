@@ -104,6 +104,7 @@ SessionRegistration SessionTable::registration_of(SessionInstance& session) {
   made.no_recording = no_recording(session);
   made.consoles = session.consoles();
   if (SnapshotKeeper* const keeper = session.keeper(); keeper != nullptr) {
+    made.stored = session.stored();
     made.on_removed = [keeper, name = session.options().name](const auto& keys) { keeper->set_removed(name, keys); };
     made.on_persons = [keeper, name = session.options().name](const auto& persons) {
       keeper->set_persons(name, persons);

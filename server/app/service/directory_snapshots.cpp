@@ -7,11 +7,21 @@
 #include "server/service/service_consoles.h"
 
 namespace tandem::server {
+namespace {
+
+/// A mark is the number of the entry, followed by the number of orders.
+constexpr unsigned kOrderBits = 32;
+
+}  // namespace
 
 std::shared_ptr<CheckpointMailbox> DirectorySnapshots::add(SessionSnapshot kept) {
   const std::lock_guard lock(lock_);
   entries_.remove_if([&](const Entry& entry) { return entry.snapshot.name == kept.name; });
-  return entries_.emplace_back(Entry{std::move(kept), std::make_shared<CheckpointMailbox>(arrived_)}).mailbox;
+  Entry& entry = entries_.emplace_back(
+      Entry{std::move(kept), std::make_shared<CheckpointMailbox>(order_arrived_, CheckpointMailbox::Wakes::kOrders)});
+  entry.number = ++added_;
+  entry.mailbox->stored().set_problem(problem_);
+  return entry.mailbox;
 }
 
 void DirectorySnapshots::set_removed(const std::string& name, const std::vector<std::array<std::byte, 32>>& keys) {
@@ -38,29 +48,45 @@ void DirectorySnapshots::set_consoles(const std::string& name, const std::vector
       entry.consoles = tickets, entry.consoles_changed = true;
 }
 
-std::string DirectorySnapshots::take_snapshot(Entry& entry) {
+void DirectorySnapshots::set_stored(std::uint64_t mark) {
+  const std::lock_guard lock(lock_);
+  for (Entry& entry : entries_)
+    if (entry.number == mark >> kOrderBits) entry.mailbox->stored().set_stored(static_cast<std::uint32_t>(mark));
+}
+
+void DirectorySnapshots::set_problem(const std::string& why) {
+  const std::lock_guard lock(lock_);
+  if (problem_ == why) return;
+  problem_ = why;
+  for (Entry& entry : entries_) entry.mailbox->stored().set_problem(why);
+}
+
+void DirectorySnapshots::take_snapshot(Entry& entry, News& news) {
   Checkpoint checkpoint;
   const bool arrived = entry.mailbox->take(checkpoint);
-  if (!arrived && !(entry.changed && !entry.taken.empty())) return {};
+  if (!arrived && !(entry.changed && !entry.taken.empty())) return;
   if (arrived) {
     std::vector<std::byte> bytes(kCheckpointMax);
     bytes.resize(encode_checkpoint(checkpoint, bytes));
     const bool leaves = checkpoint.handed_over != entry.snapshot.checkpoint.handed_over;
-    if (bytes == entry.taken && !entry.changed && !leaves) return {};
+    news.order = checkpoint.orders != entry.snapshot.checkpoint.orders;
+    if (bytes == entry.taken && !entry.changed && !leaves && !news.order) return;
     entry.taken = std::move(bytes);
     entry.snapshot.checkpoint = checkpoint;
   }
   entry.changed = false;
   entry.snapshot.written_s = auth::wall_seconds();
-  return std::string(text_of(encode_snapshot(entry.snapshot)));
+  news.snapshot = std::string(text_of(encode_snapshot(entry.snapshot)));
+  news.mark = std::uint64_t{entry.number} << kOrderBits | entry.snapshot.checkpoint.orders;
 }
 
 std::vector<DirectorySnapshots::News> DirectorySnapshots::take() {
   std::vector<News> all;
   const std::lock_guard lock(lock_);
-  arrived_.clear();
+  order_arrived_.clear();
   for (Entry& entry : entries_) {
-    News news{.session = entry.snapshot.name, .snapshot = take_snapshot(entry)};
+    News news{.session = entry.snapshot.name};
+    take_snapshot(entry, news);
     if (std::exchange(entry.consoles_changed, false))
       news.consoles = to_text(ServiceConsoles{entry.snapshot.id, entry.snapshot.checkpoint.epoch, entry.consoles});
     if (!news.snapshot.empty() || news.consoles) all.push_back(std::move(news));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -31,9 +32,17 @@ class DirectorySnapshots final : public SnapshotKeeper {
     std::string session;
     std::string snapshot{};                 ///< bytes of `encode_snapshot`; empty: unchanged
     std::optional<std::string> consoles{};  ///< text of ServiceConsoles; nullopt: unchanged
+    std::uint64_t mark = 0;                 ///< of the snapshot, for `set_stored`
+    bool order = false;                     ///< the snapshot has an order that the one before has not
   };
   /// Takes what changed since the last call.
   [[nodiscard]] std::vector<News> take();
+  /// Descriptor that is readable while a snapshot with a new order waits.
+  [[nodiscard]] int order_fd() const noexcept { return order_arrived_.get(); }
+  /// The snapshot with this mark is in the directory.
+  void set_stored(std::uint64_t mark);
+  /// Why the directory stores no snapshots now, with the remedy; empty: it does.
+  void set_problem(const std::string& why);
 
  private:
   struct Entry {
@@ -41,16 +50,19 @@ class DirectorySnapshots final : public SnapshotKeeper {
     std::shared_ptr<CheckpointMailbox> mailbox;
     std::vector<std::byte> taken{};  ///< bytes of the checkpoint as last taken
     bool changed = false;            ///< something else than the checkpoint
+    std::uint32_t number = 0;        ///< differs between all sessions of this server, also of one name
     std::vector<auth::Id16> consoles{};
     bool consoles_changed = false;
   };
 
-  /// Bytes of the newest snapshot of an entry; empty: it has not changed.
-  [[nodiscard]] static std::string take_snapshot(Entry& entry);
+  /// Takes the newest snapshot of an entry, if it has changed.
+  static void take_snapshot(Entry& entry, News& news);
 
-  io::EventFd arrived_;  ///< of the mailboxes; `take` is called at a steady pace
+  io::EventFd order_arrived_;  ///< of the mailboxes; `take` is called at a steady pace too
   std::mutex lock_;
   std::list<Entry> entries_;
+  std::uint32_t added_ = 0;  ///< sessions so far
+  std::string problem_;      ///< as `set_problem` has it
 };
 
 }  // namespace tandem::server

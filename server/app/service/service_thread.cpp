@@ -1,6 +1,9 @@
 #include "server/app/service/service_thread.h"
 
+#include <poll.h>
+
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include "common/io/clock.h"
@@ -31,44 +34,38 @@ void ServiceThread::start(std::function<void(const ServiceTickets::Result&)> on_
 void ServiceThread::stop() {
   if (!thread_.joinable()) return;
   store_->notify_by({});
-  {
-    const std::lock_guard lock(wake_mutex_);
-    stopping_ = true;
-  }
-  wake_.notify_one();
+  stopping_ = true;
+  wake();
   thread_.join();
 }
 
-void ServiceThread::wake() {
-  {
-    const std::lock_guard lock(wake_mutex_);
-    woken_ = true;
-  }
-  wake_.notify_one();
+void ServiceThread::wait(std::chrono::milliseconds longest) {
+  pollfd files[] = {{wake_.get(), POLLIN, 0}, {snapshots_.order_fd(), POLLIN, 0}};
+  poll(files, std::size(files), static_cast<int>(longest.count()));
+  wake_.clear();  // before the round, which does what it was signalled for
 }
 
 void ServiceThread::run() {
-  while (true) {
+  while (!stopping_) {
     auto newest = snapshots_.take();
     std::vector<ServiceTickets::Result> results;
     auto pause = kPause;
     {
       const std::lock_guard lock(mutex_);
       for (auto& news : newest) {
-        if (!news.snapshot.empty()) member_.set_snapshot(news.session, std::move(news.snapshot));
+        if (!news.snapshot.empty()) member_.set_snapshot(news.session, std::move(news.snapshot), news.mark, news.order);
         if (news.consoles) member_.set_consoles(news.session, std::move(*news.consoles));
       }
       member_.step(now());
       while (const auto result = member_.tickets().poll_result()) results.push_back(*result);
+      while (const auto mark = member_.poll_stored()) snapshots_.set_stored(*mark);
+      snapshots_.set_problem(member_.storage_problem());
       if (member_.has_event() || std::exchange(acted_until_, member_.act_until()) != member_.act_until())
         changed_.signal();
       if (member_.calm()) pause = kCalmPause;
     }
     for (const ServiceTickets::Result& result : results) on_ticket_(result);
-    std::unique_lock lock(wake_mutex_);
-    wake_.wait_for(lock, pause, [this] { return woken_ || stopping_; });
-    woken_ = false;
-    if (stopping_) return;
+    wait(pause);
   }
 }
 

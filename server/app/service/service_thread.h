@@ -1,6 +1,7 @@
 #pragma once
 
-#include <condition_variable>
+#include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -61,8 +62,10 @@ class ServiceThread {
     Wake& operator=(const Wake&) = delete;
     ServiceThread* thread;
   };
-  void wake();
+  void wake() { wake_.signal(); }
   void run();
+  /// Waits for a reason for another round, at most `longest`.
+  void wait(std::chrono::milliseconds longest);
   bool wait_for(Duration limit, const std::function<bool(const ServiceMember&)>& done);
 
   std::unique_ptr<directory::Directory> store_;
@@ -72,9 +75,8 @@ class ServiceThread {
   ServiceMember member_;
   Time acted_until_{};
   io::EventFd changed_;
-  std::mutex wake_mutex_;
-  std::condition_variable wake_;
-  bool woken_ = false, stopping_ = false;
+  io::EventFd wake_;
+  std::atomic<bool> stopping_{false};
   std::thread thread_;
 };
 

@@ -297,9 +297,11 @@ void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
   if (const auto* authority = std::get_if<rpc::AuthorityReply>(&*answer); authority != nullptr && !authority->applied)
     return reply(false, "another change of authority came first; check it, then repeat the order", "");
   const auto* const created = std::get_if<rpc::SessionCreated>(&*answer);
-  reply(true, "",
-        created != nullptr ? tickets_json(*created, io::to_text(options_.join.server), console_.workstation)
-                           : std::string{});
+  const auto* const done = std::get_if<rpc::Ok>(&*answer);
+  std::string message;  // after the reply
+  if (created != nullptr) message = tickets_json(*created, io::to_text(options_.join.server), console_.workstation);
+  if (done != nullptr && !done->not_stored.empty()) message = notice_json("warning", done->not_stored);
+  reply(true, "", message);
   scenes_stale_ = scenes_stale_ || created != nullptr;
   poke();
 }

@@ -187,7 +187,7 @@ TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
             "\"seat\": \"\", \"workstation\": \"desk\", \"role\": \"operator\", "
             "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true, \"person\": null}, "
             "\"drain\": null, "
-            "\"held\": null, \"counts\": null, \"recording\": null}\n");
+            "\"held\": null, \"counts\": null, \"not_stored\": null, \"recording\": null}\n");
   rpc::Status named = lesson();
   named.seats[0].person = "ann";
   named.stop->person = "otto";
@@ -195,6 +195,18 @@ TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
   EXPECT_NE(status_json(named).find("\"yours\": true, \"person\": \"otto\""), std::string::npos);
   EXPECT_NE(status_text(named).find("here, ann\n"), std::string::npos) << status_text(named);
   EXPECT_NE(status_text(named).find("STOPPED by otto at desk"), std::string::npos) << status_text(named);
+}
+
+TEST(ConsoleCommands, TellWhyTheSessionIsNotStored) {
+  rpc::Status s = lesson();
+  s.not_stored = "the disk is \"full\"; free some space there";
+  EXPECT_NE(status_text(s).find(
+                "  NOT STORED: the disk is \"full\"; free some space there; a kill of the server undoes a stop\n"),
+            std::string::npos)
+      << status_text(s);
+  EXPECT_NE(status_json(s).find("\"not_stored\": \"the disk is \\\"full\\\"; free some space there\""),
+            std::string::npos)
+      << status_json(s);
 }
 
 TEST(ConsoleCommands, TellStopsRestartsAndMovesApart) {

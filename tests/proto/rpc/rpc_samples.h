@@ -173,6 +173,7 @@ inline Status status(RandomStream& r) {
   if (r.below(2) == 0)
     m.recording = {true, static_cast<std::uint32_t>(r.below(9)), r.below(2) == 0, r.below(1U << 30U), text(r)};
   if (r.below(2) == 0) m.no_recording = text(r);
+  if (r.below(2) == 0) m.not_stored = text(r);
   return m;
 }
 
@@ -286,7 +287,7 @@ inline Frame frame(RandomStream& r, Kind kind) {
       f.body = Pong{r.bits()};
       break;
     case Kind::kOk:
-      f.body = Ok{};
+      f.body = Ok{r.below(2) == 0 ? text(r) : std::string{}};
       break;
     case Kind::kRemoveParticipant: {
       auto& m = f.body.emplace<RemoveParticipant>();

@@ -121,6 +121,66 @@ TEST_F(FencedWriterTest, LostAnswerWritesAgainAndALargeValueIsCounted) {
   EXPECT_EQ(value("/v"), "1");
 }
 
+TEST_F(FencedWriterTest, ReportsTheMarkOfAValueThatIsWrittenAndOfNoOther) {
+  const directory::Revision owned = own("s");
+  writer_.set("s", "/v", "before", owned, 1);
+  const auto request = writer_.poll_request(now_, ++operation_, 1s);
+  ASSERT_TRUE(request);
+  writer_.set("s", "/v", "stopped", owned, 2);
+  EXPECT_EQ(writer_.poll_written(), std::nullopt) << "no answer yet";
+  writer_.on_reply(store_.execute(operation_, *request));
+  EXPECT_EQ(writer_.poll_written(), 1u) << "the value of before; the stop waits";
+  EXPECT_EQ(writer_.poll_written(), std::nullopt);
+  settle();
+  EXPECT_EQ(writer_.poll_written(), 2u);
+  EXPECT_EQ(value("/v"), "stopped");
+  // An answer that is lost.
+  writer_.set("s", "/v", "resumed", owned, 3);
+  ASSERT_TRUE(writer_.poll_request(now_, ++operation_, 1s));
+  EXPECT_EQ(writer_.problem(), "");
+  now_ += 2s;
+  const auto again = writer_.poll_request(now_, ++operation_, 1s);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(writer_.problem(), "no answer in time");
+  EXPECT_EQ(writer_.poll_written(), std::nullopt);
+  directory::Reply refused;
+  refused.operation = operation_;
+  refused.outcome = directory::Outcome::kRefused;
+  refused.reason = "out of space";
+  writer_.on_reply(refused);
+  EXPECT_EQ(writer_.problem(), "out of space");
+  EXPECT_EQ(writer_.poll_written(), std::nullopt);
+  settle();
+  EXPECT_EQ(writer_.poll_written(), 3u);
+  EXPECT_EQ(writer_.problem(), "");
+  // Another server owns the session.
+  static_cast<void>(store_.execute(1, directory::Transaction{{}, {directory::Erase{names_.owner("s")}}, {}}));
+  own("s");
+  writer_.set("s", "/v", "too late", owned, 4);
+  settle();
+  EXPECT_EQ(writer_.counters().refused, 1u);
+  EXPECT_EQ(writer_.poll_written(), std::nullopt);
+  EXPECT_EQ(value("/v"), "resumed");
+}
+
+TEST_F(FencedWriterTest, WritesAHurriedValueFirstAndWithoutThePause) {
+  for (int n = 0; n < 64; ++n) {
+    const std::string name = "s" + std::to_string(n);
+    writer_.set(name, "/v/" + name, "x", own(name));
+  }
+  const auto write = [&] {
+    const auto request = writer_.poll_request(now_, ++operation_, 1s);
+    if (request) writer_.on_reply(store_.execute(operation_, *request));
+    return request.has_value();
+  };
+  EXPECT_TRUE(write());
+  EXPECT_FALSE(write()) << "the pause";
+  EXPECT_EQ(value("/v/s9"), "");
+  writer_.hurry("/v/s9");
+  EXPECT_TRUE(write());
+  EXPECT_EQ(value("/v/s9"), "x");
+}
+
 TEST(ServiceCatalogue, IgnoresForeignAndDamagedKeys) {
   directory::ModelStore store;
   directory::ModelDirectory through(store);

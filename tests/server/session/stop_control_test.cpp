@@ -49,6 +49,27 @@ TEST(StopControl, RecordsTheSeatInTheLatchAndTheConnectionInTheEvent) {
   EXPECT_EQ(s.stop.latch().level(), Level::kStopped) << "a pause weakens no stop";
 }
 
+/// A snapshot that has the number of an order has its effect: replies to consoles wait for that.
+TEST(StopControl, CountsTheOrdersThatWereCarriedOutForTheCheckpoint) {
+  Stoppable s;
+  const auto orders = [&s] {
+    Checkpoint saved;
+    s.stop.save(saved);
+    EXPECT_EQ(saved.orders, s.stop.orders());
+    return saved.orders;
+  };
+  EXPECT_EQ(orders(), 0u);
+  s.stop.request(kNow, kOperator);
+  EXPECT_EQ(orders(), 1u);
+  s.stop.request(kNow, kOperator, Level::kPaused);
+  EXPECT_EQ(orders(), 2u) << "also an order that changes nothing";
+  s.stop.request(kNow, kObserver);
+  EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, s.stop.latch().stops()), Result::kForbidden);
+  EXPECT_EQ(orders(), 2u);
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops()), Result::kDone);
+  EXPECT_EQ(orders(), 3u);
+}
+
 TEST(StopControl, GivesARoleThatMayOnlyPauseAPauseAndOthersNothing) {
   Stoppable s;
   EXPECT_EQ(s.stop.request(kNow, kTraineeSeat), Level::kPaused);

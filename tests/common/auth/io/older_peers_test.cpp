@@ -46,11 +46,13 @@ TEST(OlderPeers, GetNoPhaseInAnyReplyThatTheyDoNotKnow) {
   rpc::SessionCreated created;
   status.phase = created.session.phase = SessionPhase::kHeld;
   status.counts = rpc::StatusCounts{1, 2, 3};
+  status.not_stored = "the disk is full";
   for (rpc::Body reply : {rpc::Body(list), rpc::Body(status), rpc::Body(created)}) {
     rpc::write_for_older_peer(reply);
     if (const auto* written = std::get_if<rpc::Status>(&reply)) {
       EXPECT_EQ(written->phase, SessionPhase::kRunning);
       EXPECT_EQ(written->counts, std::nullopt);
+      EXPECT_EQ(written->not_stored, "");
     }
     if (const auto* written = std::get_if<rpc::SessionCreated>(&reply)) {
       EXPECT_EQ(written->session.phase, SessionPhase::kRunning);
@@ -61,6 +63,16 @@ TEST(OlderPeers, GetNoPhaseInAnyReplyThatTheyDoNotKnow) {
       EXPECT_EQ(written->sessions[i].phase, held ? SessionPhase::kRunning : list.sessions[i].phase) << i;
     }
   }
+}
+
+TEST(OlderPeers, GetAnErrorForAnOrderThatIsNotStored) {
+  rpc::Body stored = rpc::Ok{}, not_stored = rpc::Ok{"the session is STOPPED, but this is not stored yet"};
+  rpc::write_for_older_peer(stored);
+  EXPECT_EQ(stored, rpc::Body(rpc::Ok{}));
+  rpc::write_for_older_peer(not_stored);
+  const auto* const error = std::get_if<rpc::ErrorReply>(&not_stored);
+  ASSERT_NE(error, nullptr);
+  EXPECT_EQ(error->text, "the session is STOPPED, but this is not stored yet");
 }
 
 /// A server that knows `tandem/1` only searches the client's list for it.

@@ -2,6 +2,7 @@
 #include "server/app/service/directory_snapshots.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include "server/service/service_consoles.h"
 
@@ -17,6 +18,19 @@ class DirectorySnapshotsTest : public testing::Test {
     kept.id = kId;
     kept.checkpoint.epoch = epoch;
     return snapshots.add(std::move(kept));
+  }
+  /// A checkpoint with this number of orders.
+  static Checkpoint with_orders(std::uint32_t orders) {
+    Checkpoint checkpoint;
+    checkpoint.epoch = 12;
+    checkpoint.tools_n = checkpoint.masters_n = checkpoint.dof = checkpoint.seats_n = 1;
+    checkpoint.tools[0].alpha[0] = 1;
+    checkpoint.orders = orders;
+    return checkpoint;
+  }
+  [[nodiscard]] bool order_waits() const {
+    pollfd file{snapshots.order_fd(), POLLIN, 0};
+    return poll(&file, 1, 0) == 1;
   }
   static constexpr rpc::Id kId{std::byte{9}};
   static constexpr auth::Id16 kTicket{std::byte{1}};
@@ -65,6 +79,50 @@ TEST_F(DirectorySnapshotsTest, TakeCheckpointsWithoutConsolesThatHaveNotChanged)
   ASSERT_EQ(later.size(), 1u);
   EXPECT_FALSE(later[0].snapshot.empty());
   EXPECT_FALSE(later[0].consoles);
+}
+
+TEST_F(DirectorySnapshotsTest, OnlyANewOrderWakesItsReader) {
+  const auto mailbox = add(12);
+  ASSERT_TRUE(mailbox->publish(with_orders(0)));
+  EXPECT_FALSE(order_waits());
+  ASSERT_TRUE(mailbox->publish(with_orders(1)));
+  EXPECT_TRUE(order_waits()) << "also while an older checkpoint waits";
+  ASSERT_TRUE(mailbox->publish(with_orders(1)));
+  const auto news = snapshots.take();
+  ASSERT_EQ(news.size(), 1u);
+  EXPECT_TRUE(news[0].order);
+  EXPECT_FALSE(order_waits());
+  ASSERT_TRUE(mailbox->publish(with_orders(1)));
+  EXPECT_FALSE(order_waits());
+  EXPECT_TRUE(snapshots.take().empty());
+}
+
+TEST_F(DirectorySnapshotsTest, AnOrderCountsOnceTheSnapshotThatHasItIsInTheDirectory) {
+  const auto mailbox = add(12);
+  ASSERT_TRUE(mailbox->publish(with_orders(0)));
+  const auto before = snapshots.take();
+  ASSERT_EQ(before.size(), 1u);
+  ASSERT_TRUE(mailbox->publish(with_orders(1)));
+  const auto stopped = snapshots.take();
+  ASSERT_EQ(stopped.size(), 1u) << "an order that changes nothing else is written, too";
+  snapshots.set_stored(before[0].mark);
+  EXPECT_FALSE(mailbox->stored().has(1)) << "it was taken before the order, though written afterwards";
+  snapshots.set_stored(stopped[0].mark);
+  EXPECT_TRUE(mailbox->stored().has(1));
+  EXPECT_FALSE(mailbox->stored().has(2));
+  // A late answer for the run of before says nothing about the next one of the same name.
+  const auto next = add(13);
+  snapshots.set_stored(stopped[0].mark);
+  EXPECT_FALSE(next->stored().has(1));
+}
+
+TEST_F(DirectorySnapshotsTest, TellEverySessionWhyTheDirectoryStoresNothing) {
+  const auto mailbox = add(12);
+  snapshots.set_problem("it is silent");
+  EXPECT_EQ(mailbox->stored().problem(), "it is silent");
+  EXPECT_EQ(add(13)->stored().problem(), "it is silent") << "one that begins meanwhile";
+  snapshots.set_problem("");
+  EXPECT_EQ(add(14)->stored().problem(), "");
 }
 
 }  // namespace
