@@ -215,7 +215,7 @@ int ConsoleClient::run(const CreateCommand& command) {
   if (!order) return complain(order.error(), io::kExitUsage);
   const auto created = ask<rpc::SessionCreated>(*order);
   if (!created) return io::kExitTrouble;
-  return say(json_ ? created_json(*created) : created_text(*created, io::to_text(asked_.server)));
+  return say(json_ ? created_json(*created) : created_text(*created, asked_));
 }
 
 int ConsoleClient::run(const EndCommand& command) {
@@ -245,7 +245,8 @@ int ConsoleClient::run(const HelpCommand&) { return say(console_commands_help())
 int ConsoleClient::run(const QuitCommand&) { return io::kExitDone; }
 
 rpc::Status ConsoleClient::completed(rpc::Status status) const {
-  if (status.stop) status.stop->ends = complete_commands(status.stop->ends, asked_, status.name);
+  if (status.stop)
+    status.stop->ends = complete_commands(status.stop->ends, asked_, status.name, !asked_.ticket.empty());
   return status;
 }
 
