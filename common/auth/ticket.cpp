@@ -92,7 +92,9 @@ constexpr std::array<Words, kTicketChecks> kWords{{
     {"content", "the ticket has invalid contents; ask for a new one"},
     {"not_yet", "the ticket is not valid yet"},
     {"expired", "the ticket has expired; ask for a new one"},
-    {"workstation", "the ticket was made for another workstation; use it there, or ask for one for this machine"},
+    {"workstation",
+     "the ticket was made for another workstation; use it there, or ask for one for this machine. If this machine "
+     "has several folders of keys, name the right one with --state"},
     {"enrolment",
      "the ticket was made before this workstation was enrolled again: its revocation has voided all tickets of before; "
      "ask for a new one"},
