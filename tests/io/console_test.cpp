@@ -161,15 +161,15 @@ TEST(Control, ShowsTheBeginOfALineAgainBehindANotice) {
   const std::string address = address_of(host);
   TerminalProcess console({TANDEM_CLIENT, "control", "--server", address}, 100, 30);
   ASSERT_TRUE(console.wait_for("free_motion (operator)>")) << console.picture();
-  console.type("stop nobodx\x7fy");
+  console.type("stop dangex\x7fr");
   const auto last_is = [](const std::string& text) {
     return [text](const Terminal& terminal) { return !terminal.screen().empty() && terminal.screen().back() == text; };
   };
-  EXPECT_TRUE(console.wait_until(last_is("free_motion (operator)> stop nobody"))) << console.picture();
+  EXPECT_TRUE(console.wait_until(last_is("free_motion (operator)> stop danger"))) << console.picture();
   Process pause = control(address, {"pause", "for", "lunch"});
   EXPECT_EQ(pause.wait(), 0) << pause.err();
   ASSERT_TRUE(console.wait_for("lunch")) << console.picture();
-  EXPECT_TRUE(console.wait_until(last_is("free_motion (operator)> stop nobody"))) << console.picture();
+  EXPECT_TRUE(console.wait_until(last_is("free_motion (operator)> stop danger"))) << console.picture();
   console.type("\x15status\n");
   ASSERT_TRUE(console.wait_for("1 stop,")) << console.picture();
   console.type("stop smoke\n");

@@ -39,7 +39,7 @@ inline void add_ticket_options(const io::Command& command, TicketOption& ticket,
   std::string name = !given.file.empty() ? given.file : named ? given.text.substr(1) : given.text;
   const char* const option = given.file.empty() ? "--ticket" : file_option;
   if (name.empty() && !named) return {};
-  const auto trimmed = [](std::string text) {  // a ticket may be copied from an indented line
+  const auto trimmed = [](const std::string& text) {  // a ticket may be copied from an indented line
     const auto begin = text.find_first_not_of(" \t\r\n"), end = text.find_last_not_of(" \t\r\n");
     return begin == std::string::npos ? std::string() : text.substr(begin, end + 1 - begin);
   };
