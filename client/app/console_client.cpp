@@ -36,6 +36,15 @@ int complain(const std::string& text, int code = io::kExitTrouble) {
   return code;
 }
 
+/// Whether the prompt of a person, and perhaps the begin of a line, is before what is printed next.
+bool beside_prompt() { return isatty(STDIN_FILENO) == 1; }
+
+/// Complains on a line of its own, while a person may type.
+void interrupt(const std::string& text) {
+  if (beside_prompt()) io::print(stderr, "\n");
+  complain(text);
+}
+
 }  // namespace
 
 ConsoleClient::ConsoleClient(Console console, const JoinOptions& asked, bool json)
@@ -51,7 +60,7 @@ bool ConsoleClient::drained() const { return drain_due_ && io::monotonic_now() >
 ConsoleClient::PollResult ConsoleClient::poll_status() {
   const auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, timeout_);
   const auto* const moved = answer ? std::get_if<rpc::Elsewhere>(&*answer) : nullptr;
-  if (moved_ = moved != nullptr; moved_) complain(moved_text(*moved));
+  if (moved_ = moved != nullptr; moved_) interrupt(moved_text(*moved));
   if (!answer || moved_) return PollResult::kGone;
   const auto* said = std::get_if<rpc::Status>(&*answer);
   if (said == nullptr) return PollResult::kNothing;  // rate limit or end of the session; the next command reports it
@@ -60,15 +69,19 @@ ConsoleClient::PollResult ConsoleClient::poll_status() {
   const std::string news = status_changes_text(seen_.value_or(rpc::Status{}), now);
   seen_ = now;
   if (news.empty()) return PollResult::kNothing;
-  say((isatty(STDIN_FILENO) == 1 ? "\n" : "") + news);  // on its own line, not after the prompt
+  say((beside_prompt() ? "\n" : "") + news);
   return PollResult::kChanged;
 }
 
 bool ConsoleClient::follow() {
   if (!console_.service) return false;
-  complain((std::exchange(moved_, false) ? "this console" : "the server has ended this connection. This console") +
-           std::string(" looks for session ") + welcome().session_name +
-           " at the other servers; until it has found it, it carries out no order");
+  const std::string looks = " looks for session " + welcome().session_name +
+                            " at the other servers; until it has found it, it carries out no order";
+  if (std::exchange(moved_, false)) {
+    complain("this console" + looks);
+  } else {
+    interrupt("the server has ended this connection. This console" + looks);
+  }
   auto again = follow_session(asked_);
   if (!again) {
     if (!again.error().empty()) complain(again.error());
@@ -207,7 +220,7 @@ int ConsoleClient::run(const CreateCommand& command) {
   if (!order) return complain(order.error(), io::kExitUsage);
   const auto created = ask<rpc::SessionCreated>(*order);
   if (!created) return io::kExitTrouble;
-  return say(json_ ? created_json(*created) : created_text(*created, io::to_text(asked_.server)));
+  return say(json_ ? created_json(*created) : created_text(*created, asked_));
 }
 
 int ConsoleClient::run(const EndCommand& command) {
@@ -237,7 +250,8 @@ int ConsoleClient::run(const HelpCommand&) { return say(console_commands_help())
 int ConsoleClient::run(const QuitCommand&) { return io::kExitDone; }
 
 rpc::Status ConsoleClient::completed(rpc::Status status) const {
-  if (status.stop) status.stop->ends = complete_commands(status.stop->ends, asked_, status.name);
+  if (status.stop)
+    status.stop->ends = complete_commands(status.stop->ends, asked_, status.name, !asked_.ticket.empty());
   return status;
 }
 

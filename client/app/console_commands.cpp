@@ -309,6 +309,9 @@ std::string status_changes_text(const rpc::Status& before, const rpc::Status& no
   const bool ends = now.phase == rpc::SessionPhase::kEnding;
   if (is_stopped(before) && !is_stopped(now) && !reported && !ends)
     text += format("stop %u is over: the session is %s\n", now.stops, rpc::to_text(now.phase));
+  const bool held = now.phase == rpc::SessionPhase::kHeld, was_held = before.phase == rpc::SessionPhase::kHeld;
+  if (held && !was_held) text += "HELD: " + (now.held.empty() ? "all hands are released" : sanitize(now.held)) + "\n";
+  if (was_held && !held && !ends) text += format("the session is held no longer: it is %s\n", rpc::to_text(now.phase));
   // A server that ends at once, as after Ctrl-C, reports a drain with 0 s left.
   if (!now.drain || (now.drain->left_s == 0 && !before.drain)) return text;
   const bool first = !before.drain, last = now.drain->left_s <= 5,

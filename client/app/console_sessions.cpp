@@ -6,6 +6,7 @@
 
 #include "common/auth/base32.h"
 #include "common/auth/ticket.h"
+#include "common/base/command_hints.h"
 #include "common/base/format.h"
 #include "common/base/suggestions.h"
 #include "common/base/unit_suffix.h"
@@ -108,7 +109,7 @@ std::expected<rpc::Id, std::string> listed_session(const rpc::SessionList& list,
   return std::unexpected("no session \"" + typed + "\" is open; " + suggest_name(typed, list.sessions));
 }
 
-std::string created_text(const rpc::SessionCreated& created, const std::string& server) {
+std::string created_text(const rpc::SessionCreated& created, const JoinOptions& asked) {
   const rpc::ListedSession& s = created.session;
   std::string text = "created " + s.name + ": " +
                      (created.code.empty() ? std::string("no code") : "code " + auth::grouped(created.code, 5)) +
@@ -118,7 +119,21 @@ std::string created_text(const rpc::SessionCreated& created, const std::string& 
                    seat.required ? "" : ", optional");
   for (const rpc::SeatTicket& t : created.tickets)
     text += "  ticket of " + t.workstation + " for seat " + t.seat + ": " + auth::ticket_text(t.ticket) + "\n";
-  return text + "  join: `tandem-client join --server " + server + " --session " + s.name + " --seat SEAT`\n";
+  const bool by_ticket = created.code.empty() || !created.tickets.empty();
+  const bool by_code = !by_ticket && !asked.ticket.empty();  // otherwise this user may join without either
+  // A seat that this way admits, and a simulated device, so that the command works as it is printed.
+  const auto admitted = std::ranges::find_if(s.seats, [&](const auto& seat) {
+    return !created.tickets.empty() ? seat.name == created.tickets.front().seat
+                                    : !by_code || seat.role != AccessRole::kInstructor;
+  });
+  const std::string seat = admitted == s.seats.end() ? "SEAT" : admitted->name;
+  text += "  join: `tandem-client join --server " + io::to_text(asked.server) + " --session " +
+          (by_code ? created.code : s.name) + " --seat " + seat +
+          (asked.state.empty() ? std::string() : " --state " + shell_quote(asked.state)) +
+          (by_ticket ? " --ticket-file FILE" : "") + " --device sim`\n";
+  if (by_ticket) text += "    FILE has the ticket of the workstation and the seat in its first line\n";
+  if (by_code) text += "    a seat of role INSTRUCTOR needs a ticket, too: --ticket-file FILE\n";
+  return text + "    `tandem-client doctor` lists the devices of this computer\n";
 }
 
 std::string created_json(const rpc::SessionCreated& created) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "client/app/join_client.h"
 #include "proto/rpc/rpc_messages.h"
 
 /// Commands of the operator console about the server's sessions: their parsing, requests and texts.
@@ -39,7 +40,7 @@ struct SessionsCommand {};
 
 /// Returns a created session as text: name, code, id, one line per seat, then one per ticket.
 /// @param server  address as HOST:PORT, for the commands that participants type
-[[nodiscard]] std::string created_text(const rpc::SessionCreated& created, const std::string& server);
+[[nodiscard]] std::string created_text(const rpc::SessionCreated& created, const JoinOptions& asked);
 /// Returns a created session as JSON: `{"session", "id", "code": null or CODE, "seats": [{"name", "role"}], "tickets":
 /// [{"seat", "workstation", "ticket"}]}`
 [[nodiscard]] std::string created_json(const rpc::SessionCreated& created);

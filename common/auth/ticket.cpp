@@ -92,7 +92,9 @@ constexpr std::array<Words, kTicketChecks> kWords{{
     {"content", "the ticket has invalid contents; ask for a new one"},
     {"not_yet", "the ticket is not valid yet"},
     {"expired", "the ticket has expired; ask for a new one"},
-    {"workstation", "the ticket was made for another workstation; use it there, or ask for one for this machine"},
+    {"workstation",
+     "the ticket was made for another workstation; use it there, or ask for one for this machine. If this machine "
+     "has several folders of keys, name the right one with --state"},
     {"enrolment",
      "the ticket was made before this workstation was enrolled again: its revocation has voided all tickets of before; "
      "ask for a new one"},
@@ -127,6 +129,9 @@ std::expected<TicketBytes, std::string> sign_ticket(const Ticket& ticket, const 
 std::string ticket_text(std::span<const std::byte> ticket) { return std::string(kTicketPrefix) + to_base32(ticket); }
 
 std::expected<TicketBytes, std::string> ticket_from_text(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";  // around a ticket that was copied from an indented line
+  text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
+  text.remove_suffix(text.size() - (text.find_last_not_of(kBlank) + 1));
   if (!text.starts_with(kTicketPrefix))
     return std::unexpected("a ticket begins with `ticket:`, as tandem-server ticket prints it");
   auto bytes = from_base32(text.substr(kTicketPrefix.size()));

@@ -32,11 +32,15 @@ KeyReader::KeyReader() {
   interactive_ =
       isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp() && tcgetattr(STDIN_FILENO, &before_) == 0;
   if (!interactive_) return;
-  termios raw = before_;
-  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  raw.c_cc[VMIN] = 1;
-  raw.c_cc[VTIME] = 0;
-  interactive_ = tcsetattr(STDIN_FILENO, TCSANOW, &raw) == 0;
+  raw_ = before_;
+  raw_.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  raw_.c_cc[VMIN] = 1;
+  raw_.c_cc[VTIME] = 0;
+  interactive_ = tcsetattr(STDIN_FILENO, TCSANOW, &raw_) == 0;
+}
+
+void KeyReader::renew() noexcept {
+  if (interactive_ && tcgetpgrp(STDIN_FILENO) == getpgrp()) tcsetattr(STDIN_FILENO, TCSANOW, &raw_);
 }
 
 KeyReader::~KeyReader() {

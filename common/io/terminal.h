@@ -25,10 +25,12 @@ class KeyReader {
   [[nodiscard]] int fd() const noexcept;
   /// Returns the next key: one character, or `up down left right pageup pagedown`; empty if none waits.
   [[nodiscard]] std::string next();
+  /// Takes the terminal's echo away again, which a shell gives back to a program that it stops and continues.
+  void renew() noexcept;
 
  private:
   bool interactive_ = false;
-  termios before_{};
+  termios before_{}, raw_{};
   std::string pending_;
 };
 

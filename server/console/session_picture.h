@@ -31,6 +31,7 @@ struct LivePicture {
   std::uint64_t number = 0;                 ///< increases with each picture; 0: nothing is known yet
   bool connected = false;                   ///< false: the connection to the server is lost
   bool again = false;                       ///< the gateway tries to connect again
+  bool answers = false;                     ///< not connected, although the server answered: it refused, or has moved
   std::string warning;                      ///< why live values are missing; empty: they are there
   std::shared_ptr<const SceneSpec> scene;   ///< null: not known
   std::shared_ptr<const LiveValues> live;   ///< null: no datagrams arrive

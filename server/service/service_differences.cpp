@@ -35,7 +35,7 @@ std::string scene_difference(const ServiceSession& configured, const ServiceSess
   return "scene";
 }
 
-std::string seconds_text(double s) { return s > 0 ? format("%g s", s) : "that of the scene"; }
+std::string seconds_text(double s) { return s > 0 ? format("%.10g s", s) : "that of the scene"; }
 
 }  // namespace
 

@@ -6,6 +6,17 @@
 
 namespace tandem::server {
 
+std::string directory_remedy(const std::string& endpoints, const std::string& tls_options) {
+  std::string addresses = endpoints;  // as etcdctl takes them
+  std::erase(addresses, ' ');
+  return "Check that etcd runs there (`etcdctl --endpoints " + addresses + tls_options +
+         " endpoint health`), and directory { endpoint } in the configuration. " +
+         (!tls_options.empty() ? "With TLS, etcd must accept directory { certificate } by its --trusted-ca-file, and "
+                                 "directory { authority } must have signed the certificate of etcd for this address: "
+                                 "`openssl verify -CAfile AUTHORITY CERTIFICATE` checks each"
+                               : "An etcd that demands TLS needs directory { authority, certificate, private_key }");
+}
+
 std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus& status) {
   std::vector<Line> lines;
   if (!began_) began_ = now;
@@ -41,16 +52,10 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
                            format("; sessions are HELD %g s after the last renewal, until it answers",
                                   seconds(times_.hold_after))});
     if (next == State::kUnreachable)
-      lines.push_back(
-          {true, "service_unreachable",
-           "the directory of the service at " + endpoints_ + " cannot be reached: " + cause +
-               "; this server serves no session until it answers, and goes on trying. Check that etcd runs "
-               "there (`etcdctl --endpoints ADDRESS endpoint health`), and directory { endpoint } in the "
-               "configuration. " +
-               (tls_ ? "With TLS, etcd must accept directory { certificate } by its --trusted-ca-file, and "
-                       "directory { authority } must have signed the certificate of etcd for this address: "
-                       "`openssl verify -CAfile AUTHORITY CERTIFICATE` checks each"
-                     : "An etcd that demands TLS needs directory { authority, certificate, private_key }")});
+      lines.push_back({true, "service_unreachable",
+                       "the directory of the service at " + endpoints_ + " cannot be reached: " + cause +
+                           "; this server serves no session until it answers, and goes on trying. " +
+                           directory_remedy(endpoints_, tls_options_)});
     if (next == State::kNameTaken)
       lines.push_back({true, "service_name_taken",
                        "another server is registered in the service as " + server_ +

@@ -8,6 +8,9 @@
 
 namespace tandem::server {
 
+/// Returns how to find out why etcd does not answer. @param tls_options  of etcdctl; empty: without TLS
+[[nodiscard]] std::string directory_remedy(const std::string& endpoints, const std::string& tls_options);
+
 /// Turns changes of a member's state into lines for the operator of the server: one line per change.
 class ServiceNews {
  public:
@@ -17,10 +20,13 @@ class ServiceNews {
     std::string text;
   };
 
-  /// @param endpoints  of the directory, for messages
-  /// @param tls        the server talks to the directory by TLS
-  ServiceNews(std::string server, std::string endpoints, directory::LeaseTimes times, bool tls = false)
-      : server_(std::move(server)), endpoints_(std::move(endpoints)), times_(times), tls_(tls) {}
+  /// @param endpoints    of the directory, for messages
+  /// @param tls_options  of etcdctl, if the server talks to the directory by TLS
+  ServiceNews(std::string server, std::string endpoints, directory::LeaseTimes times, std::string tls_options = {})
+      : server_(std::move(server)),
+        endpoints_(std::move(endpoints)),
+        times_(times),
+        tls_options_(std::move(tls_options)) {}
 
   /// @param now  of the clock of the member
   [[nodiscard]] std::vector<Line> update(Time now, const ServiceStatus& status);
@@ -30,7 +36,7 @@ class ServiceNews {
 
   std::string server_, endpoints_;
   directory::LeaseTimes times_;
-  bool tls_;
+  std::string tls_options_;
   State state_ = State::kStarting;
   bool held_ = false;
   std::optional<Time> began_, name_taken_since_;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "tests/io/multi_client_fixture.h"
+#include "tests/support/terminal.h"
 
 namespace tandem::test {
 namespace {
@@ -151,6 +152,30 @@ TEST(Control, AcceptsExactlyOneOfTwoInstructorsChanges) {
   EXPECT_NE(stranger.err().find("no seat \"absent\" that can have authority; seats: trainer, trainee"),
             std::string::npos)
       << stranger.err();
+}
+
+/// The terminal itself would keep `stop ` out of sight behind the notice, and make it `stop status` with the next
+/// order.
+TEST(Control, ShowsTheBeginOfALineAgainBehindANotice) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string address = address_of(host);
+  TerminalProcess console({TANDEM_CLIENT, "control", "--server", address}, 100, 30);
+  ASSERT_TRUE(console.wait_for("free_motion (operator)>")) << console.picture();
+  console.type("stop dangex\x7fr");
+  const auto last_is = [](const std::string& text) {
+    return [text](const Terminal& terminal) { return !terminal.screen().empty() && terminal.screen().back() == text; };
+  };
+  EXPECT_TRUE(console.wait_until(last_is("free_motion (operator)> stop danger"))) << console.picture();
+  Process pause = control(address, {"pause", "for", "lunch"});
+  EXPECT_EQ(pause.wait(), 0) << pause.err();
+  ASSERT_TRUE(console.wait_for("lunch")) << console.picture();
+  EXPECT_TRUE(console.wait_until(last_is("free_motion (operator)> stop danger"))) << console.picture();
+  console.type("\x15status\n");
+  ASSERT_TRUE(console.wait_for("1 stop,")) << console.picture();
+  console.type("stop smoke\n");
+  ASSERT_TRUE(console.wait_for("STOPPED: all hands")) << console.picture();
+  console.type("\x04");
+  EXPECT_EQ(console.wait(), 0) << console.picture();
 }
 
 // A console whose server is gone must end, so that no operator relies on it to stop the session.

@@ -1,6 +1,9 @@
 // Open pages of tandem-console: live values, orders, limits, loss and return of the server.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/socket.h>
 
 #include <chrono>
 #include <list>
@@ -198,6 +201,65 @@ TEST(GatewayLive, ComesBackAfterTheServerWasKilled) {
   const Json scene = page.until([&](const Json& m) { return m["type"] == "scene" && m["session"] != before; });
   EXPECT_FALSE(scene.is_null());
   EXPECT_FALSE(state_where(page, [](const Json& s) { return s["age_ms"].is_number(); }).is_null());
+}
+
+/// A socket that listens at this address of loopback.
+io::Fd listener(const std::string& address) {
+  io::Fd socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+  sockaddr_in at{};
+  at.sin_family = AF_INET;
+  at.sin_port = htons(static_cast<std::uint16_t>(std::stoi(address.substr(address.find(':') + 1))));
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const int on = 1;
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  EXPECT_EQ(::bind(socket.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
+  EXPECT_EQ(::listen(socket.get(), 8), 0);
+  return socket;
+}
+io::Fd first_connection(const io::Fd& listener) {
+  pollfd file{listener.get(), POLLIN, 0};
+  EXPECT_EQ(::poll(&file, 1, 30000), 1);
+  return io::Fd{::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC)};
+}
+bool is_open(const io::Fd& connection) {
+  pollfd file{connection.get(), POLLRDHUP, 0};
+  return connection.get() >= 0 && ::poll(&file, 1, 0) == 0;
+}
+
+/// Another program has the server's port and is silent, so that the gateway waits for it when the order comes.
+TEST(GatewayLive, RefusesAnOrderWithoutAServerAtOnceAndNeverCarriesItOutLater) {
+  Process host = hosting("one_axis");
+  const std::string address = address_of(host);
+  WebGateway gateway(address, {"--timeout", "5"});
+  gateway.open_url();
+  WebPage page = gateway.page();
+  EXPECT_FALSE(page.next("scene").is_null());
+  EXPECT_EQ(http_get(gateway.at, "/healthz").status, 200U);
+  host.signal(SIGKILL);
+  EXPECT_EQ(host.wait(), -SIGKILL);
+  io::Fd silent = listener(address);
+  const auto is = [](const char* server) {
+    return [server](const Json& m) { return m["type"] == "notice" && m["server"] == server; };
+  };
+  EXPECT_FALSE(page.until(is("lost")).is_null());
+  EXPECT_TRUE(gateway.process.wait_for("the connection to the server is lost (")) << gateway.process.err();
+  const HttpReply health = http_get(gateway.at, "/healthz");
+  EXPECT_EQ(health.status, 503U);
+  EXPECT_NE(health.body.find("no connection to a server: "), std::string::npos) << health.body;
+  const io::Fd asked = first_connection(silent);
+  ASSERT_TRUE(is_open(asked)) << "the gateway joins again";
+  const Json reply = page.order({{"order", "stop"}, {"why", "too late"}});
+  EXPECT_EQ(reply["ok"], false);
+  EXPECT_NE(reply["text"].get<std::string>().find("not carried out"), std::string::npos) << reply;
+  EXPECT_TRUE(is_open(asked)) << "it was refused before that join has ended";
+  silent = {};
+  const Process again = hosting("one_axis", {"--listen", address});
+  EXPECT_FALSE(page.until(is("back")).is_null());
+  EXPECT_TRUE(gateway.process.wait_for("the connection to the server is back")) << gateway.process.err();
+  EXPECT_EQ(http_get(gateway.at, "/healthz").status, 200U);
+  EXPECT_EQ(page.order({{"order", "stop"}, {"why", "first"}})["ok"], true);
+  const Json state = state_where(page, [](const Json& s) { return s["stop"].is_object(); });
+  EXPECT_EQ(state["stop"]["number"], 1) << state << " the order of before was not carried out";
 }
 
 TEST(GatewayLive, ShowsLiveValuesAgainAfterItWasStopped) {

@@ -43,6 +43,34 @@ TEST(GatewayService, PersonsFollowTheirSessionWithTheTicketThatTheyHave) {
   EXPECT_NE(gone["text"].get<std::string>().find("sign in again"), std::string::npos) << gone;
 }
 
+TEST(GatewayService, PagesAndConsolesHearThatTheirSessionIsHeldAndGoesOn) {
+  if (etcd_program("etcd").empty() || etcd_program("etcdctl").empty()) GTEST_SKIP() << kNoEtcd;
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 1);
+  const std::string own = service.enrolled("desk");
+  const auto ticket = [&] {
+    return first_line(LiveService::run({"ticket", "--session", "lab", "--role", "operator", "--workstation", "desk",
+                                        "--state", service.folder().file("a")}));
+  };
+  Process console({"/bin/sh", "-c",
+                   "sleep 300 | exec '" + std::string(TANDEM_CLIENT) + "' control --server " + address_of(a) +
+                       " --state " + own + " --ticket " + ticket()});
+  WebGateway gateway(address_of(a), {"--state", own, "--ticket", ticket()});
+  gateway.open_url();
+  WebPage page = gateway.page();
+  EXPECT_FALSE(page.next("scene").is_null());
+  service.etcd().process().signal(SIGSTOP);
+  const auto says = [](const char* text) {
+    return [text](const Json& m) { return m["type"] == "notice" && m["text"].get<std::string>().find(text) == 0; };
+  };
+  EXPECT_FALSE(page.until(says("the session is held: the directory of the service")).is_null());
+  EXPECT_TRUE(console.wait_for("HELD: the directory of the service does not answer")) << console.out() << console.err();
+  service.etcd().process().signal(SIGCONT);
+  EXPECT_FALSE(page.until(says("the session is held no longer")).is_null());
+  EXPECT_TRUE(console.wait_for("the session is held no longer: it is waiting")) << console.out();
+}
+
 TEST(GatewayService, StopsAskingWhenTheTicketOfAPersonIsRefusedAndSaysTheCause) {
   if (etcd_program("etcd").empty() || etcd_program("etcdctl").empty()) GTEST_SKIP() << kNoEtcd;
   LiveService service("session { name: \"lab\" scene: \"free_motion\" }");

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "tests/io/service_fixture.h"
+#include "tests/support/terminal.h"
 
 namespace tandem::test {
 namespace {
@@ -142,6 +143,27 @@ TEST_F(ServiceConsole, ComesBackByItsTicketWhenItsServerDiesAndNoOtherConsoleDoe
 
   // A console that has left does not come back, also not when its server dies after that.
   EXPECT_NE(refused(connection_).find("used"), std::string::npos);
+}
+
+/// Otherwise, `stop ` and a later `status` stop the session.
+TEST_F(ServiceConsole, DropsTheBeginOfALineWhenItsSessionMoves) {
+  LiveService& service = *service_;
+  Words command{TANDEM_CLIENT, "control"};
+  command.insert(command.end(), connection_.begin(), connection_.end());
+  TerminalProcess person(command, 100, 40);
+  ASSERT_TRUE(person.wait_for("lab (operator)>")) << person.picture();
+  person.type("stop ");
+  ASSERT_TRUE(person.wait_until([](const Terminal& t) { return t.screen().back() == "lab (operator)> stop"; }));
+  const auto move = [&](const char* from, const char* to) {
+    LiveService::run({"move", "lab", "--to", to, "--config", service.folder().file(from + std::string(".textproto"))});
+  };
+  move("a", "b");
+  ASSERT_TRUE(person.wait_for("has followed session lab")) << person.picture();
+  EXPECT_TRUE(person.wait_for("the line that you had begun is dropped, type it again: stop")) << person.picture();
+  person.type("status\n");
+  EXPECT_TRUE(person.wait_for("0 stops, 0 restarts and 1 move so far")) << person.picture();
+  person.type("quit\n");
+  EXPECT_EQ(person.wait(), 1) << person.picture();
 }
 
 TEST_F(ServiceConsole, ThatWatchesFollowsItsSessionWhenItMovesAndWhenItsServerDies) {

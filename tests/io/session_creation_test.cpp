@@ -85,6 +85,27 @@ TEST(CreatedSessions, AreRejectedForOtherRolesAndForMistakes) {
 
 /// The reply of `create` has a ticket per named seat; `tandem-server ticket` writes further ones. Marks and sheets are
 /// stored with their author.
+/// Creates a session, and joins it by the printed command, with the printed ticket in its file. @return that command
+std::string copied_join(const MultiClientFixture& f, const Words& order) {
+  Process made =
+      server({"ticket", "--session", "lesson", "--role", "operator", "--workstation", "desk", "--state", f.state});
+  EXPECT_EQ(made.wait(), 0) << made.err();
+  Process create = control(f.address, order, {"--state", f.own, "--ticket", "  " + first_line(made.out()) + " "});
+  EXPECT_EQ(create.wait(), 0) << create.err();
+  const std::string begin = "join: `", printed = create.after(begin);
+  const std::string command = printed.substr(0, printed.find('`'));
+  EXPECT_TRUE(command.starts_with("tandem-client join ")) << create.out();
+  std::string run = "'" + std::string(TANDEM_CLIENT) + "'" + command.substr(13);
+  if (const auto file = run.find("FILE"); file != std::string::npos) {
+    const auto ticket = create.out().find("ticket:");
+    f.folder.write("FILE", "   " + create.out().substr(ticket, create.out().find('\n', ticket) - ticket) + "  \n");
+    run.replace(file, 4, f.folder.file("FILE"));
+  }
+  Process joined({"/bin/sh", "-c", "exec " + run});
+  EXPECT_TRUE(joined.wait_for("seat trainee at")) << command << joined.err();
+  return command;
+}
+
 TEST(CreatedSessions, HaveTicketsAndNotes) {
   const MultiClientFixture f("reports: \".\" scenes: \".\" session { name: \"lesson\" scene: \"one_axis\" }");
   const auto as_operator = [&](const std::string& session, const Words& command) {
@@ -93,6 +114,10 @@ TEST(CreatedSessions, HaveTicketsAndNotes) {
     EXPECT_EQ(made.wait(), 0) << made.err();
     return control(f.address, command, {"--state", f.own, "--json", "--ticket", first_line(made.out())});
   };
+  const std::string other = copied_join(f, {"create", "by-code", "free_motion"});
+  EXPECT_EQ(other.find("--ticket-file"), std::string::npos) << other;
+  EXPECT_NE(copied_join(f, {"create", "invited", "free_motion", "trainee=desk", "tickets"}).find("--ticket-file FILE"),
+            std::string::npos);
   Process create = as_operator("lesson", {"create", "exam", "free_motion", "trainee=desk", "tickets"});
   ASSERT_EQ(create.wait(), 0) << create.err();
   const Json made = Json::parse(create.out(), nullptr, false);

@@ -97,6 +97,14 @@ TEST(SessionScreen, GivesEachSessionItsLinesAndCountsThoseThatDoNotFit) {
   EXPECT_EQ(few[4], "and 6 sessions more: `tandem-server sessions --state /s` lists them");
 }
 
+TEST(SessionScreen, ShowsALongDurationInDigits) {
+  SceneSpec spec = scene();
+  spec.duration = 3e6;
+  const std::vector<SessionScreenEntry> one{{"a", running(), &spec}};
+  const std::string line = io::lay_out_items(screen_items(one, "", 2, ""), 2, 79)[0];
+  EXPECT_NE(line.find(" of 3000000 s"), std::string::npos) << line;
+}
+
 TEST(SessionScreen, NamesTheResumeCommandOrTheRolesInAStop) {
   const SceneSpec spec = scene();
   SessionStatus s = running();

@@ -40,9 +40,9 @@ int tell_gone(bool person, int worst) {
 
 /// Says for each line that a person typed while the console was not connected that it was not carried out: seconds
 /// later its order may surprise. @return the number of these lines, and whether one of them quits the console
-std::pair<std::size_t, bool> drop_orders(const std::vector<std::string>& lines) {
+std::pair<std::size_t, bool> drop_orders(const ConsoleLines::Arrived& arrived) {
   std::size_t orders = 0;
-  for (const std::string& line : lines) {
+  for (const std::string& line : arrived.lines) {
     const auto words = words_of(line);
     if (words.empty()) continue;
     const auto wish = parse_command(words);
@@ -50,6 +50,11 @@ std::pair<std::size_t, bool> drop_orders(const std::vector<std::string>& lines) 
     ++orders;
     io::print(stderr, "tandem-client control: not carried out, because this console was not connected: " +
                           sanitize(line) + "\n");
+  }
+  if (!words_of(arrived.begun).empty()) {
+    ++orders;
+    io::print(stderr, "tandem-client control: the line that you had begun is dropped, type it again: " +
+                          sanitize(arrived.begun) + "\n");
   }
   return {orders, false};
 }
@@ -60,11 +65,11 @@ int converse(ConsoleClient& attendant, int signals) {
   const std::string prompt =
       attendant.welcome().session_name + " (" + std::string(to_text(attendant.welcome().role)) + ")> ";
   if (person) std::printf("the connection stays open until you quit; `help` lists the commands\n");
-  ConsoleLines lines(signals, attendant.connection());
+  ConsoleLines lines(signals, attendant.connection(), STDIN_FILENO, prompt);
   int worst = io::kExitDone;
   bool waiting = false;  // the prompt is already shown
   while (true) {
-    if (person && !waiting) std::printf("%s", prompt.c_str());
+    if (person && !waiting) lines.show_prompt();
     std::fflush(stdout);
     const auto line = lines.next();
     if (!line && lines.idle()) {

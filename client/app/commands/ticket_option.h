@@ -39,7 +39,11 @@ inline void add_ticket_options(const io::Command& command, TicketOption& ticket,
   std::string name = !given.file.empty() ? given.file : named ? given.text.substr(1) : given.text;
   const char* const option = given.file.empty() ? "--ticket" : file_option;
   if (name.empty() && !named) return {};
-  if (!named && name.starts_with("ticket:")) return name;
+  const auto trimmed = [](const std::string& text) {  // a ticket may be copied from an indented line
+    const auto begin = text.find_first_not_of(" \t\r\n"), end = text.find_last_not_of(" \t\r\n");
+    return begin == std::string::npos ? std::string() : text.substr(begin, end + 1 - begin);
+  };
+  if (!named && trimmed(name).starts_with("ticket:")) return trimmed(name);
   std::string line;
   std::ifstream file;
   const bool named_stdin = name == "-" && named;
@@ -56,8 +60,7 @@ inline void add_ticket_options(const io::Command& command, TicketOption& ticket,
                              : name + why + "; write the ticket to it: tandem-server ticket ... > FILE"));
     return {};
   }
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  if (line.starts_with("ticket:")) return line;
+  if (line = trimmed(line); line.starts_with("ticket:")) return line;
   errors.add(std::string(option) + ": " + name + ": its first line is no ticket, which begins with `ticket:`");
   return {};
 }

@@ -35,7 +35,7 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
   const std::vector<std::string> partners = partners_of(scene, own);
   const std::optional<double> longer = TrySession::longer_duration(scene);
   if (longer)
-    io::print_formatted(stderr, "the session lasts %g s instead of the scene's %g s, so that the guidance fits\n",
+    io::print_formatted(stderr, "the session lasts %.10g s instead of the scene's %.10g s, so that the guidance fits\n",
                         *longer, scene.duration);
   auto programs = TrialPrograms::start(scene_text, partners, longer, signals.get());
   if (!programs) return programs.error().empty() ? io::kExitDone : try_trouble(programs.error());

@@ -68,7 +68,8 @@ std::optional<WatchEnd> end_of(const SessionWatch& watch, bool hung_up, Time now
     return WatchEnd{over ? io::kExitDone : io::kExitTrouble, text_of(*why), *why == wire::CloseReason::kServerReturns};
   }
   if (hung_up && watch.silence(now) > 300ms)
-    return WatchEnd{io::kExitTrouble, "the server ended this connection: it was stopped or is being restarted", true};
+    return WatchEnd{io::kExitTrouble,
+                    "the server ended this connection: it has ended, was killed or is being restarted", true};
   if (watch.silence(now) <= kLostAfter) return std::nullopt;
   if (watch.newest()) return WatchEnd{io::kExitTrouble, "the server was lost: no datagram for 3 s", true};
   return WatchEnd{io::kExitTrouble,
@@ -119,7 +120,8 @@ int show_everywhere(TelemetryFeed first, const JoinOptions& asking, bool json, P
     const bool follows = end.follows && feed->console().service;
     feed.reset();  // the server that has the session now admits one console by the ticket
     if (!follows) {
-      if (!end.why.empty()) end_watch(end.why);
+      if (!end.why.empty())
+        end_watch(end.why + (end.follows ? ". Start again when it is back; a ticket is valid once" : ""));
       return end.code;
     }
     end_watch(end.why + ". Looks for session " + session + " at the other servers");

@@ -46,12 +46,15 @@ std::expected<const Identity*, std::string> IdentitySelector::find(const Present
                            "enroll NAME` there and `tandem-client enroll STRING` here");
   const bool here = address_.starts_with("127.") || address_.starts_with("[::1]") || address_.starts_with("localhost:");
   if (here)
-    return std::unexpected("the server at " + address_ +
-                           " was not started by this user, or keeps its keys in a state folder. Join as the user who "
-                           "started it; or, if it was started with --state, run "
-                           "`tandem-server enroll NAME` with that --state and `tandem-client enroll STRING` here");
+    return std::unexpected(
+        "the server at " + address_ +
+        " was not started by this user, or keeps its keys in a state folder. Join as the user who "
+        "started it; or, if it was started with --state and this workstation is enrolled there, name "
+        "the folder of this workstation's keys with --state. If it is not enrolled: "
+        "`tandem-server enroll NAME` with the server's --state and `tandem-client enroll STRING` here");
   return std::unexpected("this workstation does not know the server at " + address_ +
-                         "; run `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
+                         ". If it is enrolled there, name the folder of this workstation's keys with --state; "
+                         "otherwise run `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
 }
 
 std::optional<std::expected<const Identity*, std::string>> IdentitySelector::find_member(

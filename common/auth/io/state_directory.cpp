@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <vector>
 
 #include "common/auth/io/write_all.h"
 #include "common/base/command_hints.h"
@@ -20,6 +21,7 @@
 namespace tandem::auth {
 namespace {
 
+constexpr std::size_t kProbe = 16384;  // [bytes] as much as a list of used tickets may need
 constexpr mode_t kOwnFolder = 0700, kOthers = 0077;
 
 std::string owner_remedy(const std::string& path, uid_t owner) {
@@ -152,8 +154,19 @@ std::string StateDirectory::replace(const std::string& name, std::string_view te
 }
 
 std::string StateDirectory::write_problem() const {
-  if (faccessat(folder_.get(), ".", W_OK | X_OK, AT_EACCESS) == 0) return {};
-  return path_ + " cannot be written to: " + std::strerror(errno) + "; chmod 0700 " + path_ + ", or mount it writable";
+  if (faccessat(folder_.get(), ".", W_OK | X_OK, AT_EACCESS) != 0)
+    return path_ + " cannot be written to: " + std::strerror(errno) + "; chmod 0700 " + path_ +
+           ", or mount it writable";
+  // A full disk is found only by writing.
+  const std::string probe = ".check-" + std::to_string(::getpid()) + ".new";
+  const std::vector<std::byte> bytes(kProbe, std::byte{0x5a});
+  const io::Fd file{
+      openat(folder_.get(), probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kFileMode)};
+  std::string problem;
+  if (!file.open() || !write_all(file.get(), bytes) || fsync(file.get()) != 0)
+    problem = path_ + " cannot be written to: " + why(errno);
+  if (file.open()) unlinkat(folder_.get(), probe.c_str(), 0);
+  return problem;
 }
 
 std::string StateDirectory::remove(const std::string& name) const {

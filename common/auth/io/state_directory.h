@@ -37,7 +37,7 @@ class StateDirectory {
   /// @return the error, empty if the data are on disk
   [[nodiscard]] std::string replace(const std::string& name, std::span<const std::byte> bytes) const;
   [[nodiscard]] std::string replace(const std::string& name, std::string_view text) const;
-  /// Returns why no file could be created here; empty: it could. Nothing is written.
+  /// Returns why no file of 16 KiB could be written here; empty: it could. Writes such a file, and removes it.
   [[nodiscard]] std::string write_problem() const;
   [[nodiscard]] std::string remove(const std::string& name) const;
   /// Removes temporary files of processes that died during a replacement. Call under the lock of such processes.

@@ -33,8 +33,7 @@ int enroll_command(const EnrollArguments& arguments) {
     const auto serving = state->serving().read();
     if (!serving) return print_error("enroll", serving.error());
     if (!*serving)
-      return print_usage_error("enroll", "--address is required: no server runs from " + state->folder()->path() +
-                                             ", so its address is unknown");
+      return print_usage_error("enroll", "--address is required: " + no_server_text(state->folder()->path()));
     out.address = (*serving)->address;
     if (const auto problem = io::remote_address_error(out.address); !problem.empty())
       return print_usage_error("enroll", "--address is required: the running server listens on " + problem);

@@ -8,7 +8,9 @@
 #include "proto/io/scene_file.h"
 #include "proto/text/server_config_text.h"
 #include "server/app/service/service_config.h"
+#include "server/app/service/service_specs.h"
 #include "server/app/service/service_thread.h"
+#include "server/service/service_news.h"
 
 namespace tandem::server {
 namespace {
@@ -38,9 +40,10 @@ std::expected<std::unique_ptr<ServiceQuery>, ServiceQuery::Failure> ServiceQuery
   std::unique_ptr<ServiceQuery> query(new ServiceQuery(*options));
   if (query->wait(kReadingMax, [&] { return query->view_.readings() > 0 && query->catalogue_.readings() > 0; }))
     return query;
-  return std::unexpected(Failure{io::kExitTrouble, "the directory of the service does not answer: " + query->trouble_ +
-                                                       "; check that etcd runs, and directory { endpoint } in " +
-                                                       config});
+  return std::unexpected(
+      Failure{io::kExitTrouble, "the directory of the service does not answer: " + query->trouble_ + ". " +
+                                    directory_remedy(joined_endpoints(options->etcd), options->tls_options) + " (" +
+                                    config + ")"});
 }
 
 LeaseRests ServiceQuery::lease_rests() {

@@ -30,7 +30,7 @@ int sessions_command(const SessionsArguments& arguments) {
   if (!serving) return print_error("sessions", serving.error());
   if (!*serving)
     return print_error("sessions",
-                       "no server runs from " + state->folder()->path() +
+                       no_server_text(state->folder()->path()) +
                            "; a server with ephemeral keys has no folder: tandem-client sessions --server HOST:PORT");
   rpc::SessionList list;
   std::vector<std::string> codes;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/auth/io/server_keystore.h"
@@ -36,17 +37,29 @@ inline void add_state_option(const io::Command& command, std::string& state) {
   return io::kExitTrouble;
 }
 
+/// Text of a command that has succeeded, but not its record in the audit log. A full disk must not suggest to repeat
+/// it: a second ticket would be valid, too. @param why  error of the audit log
+[[nodiscard]] inline std::string audit_failure_text(std::string why) {
+  constexpr std::string_view kRepeat = ", then repeat";
+  if (const auto at = why.find(kRepeat); at != std::string::npos) why.erase(at, kRepeat.size());
+  return "the command is done, do not repeat it; but the audit log has no record of it: " + why;
+}
+
 /// Warns, after a command has succeeded, if the audit log could not record it.
 inline void warn_audit_failure(const char* command, const auth::ServerKeystore& state) {
   if (const std::string& what = state.audit_log().error(); !what.empty())
-    std::fprintf(stderr, "tandem-server %s: the command is done, but the audit log has no record of it: %s\n", command,
-                 what.c_str());
+    static_cast<void>(print_error(command, audit_failure_text(what)));
 }
 /// Records a command in the audit log after it has succeeded; warns if that fails.
 inline void record_command(const char* command, auth::ServerKeystore& state, std::int64_t now, std::string_view event,
                            const std::string& workstation, const std::string& detail = {}) {
   state.audit(now, event, workstation, detail);
   warn_audit_failure(command, state);
+}
+
+/// Returns how to go on if no server runs from this folder: it may have another one.
+[[nodiscard]] inline std::string no_server_text(const std::string& folder) {
+  return "no server runs from " + folder + "; if it has another folder, name that with --state";
 }
 
 /// Opens the state directory that `--state` names, or the default one. @return the keystore, or the error and its
@@ -72,7 +85,9 @@ inline void record_command(const char* command, auth::ServerKeystore& state, std
                                                           const std::string& folder) {
   return "no workstation is called \"" + name + "\"; " +
          (book.empty()
-              ? "none is enrolled: run `tandem-server enroll" + auth::server_state_option(folder) + " " + name + "`"
+              ? "none is enrolled in " + folder +
+                    ": if the server has another folder, name that with --state; otherwise run `tandem-server enroll" +
+                    auth::server_state_option(folder) + " " + name + "`"
               : suggest_name(name, book));
 }
 

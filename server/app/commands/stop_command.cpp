@@ -65,7 +65,7 @@ int stop_command(const StopArguments& arguments) {
   const auto serving = state->serving().read();
   if (!serving) return print_error("stop", serving.error());
   if (!*serving)
-    return print_error("stop", "no server runs from " + state->folder()->path() +
+    return print_error("stop", no_server_text(state->folder()->path()) +
                                    "; a loopback server with ephemeral keys has no folder: Ctrl-C where it runs, or "
                                    "`tandem-client control --server HOST:PORT drain`");
   if (const std::string problem = state->serving().request_shutdown(grace_s); !problem.empty())

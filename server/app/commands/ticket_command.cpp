@@ -56,7 +56,8 @@ std::string gap_of(const ServiceList& service) {
 /// Session that the argument names by id, code or name.
 std::expected<OpenSession, std::string> find_session(const std::string& typed,
                                                      const std::optional<ServingSpec>& serving,
-                                                     const std::optional<ServiceList>& service) {
+                                                     const std::optional<ServiceList>& service,
+                                                     const std::string& folder) {
   auth::Id16 id;
   const bool is_id = auth::from_hex(typed, id);
   const auto code = auth::canonical_session_code(typed);
@@ -73,8 +74,8 @@ std::expected<OpenSession, std::string> find_session(const std::string& typed,
   if (found != nullptr) return *found;
   if (is_id) return OpenSession{id, "", "", 0, {}};  // an id of a future session: its seats are unknown
   if (!serving)
-    return std::unexpected(
-        "--session: no server runs from this state folder, so only an id of 32 hex digits is accepted");
+    return std::unexpected("--session: " + no_server_text(folder) +
+                           ". Without a server only an id of 32 hex digits is accepted");
   return std::unexpected("--session: \"" + typed + "\" is neither id, code nor name of a session" +
                          (service ? " of the service; " : "; ") +
                          (!sessions.empty() ? suggest_name(typed, sessions)
@@ -142,7 +143,7 @@ int ticket_command(const TicketArguments& arguments) {
   std::expected<std::optional<ServiceList>, std::string> service;
   if (*serving) service = read_service_list(*state->folder());
   if (!service) return print_error("ticket", service.error());
-  const auto session = find_session(arguments.session, *serving, *service);
+  const auto session = find_session(arguments.session, *serving, *service, state->folder()->path());
   std::optional<AccessRole> role;
   if (session) {
     role = find_role(arguments, *session, errors);

@@ -94,7 +94,7 @@ std::vector<io::ScreenItem> status_items(const SessionStatus& status, const Scen
                                          const std::string& session, std::size_t row, const std::string& reach) {
   const std::string name = session.empty() ? "" : session + ": ";
   const std::string time =
-      scene.endless() ? format("%.1f s", status.time) : format("%.1f of %g s", status.time, scene.duration);
+      scene.endless() ? format("%.1f s", status.time) : format("%.1f of %.10g s", status.time, scene.duration);
   std::string state = name + time + " ";
   std::string brief;
   const auto ends = [&](const char* what) {

@@ -30,7 +30,7 @@ std::string startup_banner(const SessionInstance& run, const io::SocketAddress& 
                             : several ? " --session " + name
                                       : "";
   std::string text = several ? "session " + name + ": " : "", required, optional, replayed;
-  text += "scene " + scene.name + (scene.endless() ? ", no end; " : format(", %g s; ", scene.duration));
+  text += "scene " + scene.name + (scene.endless() ? ", no end; " : format(", %.10g s; ", scene.duration));
   if (by_code)
     text += read_code.empty() ? "session code " + code_text(run.code()) + "; "
                               : "`" + read_code + "` shows the session's CODE; ";

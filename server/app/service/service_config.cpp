@@ -1,5 +1,7 @@
 #include "server/app/service/service_config.h"
 
+#include "common/auth/io/pem_pair.h"
+#include "common/base/command_hints.h"
 #include "common/base/utc_date.h"
 #include "proto/io/scene_file.h"
 
@@ -29,6 +31,12 @@ std::optional<ServiceOptions> service_options_from(const ServerConfigSpec& confi
   read(in.certificate, out.etcd.certificate);
   read(in.private_key, out.etcd.key);
   out.etcd.name_in_certificate = in.name_in_certificate;
+  if (!out.etcd.certificate.empty() && !out.etcd.key.empty())
+    if (const std::string problem = auth::pem_pair_problem(out.etcd.certificate, out.etcd.key); !problem.empty())
+      errors.push_back(in.private_key.error(config.file, "cannot be used with `certificate`: " + problem));
+  if (!in.authority.text.empty())
+    out.tls_options = " --cacert " + shell_quote(path(in.authority.text)) + " --cert " +
+                      shell_quote(path(in.certificate.text)) + " --key " + shell_quote(path(in.private_key.text));
   out.prefix = in.prefix;
   out.times = lease_times(std::chrono::seconds(in.ttl_s));
   if (const auto problem = out.times.problem())

@@ -58,7 +58,7 @@ ServiceHost::ServiceHost(const Parts& parts, std::string server, directory::Serv
       voucher_ends_(parts.control.trust().membership()->not_after),
       record_(std::move(record)),
       news_(server_, joined_endpoints(parts.options.directory->etcd), parts.options.directory->times,
-            !parts.options.directory->etcd.authority.empty()) {
+            parts.options.directory->tls_options) {
   const ServiceOptions& in = *parts.options.directory;
   ServiceMemberOptions options{.server = server_,
                                .prefix = in.prefix,

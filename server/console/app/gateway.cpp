@@ -1,6 +1,7 @@
 #include "server/console/app/gateway.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "common/auth/ticket.h"
@@ -63,6 +64,45 @@ bool Gateway::audience_lost() const {
   if (!audience_) return false;
   const auto picture = audience_->link->newest();
   return !picture->connected && !picture->again;
+}
+
+Gateway::Reach Gateway::reach_of(std::span<const std::shared_ptr<const LivePicture>> pictures) {
+  Reach reach;
+  for (const auto& picture : pictures) {
+    if (picture->connected) return {};
+    if (reach.kind == Reach::Kind::kTriesAgain) continue;
+    reach = {picture->again ? Reach::Kind::kTriesAgain : Reach::Kind::kGone, picture->warning};
+  }
+  return reach;
+}
+
+Gateway::Reach Gateway::reach() const {
+  std::vector<std::shared_ptr<const LivePicture>> pictures;
+  for (const auto& own : {house_, audience_})
+    if (own && own->link) pictures.push_back(own->link->newest());
+  browsers_.each([&](const std::shared_ptr<Person>& person) {
+    if (person == house_ || person == audience_ || !person->link) return;
+    // A person whose ticket was withdrawn, or whose session is over, says nothing about the server.
+    if (const auto picture = person->link->newest(); picture->connected || !picture->answers)
+      pictures.push_back(picture);
+  });
+  return reach_of(pictures);
+}
+
+/// Prints a line when the gateway's own connection changes; without one, when the last person loses the server.
+void Gateway::log_reach() {
+  const bool own = house_ && house_->link;
+  const Reach now = own ? reach_of(std::array{house_->link->newest()}) : reach();
+  if (now.kind == std::exchange(logged_, now.kind)) return;
+  const std::string why = " (" + now.why + ")";
+  if (now.kind == Reach::Kind::kReached)
+    io::log(io::Level::kInfo, "the connection to the server is back");
+  else if (now.kind == Reach::Kind::kTriesAgain)
+    io::log(io::Level::kWarn, "the connection to the server is lost" + why + "; trying again");
+  else
+    io::log(io::Level::kError, "the connection to the server is gone" + why +
+                                   (own ? "; start this program again with a new ticket"
+                                        : "; persons must sign in again with a new ticket"));
 }
 
 /// Options of a link that the gateway joins before it serves pages.
@@ -167,6 +207,7 @@ std::shared_ptr<ServerLink> Gateway::open(const Person& person, const std::strin
 }
 
 void Gateway::on_news() {
+  log_reach();
   if (!scores_) return;
   const Time now = io::monotonic_now();
   views_.each_live([&](const ServerLink& link) { scores_->hear(*link.newest(), now); });

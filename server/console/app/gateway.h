@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -91,6 +92,14 @@ class Gateway {
   /// Whether the audience sees nothing any more, because its ticket was valid once and its connection is lost.
   [[nodiscard]] bool audience_lost() const;
 
+  /// Whether any connection reaches a server: the gateway's own ones, or those of persons.
+  struct Reach {
+    enum class Kind : std::uint8_t { kReached, kTriesAgain, kGone };
+    Kind kind = Kind::kReached;  ///< also if there is no connection yet
+    std::string why;             ///< why no connection does
+  };
+  [[nodiscard]] Reach reach() const;
+
   /// Redeems the token of the printed URL. @return secret of a new cookie; empty: refused
   [[nodiscard]] std::string redeem(std::string_view token, Time now);
   /// Makes a token that `redeem` accepts once. At most kTokensMax wait: the oldest ends when one more is made.
@@ -136,6 +145,8 @@ class Gateway {
   [[nodiscard]] ServerLink::Options own_link(bool watch) const;
   [[nodiscard]] bool has_person(const rpc::Id& session) const;
   [[nodiscard]] std::string name_for(const std::string& wish, AccessRole role);
+  [[nodiscard]] static Reach reach_of(std::span<const std::shared_ptr<const LivePicture>> pictures);
+  void log_reach();
   void finish(std::uint64_t number, const std::expected<void, std::string>& result);
 
   Options options_;
@@ -144,6 +155,7 @@ class Gateway {
   std::shared_ptr<Person> house_, audience_;  ///< null: none
   std::string audience_secret_;
   bool audience_logged_ = false;  ///< its loss
+  Reach::Kind logged_ = Reach::Kind::kReached;
   std::deque<OneTimeToken> tokens_;
   BrowserSessions<Person> browsers_;
   SessionViews views_;

@@ -80,7 +80,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     }
     if (request_.method() != http::verb::get)
       return answer(http::status::method_not_allowed, "only GET, and POST of /join, are supported\n");
-    if (target == "/healthz") return answer(http::status::ok, "ok\n");
+    if (target == "/healthz") return health();
     if (target == "/join") return send_sign_in(http::status::ok, {});
     if (target == "/watch") return admit_audience(person != nullptr);
     if (const std::string_view token = token_of(target); !token.empty()) return redeem(token);
@@ -90,6 +90,14 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     for (const PageFile& file : page_files())
       if (file.path == path) return send_file(file);
     answer(http::status::not_found, "no such file\n");
+  }
+
+  void health() {
+    const Gateway::Reach reach = state_.gateway.reach();
+    if (reach.kind == Gateway::Reach::Kind::kReached) return answer(http::status::ok, "ok\n");
+    answer(http::status::service_unavailable,
+           "no connection to a server: " + reach.why +
+               (reach.kind == Gateway::Reach::Kind::kGone ? "; a new ticket is needed\n" : "; trying again\n"));
   }
 
   /// As websocket::is_upgrade, whose header compiles all of WebSocket.
@@ -225,7 +233,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     send(std::move(response));
   }
 
-  void answer(http::status status, const char* text) {
+  void answer(http::status status, std::string_view text) {
     Response response{status, request_.version()};
     response.set(http::field::content_type, "text/plain; charset=utf-8");
     response.body() = text;

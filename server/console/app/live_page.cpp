@@ -119,6 +119,11 @@ void LivePage::send_notices(const LivePicture& own, const LivePicture& view) {
       send(notice_json("error", lost + "sign in again with a new ticket", "gone"));
     }
   }
+  if (const bool held = own.connected && own.status.phase == rpc::SessionPhase::kHeld; held != held_) {
+    held_ = held;
+    if (held) send(notice_json("warning", "the session is held: " + own.status.held));
+    if (!held && own.connected) send(notice_json("info", "the session is held no longer"));
+  }
   const std::string warning = view.live || !own.connected ? std::string{} : view.warning;
   if (warning == warning_ || (warning.empty() && !view.live)) return;
   warning_ = warning;

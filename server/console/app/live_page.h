@@ -79,7 +79,7 @@ class LivePage : public std::enable_shared_from_this<LivePage> {
   unsigned frames_ = 0;
   AccessRole role_ = AccessRole::kObserver;
   std::string warning_;
-  bool greeted_ = false, connected_ = true, again_ = false, overflowed_ = false;
+  bool greeted_ = false, connected_ = true, again_ = false, held_ = false, overflowed_ = false;
 };
 
 }  // namespace tandem::console

@@ -22,6 +22,8 @@ constexpr std::chrono::milliseconds kPeriodAlone = 200ms;  // without them; the 
 constexpr std::chrono::milliseconds kPeriodRelieved = 2s;  // if another link shows the session
 constexpr std::chrono::milliseconds kPokeInterval = 250ms;
 constexpr std::chrono::milliseconds kRetry = 1s, kListPeriod = 2s, kScenesPeriod = 30s;
+constexpr const char* kLost =
+    "not carried out, because the connection to the server is lost; repeat the order when it is back";
 constexpr std::chrono::milliseconds kFeedRetry = 5s;  // a watcher that was silent, or found no place, asks again
 
 /// Whether a session refuses for good, so that only a new join helps.
@@ -88,10 +90,17 @@ std::shared_ptr<const LivePicture> ServerLink::newest() const {
 bool ServerLink::order(rpc::Body body, Reply reply) {
   {
     const std::lock_guard hold{lock_};
-    if (orders_.size() >= kOrdersMax) return false;
-    orders_.emplace_back(std::move(body), std::move(reply));
+    // Seconds later, when a new connection is there, the order may surprise.
+    const bool lost = !picture_->connected;
+    if (!lost && orders_.size() >= kOrdersMax) return false;
+    if (!lost) orders_.emplace_back(std::move(body), reply);
+    if (!lost) reply = nullptr;
   }
-  wake_.notify_all();
+  if (reply) {
+    reply(false, kLost, "");
+  } else {
+    wake_.notify_all();
+  }
   return true;
 }
 
@@ -159,7 +168,7 @@ void ServerLink::adopt(JoinedLink joined) {
       });
 }
 
-void ServerLink::lose(const std::string& why) {
+void ServerLink::lose(const std::string& why, bool answers) {
   feed_.reset();
   console_.connection.reset();
   if (!options_.again && console_.service) follows_until_ = Clock::now() + kFollow;
@@ -168,6 +177,7 @@ void ServerLink::lose(const std::string& why) {
     picture.again = joins_again();
     picture.live = nullptr;
     picture.warning = why;
+    picture.answers = answers;
   });
 }
 
@@ -214,11 +224,11 @@ bool ServerLink::ask_status() {
     return console_.connection != nullptr;
   }
   if (const auto* moved = std::get_if<rpc::Elsewhere>(&*answer)) {  // a link that joins again follows
-    lose(client::moved_text(*moved));
+    lose(client::moved_text(*moved), true);
     return false;
   }
   if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer); refused != nullptr && is_final(refused->code)) {
-    lose(refused->text);
+    lose(refused->text, true);
     return false;
   }
   return true;
@@ -280,8 +290,7 @@ void ServerLink::regain_feed() {
 }
 
 void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
-  if (!console_.connection)
-    return reply(false, "the connection to the server is lost; repeat the order when it is back", "");
+  if (!console_.connection) return reply(false, kLost, "");
   const auto answer = console_.connection->ask(body, kReplyTimeout);
   if (!answer) {
     lose(answer.error().text);
@@ -291,7 +300,7 @@ void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
     return reply(false, refused->text + client::refusal_hint(body, console_.welcome.role), "");
   if (const auto* moved = std::get_if<rpc::Elsewhere>(&*answer)) {
     const std::string why = client::moved_text(*moved);
-    if (!std::holds_alternative<rpc::EndSession>(body)) lose(why);
+    if (!std::holds_alternative<rpc::EndSession>(body)) lose(why, true);
     return reply(false, why, "");
   }
   if (const auto* authority = std::get_if<rpc::AuthorityReply>(&*answer); authority != nullptr && !authority->applied)

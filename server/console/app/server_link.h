@@ -73,7 +73,8 @@ class ServerLink final : public LiveSource {
  private:
   void work();
   void adopt(JoinedLink joined);
-  void lose(const std::string& why);
+  /// @param answers  the server itself ended the connection's rights, or named another server
+  void lose(const std::string& why, bool answers = false);
   [[nodiscard]] bool join();
   [[nodiscard]] bool joins_again() const;
   /// @param why  the server gave, which the picture then has in place of the cause of the loss; empty: none

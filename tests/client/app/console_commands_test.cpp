@@ -221,6 +221,17 @@ TEST(ConsoleCommands, TellStopsRestartsAndMovesApart) {
   EXPECT_NE(status_text(s).find("; 3 stops, restarts and moves so far;"), std::string::npos) << "an older server";
 }
 
+TEST(ConsoleCommands, ReportThatTheSessionIsHeldAndHeldNoLonger) {
+  rpc::Status runs = lesson();
+  runs.phase = rpc::SessionPhase::kRunning;
+  rpc::Status held = runs;
+  held.phase = rpc::SessionPhase::kHeld;
+  held.held = "the directory of the service does not answer";
+  EXPECT_EQ(status_changes_text(runs, held), "HELD: the directory of the service does not answer\n");
+  EXPECT_EQ(status_changes_text(held, held), "");
+  EXPECT_EQ(status_changes_text(held, runs), "the session is held no longer: it is running\n");
+}
+
 TEST(ConsoleCommands, ReportEventsOnceAndOnlyThoseAfterTheFirstStatus) {
   rpc::Status first = lesson();
   first.events = {{1, "stop 2 is over: RESUMED by trainer"}};

@@ -30,30 +30,64 @@ class ConsoleLinesTest : public ::testing::Test {
   std::optional<ConsoleLines> lines_;
 };
 
-TEST_F(ConsoleLinesTest, TakeWhatHasArrivedAndNoMore) {
-  EXPECT_TRUE(lines_->take_arrived().empty());
-  type("status\nstop danger\nres");
-  EXPECT_EQ(lines_->take_arrived(), (std::vector<std::string>{"status", "stop danger"}));
-  EXPECT_TRUE(lines_->take_arrived().empty());
-  type("ume\n");
-  EXPECT_EQ(lines_->next(), "resume") << "its end was typed later";
+/// The begin of a line belongs to the time without a connection: with the end of a later one it is another order.
+TEST_F(ConsoleLinesTest, TakeWhatHasArrivedAndDropTheBeginOfALineWithItsEnd) {
+  EXPECT_TRUE(lines_->take_arrived().lines.empty());
+  type("status\nstop danger\nstop ");
+  const auto arrived = lines_->take_arrived();
+  EXPECT_EQ(arrived.lines, (std::vector<std::string>{"status", "stop danger"}));
+  EXPECT_EQ(arrived.begun, "stop ");
+  EXPECT_TRUE(lines_->take_arrived().lines.empty());
+  type("sta");
+  EXPECT_EQ(lines_->take_arrived().begun, "sta") << "still the same line";
+  type("tus\nsessions\n");
+  EXPECT_EQ(lines_->next(), "sessions");
 }
 
 TEST_F(ConsoleLinesTest, TakeAlsoLinesThatWereReadWithAnEarlierOne) {
   type("status\nstop\n");
   EXPECT_EQ(lines_->next(), "status");
   type("resume\n");
-  EXPECT_EQ(lines_->take_arrived(), (std::vector<std::string>{"stop", "resume"}));
+  EXPECT_EQ(lines_->take_arrived().lines, (std::vector<std::string>{"stop", "resume"}));
 }
 
 TEST_F(ConsoleLinesTest, TakeNothingAtTheEndOfTheInput) {
   type("stop\nlast");
   typed_ = io::Fd{};
-  EXPECT_EQ(lines_->take_arrived(), std::vector<std::string>{"stop"});
-  EXPECT_TRUE(lines_->take_arrived().empty());
-  EXPECT_EQ(lines_->next(), "last");
+  const auto arrived = lines_->take_arrived();
+  EXPECT_EQ(arrived.lines, std::vector<std::string>{"stop"});
+  EXPECT_EQ(arrived.begun, "last");
+  EXPECT_TRUE(lines_->take_arrived().lines.empty());
   EXPECT_EQ(lines_->next(), std::nullopt);
   EXPECT_FALSE(lines_->server_gone());
+}
+
+TEST(TypedLines, AreEditedAndKeptUntilEnter) {
+  TypedLine line;
+  const auto type = [&line](std::string_view keys) {
+    std::string shown;
+    for (const char c : keys) shown += line.on_key(std::string(1, c));
+    return shown;
+  };
+  EXPECT_EQ(type("stop no"), "stop no");
+  EXPECT_TRUE(line.on_key("left").empty());
+  EXPECT_EQ(line.text(), "stop no");
+  type("\x7f");
+  EXPECT_TRUE(line.redraw());
+  EXPECT_EQ(line.text(), "stop n");
+  type("\x17");
+  EXPECT_EQ(line.text(), "stop ");
+  type("\xc3\xa9\x7f");
+  EXPECT_EQ(line.text(), "stop ") << "a character of two bytes is removed whole";
+  type("\x15status\x04");
+  EXPECT_FALSE(line.ended()) << "only an empty line ends the input";
+  EXPECT_EQ(type("\n"), "\n");
+  EXPECT_EQ(line.take_finished(), "status\n");
+  EXPECT_TRUE(line.text().empty() && line.take_finished().empty());
+  type("\x7f\x15\x17");
+  EXPECT_FALSE(line.redraw());
+  type("\x04");
+  EXPECT_TRUE(line.ended());
 }
 
 }  // namespace

@@ -304,6 +304,8 @@ TEST(Ticket, ReportsTheErrorInItsText) {
   EXPECT_FALSE(ticket_from_text(text.substr(0, text.size() - 8)));
   EXPECT_FALSE(ticket_from_text(text + "!"));
   EXPECT_FALSE(ticket_from_text(""));
+  EXPECT_FALSE(ticket_from_text("  \n"));
+  EXPECT_TRUE(ticket_from_text("  \t" + text + " \r\n")) << "copied from an indented line";
   EXPECT_TRUE(ticket_from_text("ticket:" + std::string("-") + text.substr(7)));
 }
 

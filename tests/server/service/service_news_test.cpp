@@ -54,10 +54,13 @@ TEST_F(ServiceNewsTest, ReportsADirectoryThatCannotBeReachedAtTheStart) {
 TEST_F(ServiceNewsTest, NamesTheCertificatesIfTheDirectoryIsReachedByTls) {
   servers_.push_back(std::make_unique<Server>(store_, ServiceMemberOptions{.server = "a"}));
   servers_.back()->directory.cut = true;
-  news_ = ServiceNews("a", "10.0.0.1:2379", directory::LeaseTimes{}, true);
+  news_ = ServiceNews("a", "10.0.0.1:2379", directory::LeaseTimes{}, " --cacert ca.pem --cert own.pem --key own.key");
   EXPECT_EQ(events(*servers_.back(), 10s), Events{"service_unreachable"});
   EXPECT_NE(told_.find("etcd must accept directory { certificate }"), std::string::npos) << told_;
   EXPECT_EQ(told_.find("demands TLS"), std::string::npos) << told_;
+  EXPECT_NE(told_.find("`etcdctl --endpoints 10.0.0.1:2379 --cacert ca.pem --cert own.pem --key own.key endpoint"),
+            std::string::npos)
+      << told_;
 }
 
 TEST_F(ServiceNewsTest, ReportsANameThatAnotherServerHas) {

@@ -1,9 +1,11 @@
 #include "common/auth/io/state_directory.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 
@@ -31,6 +33,23 @@ StateDirectory opened(const Folder& folder) {
   auto state = StateDirectory::open(folder.path(), StateDirectory::Missing::kIsAnError);
   EXPECT_TRUE(state) << state.error();
   return std::move(*state);
+}
+
+/// As on a full disk: files can be made, and not filled. The limit of a file's size stands for it.
+TEST(StateDirectory, ReportsThatItsFilesCannotBeFilledAndLeavesNothing) {
+  const Folder folder;
+  const StateDirectory state = opened(folder);
+  EXPECT_EQ(state.write_problem(), "");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1024, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string problem = state.write_problem();
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(problem.find(folder.path() + " cannot be written to: "), 0U) << problem;
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(StateDirectory, KeepsFilesPrivateAndReplacesThemAtomically) {

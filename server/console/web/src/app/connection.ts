@@ -138,7 +138,7 @@ export class Connection {
 /** A WebSocket that is refused gives no reason. If the gateway answers, the browser has no valid cookie. */
 async function gatewayAnswers(): Promise<boolean> {
   try {
-    return (await fetch('/healthz', { cache: 'no-store' })).ok;
+    return (await fetch('/join', { cache: 'no-store' })).ok;
   } catch {
     return false;
   }

@@ -330,7 +330,7 @@ export class MockGateway {
     };
     if (request.method === 'POST' && url.pathname === '/join') return this.onJoin(request, answer);
     if (request.method !== 'GET') return answer(405, 'only GET is supported\n');
-    if (url.pathname === '/healthz') return answer(200, 'ok\n');
+    if (url.pathname === '/join') return answer(200, 'a form\n');
     const token = url.searchParams.get('token');
     if (token !== null) {
       if (!this.tokens.delete(token)) return answer(403, 'the token is wrong, used or expired\n');
