@@ -10,7 +10,7 @@ void LinkTiming::accepted(Time now, std::uint64_t echo_counter, Duration echo_ag
   const bool known = remembers(now, echo_counter);
   if (known && (!echoed_ || echo_counter > echo_counter_)) {
     echo_moved_ = now;
-    peer_wait_ = std::clamp(echo_age, Duration{}, tick_);  // an older echo waited for a later datagram, too
+    half_peer_wait_ = half_wait(echo_age);  // an older echo waited for a later datagram, too
   }
   peer_silence_ = known ? echo_age : Duration{};
   const bool measured = known && (!echoed_ || echo_counter >= echo_counter_);
@@ -29,12 +29,17 @@ void LinkTiming::accepted(Time now, std::uint64_t echo_counter, Duration echo_ag
   }
   const std::int64_t transit = now.time_since_epoch().count() - static_cast<std::int64_t>(peer_tick) * tick_.count();
   transit_floor_.add(now, transit);
-  std::int64_t extra = transit - transit_floor_.value();
+  std::int64_t half_rtt = 0, extra = transit - transit_floor_.value();
   // A peer that shifts its ticks sends each datagram earlier or later than its tick count says. The round trip does not
   // contain that, and no datagram was delayed by more than its round trip beyond the best one.
-  if (measured) extra = std::min(extra, std::max<std::int64_t>(0, rtt_.count() - rtt_floor_.value()));
-  transit_ = Duration{(rtt_floor_.any() ? rtt_floor_.value() / 2 : 0) + extra};
-  one_way_ = transit_ + peer_wait_ / 2;
+  if (rtt_floor_.any()) [[likely]] {
+    const std::int64_t best = rtt_floor_.value();
+    half_rtt = best >> 1;
+    if (measured) [[likely]]
+      extra = std::min(extra, rtt_.count() - best);
+  }
+  transit_ = Duration{half_rtt + extra};
+  one_way_ = transit_ + half_peer_wait_;
   in_use_ = false;
 }
 

@@ -98,7 +98,7 @@ class LinkTiming {
   /// Called once per tick, after the datagrams that have arrived were accepted, before `age`.
   void tick(Time now) noexcept {
     if (std::exchange(in_use_, true)) return;
-    one_way_ -= std::clamp(now - arrived_, Duration{}, tick_) / 2;
+    one_way_ -= half_wait(now - arrived_);
   }
   /// Returns the one-way age of the newest datagram: RTT/2 of the best case, plus its delay beyond the best transit,
   /// plus the time since its arrival; 24 h before the first datagram. The waits for the ticks of both ends, which the
@@ -135,6 +135,10 @@ class LinkTiming {
   [[nodiscard]] const RecentGaps& gaps() const noexcept { return gaps_; }
 
  private:
+  /// Returns half of a wait for a tick, which is at most one tick.
+  [[nodiscard]] Duration half_wait(Duration wait) const noexcept {
+    return Duration{std::clamp(wait, Duration{}, tick_).count() >> 1};
+  }
   static constexpr Duration kTickMin = std::chrono::microseconds(100), kTickMax = std::chrono::milliseconds(100);
   static constexpr std::size_t kOtherDatagramsMax =
       64;  ///< datagrams in addition to the one per tick: challenges, requests, CLOSE
@@ -152,7 +156,7 @@ class LinkTiming {
   bool heard_ = false, echoed_ = false;
   Time arrived_{}, echo_sent_{}, echo_moved_{};
   bool in_use_ = true;  ///< a tick has used the newest datagram
-  Duration peer_silence_{}, peer_wait_{};
+  Duration peer_silence_{}, half_peer_wait_{};
   std::uint64_t echo_counter_ = 0;
   Duration rtt_{}, transit_{}, one_way_{};
   WindowedMinimum rtt_floor_, transit_floor_;
