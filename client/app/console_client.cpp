@@ -9,6 +9,7 @@
 
 #include "client/app/console_follow.h"
 #include "client/app/console_lines.h"
+#include "client/app/session_status_text.h"
 #include "common/auth/io/control_client.h"
 #include "common/base/format.h"
 #include "common/base/sanitize.h"

@@ -8,6 +8,7 @@
 
 #include "client/app/console_commands.h"
 #include "client/app/seat_screen.h"
+#include "client/app/session_status_text.h"
 #include "common/base/format.h"
 #include "common/base/session_timeout.h"
 #include "common/io/clock.h"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "client/app/session_status_text.h"
+
 namespace tandem::client {
 namespace {
 
