@@ -81,11 +81,12 @@ TEST(SessionRegistry, NamesAFewOfManySessionsInARejection) {
 
 /// Fills the queue of the shard; `begun` requests of the session wait in it then.
 void fill_queue(RegistryFixture& f, const SessionEntry& entry) {
-  bool full = false;
-  for (int i = 0; !full && i < 10000; ++i)
-    f.registry.post(entry, {.what = ShardRequest::What::kQueryPeers,
-                            .done = [&full](ShardRequest& r) { full = full || r.result == JoinResult::kSessionOver; }});
-  ASSERT_TRUE(full);
+  const auto full = std::make_shared<bool>(false);  // requests that wait are answered after this function
+  for (int i = 0; !*full && i < 10000; ++i)
+    f.registry.post(entry, {.what = ShardRequest::What::kQueryPeers, .done = [full](ShardRequest& r) {
+                              *full = *full || r.result == JoinResult::kSessionOver;
+                            }});
+  ASSERT_TRUE(*full);
 }
 
 TEST(SessionRegistry, EndsASessionAlthoughTheQueueOfItsShardIsFull) {
