@@ -72,7 +72,7 @@ void describe_seat(Families& page, const Labels& who, const SeatStatus& seat) {
              seat.margin_j);
   if (!seat.taken) return;  // the other metrics are per connection
   page.gauge("tandem_loop_age_seconds", "Age of the newest echo of the seat", who, seat.loop_age_s);
-  page.gauge("tandem_rtt_seconds", "Round trip including the wait for the next tick", with("quantile", "0.5"),
+  page.gauge("tandem_rtt_seconds", "Round trip of the network, without the waits for ticks", with("quantile", "0.5"),
              1e-3 * seat.link.rtt_p50_ms);
   page.gauge("tandem_rtt_seconds", "", with("quantile", "0.99"), 1e-3 * seat.link.rtt_p99_ms);
   page.count("tandem_udp_accepted_total", "Datagrams that were applied", who, static_cast<double>(seat.accepted));
