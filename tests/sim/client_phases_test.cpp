@@ -21,10 +21,11 @@ using netsim::ClientPhases;
 constexpr Duration kTick = 1ms;
 
 struct Loop {
-  double ticks = 0;   ///< from sending a STATE to the tick that uses the FORCE that answers it, mean
-  double most = 0;    ///< the longest of them
-  double waited = 0;  ///< time for which the STATEs had waited for the server's tick, mean [ticks]
-  double age = 0;     ///< of the FORCEs in the client's ticks, as the client estimates it, mean [ticks]
+  double ticks = 0;          ///< from sending a STATE to the tick that uses the FORCE that answers it, mean
+  double most = 0;           ///< the longest of them
+  double waited = 0;         ///< time for which the STATEs had waited for the server's tick, mean [ticks]
+  double age = 0;            ///< of the FORCEs in the client's ticks, as the client estimates it, mean [ticks]
+  double age_at_server = 0;  ///< of the STATEs in the server's ticks, as the server estimates it, mean [ticks]
 };
 
 /// Runs free motion and returns the loop of the leading hand in the third second.
@@ -48,11 +49,13 @@ Loop loop_at(Duration phase, Duration one_way, bool shifts) {
     loop.most = std::max(loop.most, ticks);
     loop.waited += seconds(timing.peer_silence()) / seconds(kTick);
     loop.age += seconds(timing.age(client.own_time(client.last_run()))) / seconds(kTick);
+    loop.age_at_server += (*made)->session().seat(0).age() / seconds(kTick);
     ++count;
   }
   loop.ticks /= count;
   loop.waited /= count;
   loop.age /= count;
+  loop.age_at_server /= count;
   EXPECT_GT(count, 900);
   return loop;
 }
@@ -70,6 +73,7 @@ TEST(ClientPhases, GiveTheLoopComputedByHand) {
       EXPECT_NEAR(loop.ticks, loop_by_hand(p, d), 1e-6);
       EXPECT_NEAR(loop.waited, std::ceil(p + d) - p - d, 1e-6);
       EXPECT_NEAR(loop.age, loop.ticks / 2, 1e-3) << "messages state ages in microseconds";
+      EXPECT_NEAR(loop.age_at_server, loop.ticks / 2, 1e-3);
     }
 }
 
@@ -82,6 +86,7 @@ TEST(ClientPhases, ThatAreShiftedGiveTheShortestLoopFromEveryStart) {
       const double d = seconds(one_way) / seconds(kTick);
       EXPECT_NEAR(loop.waited, 1.0 / 6, 0.051);
       EXPECT_NEAR(loop.age, loop.ticks / 2, 1e-3) << "a second after the shift";
+      EXPECT_NEAR(loop.age_at_server, loop.ticks / 2, 1e-3);
       EXPECT_NEAR(loop.ticks, std::ceil(2 * d + 1.0 / 6), 1e-3);
       double least = 1e9;
       for (double p = 0.005; p < 1; p += 0.01) least = std::min(least, loop_by_hand(p, d));
