@@ -6,6 +6,14 @@ namespace tandem::server {
 
 using directory::Outcome;
 
+namespace {
+
+directory::Revision found_order(const directory::Reply& reply) {
+  return reply.found.empty() || reply.found[0].empty() ? 0 : reply.found[0][0].modified;
+}
+
+}  // namespace
+
 void FencedWriter::set(const std::string& session, const std::string& key, std::string value,
                        directory::Revision revision, std::uint64_t mark) {
   if (value.size() > kValueMax || (waiting_.size() >= kKeysMax && !waiting_.contains(key))) {
@@ -71,6 +79,9 @@ std::optional<directory::Request> FencedWriter::poll_request(Time now, directory
   }
   if (waiting_.empty() || now < next_) return std::nullopt;
   directory::Transaction transaction;
+  transaction.conditions.push_back({order_key_, directory::Condition::Of::kModified, order_});
+  transaction.then.push_back(directory::Put{order_key_, "", 0});
+  transaction.otherwise.push_back(directory::Read{order_key_});
   std::size_t bytes = 0;
   collect(true, transaction, bytes);
   collect(false, transaction, bytes);
@@ -90,11 +101,16 @@ bool FencedWriter::on_reply(const directory::Reply& reply) {
     again(false);
   } else if (reply.held) {
     counters_.written += sent_.size();
+    order_ = reply.revision;
     problem_.clear();
     for (const auto& [key, value] : sent_)
       if (value.mark != 0) marks_.push_back(value.mark);
     if (marks_.size() > kBatchMax) marks_.erase(marks_.begin(), marks_.end() - kBatchMax);
     sent_.clear();
+  } else if (const directory::Revision order = found_order(reply); order != order_) {
+    order_ = order;
+    ++counters_.reordered;
+    again(false);
   } else if (sent_.size() > 1) {
     again(true);
   } else {

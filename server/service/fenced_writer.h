@@ -15,7 +15,11 @@ namespace tandem::server {
 /// Writes values that often change to the directory, the newest value of each key only, and only while this server
 /// owns the session: each transaction has the condition that the owner key is still the one of this ownership.
 ///
-/// Several values go into one transaction. If its conditions do not hold, its values are written one at a time, so that
+/// The store may execute a transaction whose answer did not come in time after a later one. So each transaction also
+/// writes the order key of this server, under the condition that it is as the newest known transaction left it: a late
+/// one changes nothing, and no older value replaces a newer one.
+///
+/// Several values go into one transaction. If an ownership does not hold, its values are written one at a time, so that
 /// one lost session stops no other.
 class FencedWriter {
  public:
@@ -26,10 +30,13 @@ class FencedWriter {
 
   struct Counters {
     std::uint64_t written = 0, batches = 0, refused = 0, unknown = 0, overflowed = 0;
+    std::uint64_t reordered = 0;  ///< the order key was not as expected: an unanswered transaction was executed
   };
 
-  /// @param pause  between two transactions
-  FencedWriter(directory::DirectoryKeys keys, Duration pause) : keys_(std::move(keys)), pause_(pause) {}
+  /// @param order_key  of this server; no other writer uses it
+  /// @param pause      between two transactions
+  FencedWriter(directory::DirectoryKeys keys, std::string order_key, Duration pause)
+      : keys_(std::move(keys)), order_key_(std::move(order_key)), pause_(pause) {}
 
   /// Sets the newest value of a key of a session.
   /// @param revision  of the ownership
@@ -70,6 +77,8 @@ class FencedWriter {
   void collect(bool first, directory::Transaction& transaction, std::size_t& bytes);
 
   directory::DirectoryKeys keys_;
+  std::string order_key_;
+  directory::Revision order_ = 0;  ///< of the newest known write of the order key; 0: none
   Duration pause_;
   std::map<std::string, Value> waiting_, sent_;  ///< by key
   directory::OperationId operation_ = 0;

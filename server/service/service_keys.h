@@ -13,6 +13,7 @@ namespace tandem::server {
 ///     catalogue/SESSION/home     server to which an operator has moved it, so that it stays there; empty: any
 ///     snapshots/SESSION          newest snapshot; apart from the catalogue, which all servers follow
 ///     consoles/SESSION           its consoles (ServiceConsoles); apart from the snapshot, which older servers write
+///     writes/SERVER              empty; its revision is that of the server's newest write of values (FencedWriter)
 class ServiceKeys {
  public:
   /// @param prefix  begins and ends with "/"
@@ -31,6 +32,7 @@ class ServiceKeys {
   [[nodiscard]] std::string consoles(std::string_view session) const {
     return prefix_ + "consoles/" + std::string(session);
   }
+  [[nodiscard]] std::string writes(std::string_view server) const { return prefix_ + "writes/" + std::string(server); }
 
   static constexpr const char* kSpec = "/spec";
   static constexpr const char* kListed = "/listed";

@@ -38,7 +38,7 @@ ServiceMember::ServiceMember(ServiceMemberOptions options, directory::Directory&
       ownership_(options_.server, "", options_.times, names_),
       catalogue_(keys_),
       tickets_(ownership_, names_),
-      writer_(names_, kWritePause),
+      writer_(names_, keys_.writes(options_.server), kWritePause),
       registry_(options_.prefix, options_.agreed, options_.registry_mark),
       placement_(options_.key),
       planner_(options_.key),

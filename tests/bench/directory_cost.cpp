@@ -94,6 +94,7 @@ struct Writer {
           options.answer_limit = kAnswerLimit;
           return options;
         }()),
+        writer(keys, places.writes(format("server%zu", number)), kPause),
         due(sessions) {
     for (std::size_t i = 0; i < sessions; ++i) names.push_back(format("server%zu-session%zu", number, i));
   }
@@ -141,7 +142,7 @@ struct Writer {
   directory::DirectoryKeys keys;
   server::ServiceKeys places{"/tandem/v1/"};
   directory::EtcdDirectory directory;
-  server::FencedWriter writer{keys, kPause};
+  server::FencedWriter writer;
   std::vector<std::string> names;
   std::vector<directory::Revision> revisions;
   std::vector<Time> due;
