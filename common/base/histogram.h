@@ -26,16 +26,14 @@ class BasicHistogram {
     ++binned_;
     if (bin == std::numeric_limits<Count>::max()) [[unlikely]]
       halve();
-    ++count_;
     max_ = std::max(max_, value);
-    sum_ += static_cast<double>(value);
   }
 
   /// Returns the smallest bin end at or below which at least a share `q` of all values lies; never above max().
   /// @param q  share, clamped to [0, 1]; NaN counts as 0
   /// @return   [ns]; 0 when nothing was added
   [[nodiscard]] constexpr std::int64_t quantile(double q) const noexcept {
-    if (count_ == 0) return 0;
+    if (binned_ == 0) return 0;
     const double share = q >= 0 ? std::min(q, 1.0) : 0.0;
     const double wanted = share * static_cast<double>(binned_);
     const auto reached = [&](std::uint64_t below) { return below > 0 && static_cast<double>(below) >= wanted; };
@@ -56,11 +54,8 @@ class BasicHistogram {
     return max_;
   }
 
-  [[nodiscard]] constexpr std::uint64_t count() const noexcept { return count_; }
+  [[nodiscard]] constexpr std::uint64_t count() const noexcept { return binned_ + halved_; }
   [[nodiscard]] constexpr std::int64_t max() const noexcept { return max_; }  ///< exact [ns]
-  [[nodiscard]] constexpr double mean() const noexcept {                      ///< [ns]; 0 when empty
-    return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
-  }
 
   /// Calls `bucket(first, last, count)` for every non-empty bucket, in ascending order; a bucket contains the values v
   /// [ns] with first <= v <= last. There are four buckets per octave, so the width of a bucket is at most a quarter of
@@ -81,14 +76,14 @@ class BasicHistogram {
   /// Adds all values of `other`.
   constexpr void merge(const BasicHistogram& other) noexcept {
     const bool halves = binned_ + other.binned_ >= std::numeric_limits<Count>::max();
+    const std::uint64_t all = count() + other.count();
     binned_ = 0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       const std::uint64_t sum = std::uint64_t{bins_[bin]} + other.bins_[bin];
       binned_ += bins_[bin] = static_cast<Count>(halves ? sum / 2 : sum);
     }
-    count_ += other.count_;
+    halved_ = all - binned_;
     max_ = std::max(max_, other.max_);
-    sum_ += other.sum_;
   }
 
  private:
@@ -100,14 +95,15 @@ class BasicHistogram {
                 kBins % kBinsPerBucket == 0 && LogScale::kExact % kBinsPerBucket == 0);
 
   constexpr void halve() noexcept {
+    const std::uint64_t all = count();
     binned_ = 0;
     for (Count& bin : bins_) binned_ += bin = static_cast<Count>(bin / 2);
+    halved_ = all - binned_;
   }
 
   std::array<Count, kBins> bins_{};
-  std::uint64_t count_ = 0, binned_ = 0;  ///< values; sum of the bins, smaller after they were halved
+  std::uint64_t binned_ = 0, halved_ = 0;  ///< values: sum of the bins, and those that were lost as bins were halved
   std::int64_t max_ = 0;
-  double sum_ = 0;
 };
 
 /// All durations up to 2^63 ns: 15 KiB.

@@ -13,7 +13,7 @@
 namespace tandem::control {
 
 ChannelEnd::ChannelEnd(const ChannelParams& params)
-    : params_(params), schedule_(params.schedule), margin_min_(params.e0) {
+    : params_(params), schedule_(params.schedule), margin_min_nj_(credit_nj(params.e0)) {
   ledger_.fill(EnergyLedger{params.e0, params.eta});
 }
 
@@ -43,7 +43,7 @@ void ChannelEnd::follow_unpaid(const EndInput& in, std::size_t a, double k) noex
   state_.absorbed[a] = dE < 0 ? -dE : 0;
   state_.paid[a] = dE > 0 ? dE : 0;
   if (dE > 0) ledger.spend_unchecked(dE);
-  margin_min_ = std::min(margin_min_, ledger.margin());
+  note_margin(ledger);
 }
 
 EnergyArray ChannelEnd::e_out() const noexcept {

@@ -131,7 +131,8 @@ class ChannelEnd {
   [[nodiscard]] const GainSchedule& schedule() const noexcept { return schedule_; }
   /// Energy of moves that were refused [J], cumulative.
   [[nodiscard]] double refused() const noexcept { return refused_; }
-  [[nodiscard]] double margin_min() const noexcept { return margin_min_; }  ///< smallest unspent energy so far [J]
+  /// Smallest unspent energy so far [J].
+  [[nodiscard]] double margin_min() const noexcept { return 1e-9 * static_cast<double>(margin_min_nj_); }
   /// Number of axes in use.
   [[nodiscard]] std::size_t dof() const noexcept { return params_.dof; }
   /// Cumulative energy absorbed at this end, per axis [nJ].
@@ -144,16 +145,10 @@ class ChannelEnd {
   [[nodiscard]] EnergyArray e_out() const noexcept;
 
  protected:
-  /// The reference before the ledger limits it.
-  [[nodiscard]] double target(const EndInput& in, std::size_t a, double k) const noexcept {
-    const double ahead = in.rx.x[a] + schedule_.lead(in.age) * in.rx.v[a];
-    const double d = schedule_.delay();
-    // Force feed-forward is covered by the same energy bound: the ledger bounds every target, so targets may be mixed
-    // freely.
-    const bool mix = params_.side == Side::kServer && params_.effort_half && d >= GainSchedule::kShort && d <= 0.25;
-    return mix ? 0.5 * ahead + 0.5 * (in.x[a] + in.rx.f[a] / k) : ahead;
+  /// Takes the margin of an axis into the smallest one. To be called at the end of its move.
+  void note_margin(const EnergyLedger& ledger) noexcept {
+    margin_min_nj_ = std::min(margin_min_nj_, ledger.margin_nj());
   }
-
   /// Laws without a bound on energy: the received position becomes the reference of an axis at stiffness k. The ledger
   /// books the change of the spring's energy and limits nothing.
   void follow_unpaid(const EndInput& in, std::size_t axis, double k) noexcept;
@@ -163,7 +158,7 @@ class ChannelEnd {
   EndState state_;                               ///< result of the last tick
   std::array<EnergyLedger, kAxesMax> ledger_{};  ///< one energy account per axis
   double refused_ = 0;                           ///< energy of refused moves [J]
-  double margin_min_ = 0;                        ///< smallest margin so far [J]
+  std::uint64_t margin_min_nj_ = 0;              ///< smallest margin so far [nJ]
 };
 
 /// A law that users select by name. A new law needs a file with its class, a line in channel.cpp and a row in the

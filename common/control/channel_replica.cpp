@@ -67,7 +67,7 @@ const EndState& ReplicaReference::move(const EndInput& in) noexcept {
         std::clamp(std::clamp(target, state_.ref[a] - step, state_.ref[a] + step), in.x[a] - reach, in.x[a] + reach);
     if (std::isfinite(clamped)) move_reference(a, clamped, in.x[a], 1);
     ledger.refund(state_.absorbed[a]);  // this end may spend again the energy that a spring to the reference returns
-    margin_min_ = std::min(margin_min_, ledger.margin());
+    note_margin(ledger);
   }
   return state_;
 }

@@ -44,7 +44,7 @@ const EndState& TdpaForceEnd::move(const EndInput& in) noexcept {
     const double controller = moved * moved > 0 ? missing * in.dt / (moved * moved) : 0;
     const double limited = std::min(controller, kDampingMax * params_.scale[a]);
     state_.b[a] = std::max(limited, damping * params_.scale[a]);
-    margin_min_ = std::min(margin_min_, margin);
+    note_margin(ledger);
   }
   return state_;
 }
@@ -72,7 +72,7 @@ const EndState& TdpaPositionEnd::move(const EndInput& in) noexcept {
     last_rx_[a] = in.rx.x[a];
     const double home = std::clamp(in.rx.x[a], state_.ref[a] - drift, state_.ref[a] + drift);
     if (std::isfinite(home)) move_reference(a, home, in.x[a], in.weight);
-    margin_min_ = std::min(margin_min_, ledger.margin());
+    note_margin(ledger);
   }
   return state_;
 }

@@ -45,7 +45,7 @@ const EndState& WaveEnd::move(const EndInput& in) noexcept {
     const double goal = params_.side == Side::kClient ? in.rx.x[a] + elongation : in.rx.x[a] - elongation;
     const double wanted = std::clamp(goal, state_.ref[a] - step, state_.ref[a] + step);
     if (std::isfinite(wanted)) move_reference(a, wanted, x, in.weight);
-    margin_min_ = std::min(margin_min_, ledger.margin());
+    note_margin(ledger);
   }
   return state_;
 }

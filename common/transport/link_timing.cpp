@@ -7,7 +7,8 @@ void LinkTiming::accepted(Time now, std::uint64_t echo_counter, Duration echo_ag
   arrived_ = now;
   if (!heard_) echo_moved_ = now;
   heard_ = true;
-  const bool known = remembers(now, echo_counter);
+  const Time echo_sent = sent_[echo_counter & mask_].near(now);
+  const bool known = remembers(now, echo_counter, echo_sent);
   if (known && (!echoed_ || echo_counter > echo_counter_)) {
     echo_moved_ = now;
     half_peer_wait_ = half_wait(echo_age);  // an older echo waited for a later datagram, too
@@ -17,7 +18,7 @@ void LinkTiming::accepted(Time now, std::uint64_t echo_counter, Duration echo_ag
   if (measured) {
     echoed_ = true;
     echo_counter_ = echo_counter;
-    echo_sent_ = sent_[echo_counter & mask_].near(now);
+    echo_sent_ = echo_sent;
     rtt_ = std::max(Duration{0}, now - echo_sent_ - echo_age);
     rtts_.add(rtt_.count());
     recent_.add(rtt_.count());

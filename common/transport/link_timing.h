@@ -20,23 +20,20 @@ namespace tandem::transport {
 class WindowedMinimum {
  public:
   void add(Time now, std::int64_t value) noexcept {
-    if (!any_ || now - begin_ > kBucket) {
-      previous_ = any_ ? current_ : value;
-      current_ = value;
+    if (now - begin_ > kBucket) [[unlikely]] {
+      previous_ = std::exchange(current_, kNone);
       begin_ = now;
-      any_ = true;
     }
     current_ = std::min(current_, value);
   }
   [[nodiscard]] std::int64_t value() const noexcept { return std::min(current_, previous_); }
-  [[nodiscard]] bool any() const noexcept { return any_; }
+  [[nodiscard]] bool any() const noexcept { return value() != kNone; }
 
  private:
   static constexpr Duration kBucket = std::chrono::seconds(5);
-  Time begin_{};
-  std::int64_t current_ = std::numeric_limits<std::int64_t>::max();
-  std::int64_t previous_ = std::numeric_limits<std::int64_t>::max();
-  bool any_ = false;
+  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  Time begin_{Duration::min() / 2};  ///< long ago: the first value begins a bucket
+  std::int64_t current_ = kNone, previous_ = kNone;
 };
 
 /// A time of the last minutes in 5 bytes: the low 40 bits of its nanoseconds, which repeat after 18 min.
@@ -143,9 +140,10 @@ class LinkTiming {
   static constexpr std::size_t kOtherDatagramsMax =
       64;  ///< datagrams in addition to the one per tick: challenges, requests, CLOSE
   static constexpr std::uint64_t kLearnEvery = 1000;
-  [[nodiscard]] bool remembers(Time now, std::uint64_t counter) const noexcept {
+  /// @param sent  time in the place of this counter, which may be that of another one
+  [[nodiscard]] bool remembers(Time now, std::uint64_t counter, Time sent) const noexcept {
     return counter >= first_ && counter < next_ && next_ - counter <= mask_ + 1 && now - newest_ <= kMemory &&
-           now - sent_[counter & mask_].near(now) <= kMemory;
+           now - sent <= kMemory;
   }
 
   Duration tick_;

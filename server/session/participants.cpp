@@ -40,7 +40,10 @@ void Participants::end(wire::CloseReason why) noexcept {
 void Participants::step(Time now) noexcept {
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     const SeatEndpoint::Condition condition = seats_[i].condition(now);
-    present_[i] = seats_[i].receives_force() && seats_[i].present(condition) && !removing(i);
+    ready_[i] = seats_[i].ready(condition);
+    const bool felt = seats_[i].receives_force() && !removing(i);
+    admissible_[i] = felt && !condition.quarantined;
+    present_[i] = felt && seats_[i].present(condition);
     monitors_[i].step(now, i, seats_[i], condition, *audit_);
   }
 }

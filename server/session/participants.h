@@ -56,6 +56,11 @@ class Participants {
   [[nodiscard]] const CloseOuts& closing() const noexcept { return closing_; }
   /// Seats whose springs may act on tools, as of the last tick.
   [[nodiscard]] const std::array<bool, kSeatsMax>& present() const noexcept { return present_; }
+  /// Seats that may be engaged once they are ready: they receive force, are not quarantined and not being removed, as of
+  /// the last tick.
+  [[nodiscard]] const std::array<bool, kSeatsMax>& admissible() const noexcept { return admissible_; }
+  /// Seats that are ready (`SeatEndpoint::ready`), as of the last tick.
+  [[nodiscard]] const std::array<bool, kSeatsMax>& ready() const noexcept { return ready_; }
   /// Seats whose client is alive, bit i for seat i.
   [[nodiscard]] std::uint32_t connected(Time now) const noexcept;
 
@@ -67,7 +72,7 @@ class Participants {
   AuditTrail* audit_;
   CloseOuts closing_;
   bool any_removal_ = false;
-  std::array<bool, kSeatsMax> present_{};
+  std::array<bool, kSeatsMax> present_{}, ready_{}, admissible_{};
   std::array<SeatMonitor, kSeatsMax> monitors_{};
 };
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace tandem::server {
 
@@ -11,11 +12,12 @@ namespace tandem::server {
 struct PeerAddress {
   std::array<std::byte, 28> bytes{};
   std::uint8_t size = 0;
-  // One memcmp, because every datagram is compared.
+  std::array<std::byte, 3> unused{};  ///< 32 bytes without gaps, which are compared and copied for each datagram
   friend bool operator==(const PeerAddress& a, const PeerAddress& b) noexcept {
-    return a.size == b.size && std::memcmp(a.bytes.data(), b.bytes.data(), sizeof a.bytes) == 0;
+    return std::memcmp(&a, &b, sizeof a) == 0;
   }
 };
+static_assert(std::has_unique_object_representations_v<PeerAddress>);
 
 /// Destination and size of a datagram to send.
 struct Transmit {

@@ -64,18 +64,22 @@ class SeatEndpoint {
   /// One direction of the link is lost: the client reports that it receives nothing, or its echoes stay the same. @pre
   /// taken()
   [[nodiscard]] bool one_way() const noexcept;
-  /// Alive, its device delivers samples, no latch or local stop is on, and it is not quarantined.
-  [[nodiscard]] bool ready(Time now) const noexcept {
-    return alive(now) && (rx_->ready || rx_->engaged) && !rx_->stop && !misbehaviour_.quarantined(now);
-  }
+  [[nodiscard]] bool ready(Time now) const noexcept { return ready(condition(now)); }
   [[nodiscard]] bool ever_heard() const noexcept { return generation_ > 0; }
   /// Faults of the seat's link or client.
   struct Condition {
+    bool alive = false;
     bool lost = true;  ///< not alive, or one direction of the link is lost
     bool quarantined = false;
   };
   [[nodiscard]] Condition condition(Time now) const noexcept {
-    return {!alive(now) || one_way(), misbehaviour_.quarantined(now)};
+    const bool heard = alive(now);
+    return {heard, !heard || one_way(), misbehaviour_.quarantined(now)};
+  }
+  /// Alive, its device delivers samples, no latch or local stop is on, and it is not quarantined.
+  /// @param now  result of `condition`
+  [[nodiscard]] bool ready(const Condition& now) const noexcept {
+    return now.alive && (rx_->ready || rx_->engaged) && !rx_->stop && !now.quarantined;
   }
   [[nodiscard]] bool present(Time now) const noexcept { return present(condition(now)); }
   /// The seat's spring may act on tools. @param now  result of `condition`

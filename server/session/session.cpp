@@ -215,14 +215,11 @@ void Session::run_one_tick(Time now) noexcept {
 }
 
 void Session::fill_force_messages(Time now) noexcept {
-  std::array<bool, kSeatsMax> ready{};
+  const std::array<bool, kSeatsMax>& ready = participants_.ready();
   std::uint32_t missing_now = 0;
   const std::span<SeatEndpoint> seats = seats_;
   const std::span<const Tool> tools = control_.tools();
-  for (std::size_t i = 0; i < seats.size(); ++i) {
-    ready[i] = seats[i].ready(now);
-    missing_now += start_.required(i) && !ready[i] ? 1 : 0;
-  }
+  for (std::size_t i = 0; i < seats.size(); ++i) missing_now += start_.required(i) && !ready[i] ? 1 : 0;
   std::array<bool, kToolsMax> entitled{}, touches{};
   for (std::size_t j = 0; j < tools.size(); ++j) {
     const bool slave_ready = !tools[j].spec().remote || ready[tools[j].spec().seat];
@@ -236,8 +233,7 @@ void Session::fill_force_messages(Time now) noexcept {
   for (std::size_t i = 0; i < seats.size(); ++i) {
     wire::ForceMessage& m = seats[i].tx;
     m.session = state_now;
-    bool entitles =
-        engage && seats[i].receives_force() && !seats[i].misbehaviour().quarantined(now) && !participants_.removing(i);
+    bool entitles = engage && participants_.admissible()[i];
     bool touching = false;
     for (std::size_t j = 0; j < tools.size(); ++j) {
       if (control_.hub().coupling(i, j).share == 0) continue;
