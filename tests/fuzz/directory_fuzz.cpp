@@ -99,6 +99,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   feed(catalogue, entries, kPrefix + "catalogue/");
   directory::DirectoryView view{directory::DirectoryKeys(kPrefix)};
   feed(view, entries, kPrefix + "live/");
-  FUZZ_EXPECT(server::servers_table(view, catalogue).ends_with('\n'));
+  FUZZ_EXPECT(server::servers_table(view, catalogue, {}).ends_with('\n'));
   return 0;
 }

@@ -137,6 +137,24 @@ TEST_F(EtcdDirectoryTest, GoesToTheNextEndpointAndReportsWhatItDoesNotKnow) {
   EXPECT_GT(directory.counters().unknown, 0U);
 }
 
+TEST_F(EtcdDirectoryTest, WaitsBetweenFailuresWhileNoMemberAnswers) {
+  EtcdDirectory directory(to({"127.0.0.1:1", "127.0.0.1:2"}));
+  const auto began = std::chrono::steady_clock::now();
+  constexpr OperationId kTries = 12;
+  for (OperationId n = 1; n <= kTries; ++n) {
+    directory.begin(n, Transaction{});
+    EXPECT_EQ(wait_for_reply(directory, n).outcome, Outcome::kUnknown);
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - began, 900ms) << "a tenth of a second each, but for the first members";
+  EXPECT_EQ(directory.counters().begun, kTries);
+  // At once where a further member answers.
+  Etcd etcd;
+  EtcdDirectory other(to({"127.0.0.1:1", etcd.endpoint()}));
+  etcd.wait_until_ready(other);
+  other.begin(100'000, Transaction{});
+  EXPECT_EQ(wait_for_reply(other, 100'000).outcome, Outcome::kDone);
+}
+
 TEST_F(EtcdDirectoryTest, AnswersUnknownWhereNothingListensAndEndsWithOpenCalls) {
   EtcdDirectory directory(to({"127.0.0.1:1"}));
   directory.begin(1, Transaction{});

@@ -23,6 +23,10 @@ namespace {
 
 constexpr std::size_t kEndpointsMax = 9;
 constexpr std::size_t kRepliesMax = 65536;
+/// For this long the reply of a call is held back that has failed at once while no member answers. Callers try again on
+/// a reply, and would otherwise do nothing else.
+constexpr std::chrono::milliseconds kFailurePause{100};
+using std::chrono::steady_clock;
 
 using Context = std::shared_ptr<grpc::ClientContext>;
 
@@ -137,6 +141,7 @@ class EtcdDirectory::Core {
       reply = unknown(reply.operation, "replies are not taken");
       ++counters_.overflowed;
     }
+    failed_members_ = 0;
     push(std::move(reply));
     return fits;
   }
@@ -147,8 +152,11 @@ class EtcdDirectory::Core {
     if (reply.outcome == Outcome::kUnknown && member == member_) {
       member_ = (member_ + 1) % options_.endpoints.size();
       ++counters_.endpoint_changes;
+      ++failed_members_;
     }
-    push(std::move(reply));
+    if (reply.outcome != Outcome::kUnknown || failed_members_ < options_.endpoints.size()) return push(std::move(reply));
+    held_back_.emplace_back(steady_clock::now() + kFailurePause, std::move(reply));
+    wake_.notify_all();
   }
   [[nodiscard]] gpr_timespec deadline() const {
     return gpr_time_add(gpr_now(GPR_CLOCK_MONOTONIC), gpr_time_from_nanos(options_.answer_limit.count(), GPR_TIMESPAN));
@@ -169,6 +177,7 @@ class EtcdDirectory::Core {
     if (told_) told_();
   }
   void run();
+  void pass_on_held_back();
   void begin_call(OperationId operation, const Request& request, std::size_t member);
   Member& member(std::size_t number);
 
@@ -179,6 +188,8 @@ class EtcdDirectory::Core {
   std::condition_variable wake_;
   std::deque<std::pair<OperationId, Request>> requests_;
   std::deque<Reply> replies_;
+  std::deque<std::pair<steady_clock::time_point, Reply>> held_back_;  ///< failures, with the time to pass them on
+  std::size_t failed_members_ = 0;                                    ///< changes of the member since the newest answer
   std::function<void()> told_;
   std::set<Context> contexts_;  ///< of the open calls
   std::size_t member_ = 0;
@@ -320,14 +331,27 @@ class OpenWatch final : public grpc::ClientBidiReactor<etcdserverpb::WatchReques
 void EtcdDirectory::Core::run() {
   std::unique_lock lock(mutex_);
   while (true) {
-    wake_.wait(lock, [this] { return stopped_ || !requests_.empty(); });
+    if (held_back_.empty())
+      wake_.wait(lock, [this] { return stopped_ || !requests_.empty() || !held_back_.empty(); });
+    else
+      wake_.wait_until(lock, held_back_.front().first, [this] { return stopped_ || !requests_.empty(); });
     if (stopped_) return;
+    pass_on_held_back();
+    if (requests_.empty()) continue;
     auto [operation, request] = std::move(requests_.front());
     requests_.pop_front();
     const std::size_t number = member_;
     lock.unlock();
     begin_call(operation, request, number);
     lock.lock();
+  }
+}
+
+void EtcdDirectory::Core::pass_on_held_back() {
+  const auto now = steady_clock::now();
+  while (!held_back_.empty() && held_back_.front().first <= now) {
+    push(std::move(held_back_.front().second));
+    held_back_.pop_front();
   }
 }
 
