@@ -11,8 +11,24 @@
 
 namespace tandem {
 
+namespace {
+
+/// Removes what lies behind the end of a session that was shortened: no reader of scenes accepts it.
+void cut_at_end(double end, pb::Scene& scene) {
+  auto& timeline = *scene.mutable_timeline();
+  timeline.erase(std::remove_if(timeline.begin(), timeline.end(), [&](const auto& step) { return step.at_s() >= end; }),
+                 timeline.end());
+  auto& phases = *scene.mutable_phase();
+  phases.erase(std::remove_if(phases.begin(), phases.end(), [&](const auto& phase) { return phase.from_s() >= end; }),
+               phases.end());
+  for (auto& phase : phases) phase.set_to_s(std::min(phase.to_s(), end));
+}
+
+}  // namespace
+
 std::size_t encode_scene(const SceneSpec& scene, std::span<char> out) {
-  const pb::Scene message = to_proto(scene);
+  pb::Scene message = to_proto(scene);
+  cut_at_end(scene.duration, message);
   const std::size_t size = message.ByteSizeLong();
   if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
   return size;

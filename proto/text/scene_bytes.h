@@ -11,7 +11,8 @@
 /// A whole scene as bytes: the server sends it to watchers, inside Welcome.
 namespace tandem {
 
-/// Writes the scene as the protobuf message tandem.pb.Scene, with every value in force.
+/// Writes the scene as the protobuf message tandem.pb.Scene, with every value in force. Phases and changes of authority
+/// that a shortened session does not reach are left out.
 /// @return bytes written; 0 if it does not fit into `out`
 [[nodiscard]] std::size_t encode_scene(const SceneSpec& scene, std::span<char> out);
 

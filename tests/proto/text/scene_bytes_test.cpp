@@ -35,6 +35,26 @@ TEST(SceneBytes, CarryEveryShippedScene) {
   }
 }
 
+TEST(SceneBytes, CarryEveryShippedSceneInAShorterSession) {
+  for (const EmbeddedFile& file : shipped_scenes()) {
+    auto scene = parse_scene(file.text, std::string(file.name) + ".textproto");
+    ASSERT_TRUE(scene);
+    for (const double end : {0.1, 5.0, 12.0, 15.0}) {
+      SCOPED_TRACE(std::string(file.name) + ", " + std::to_string(end) + " s");
+      scene->duration = end;
+      const auto back = decode_scene(encoded(*scene), std::string(file.name));
+      ASSERT_TRUE(back) << back.error().front().message;
+      EXPECT_EQ(back->duration, end);
+      EXPECT_EQ(back->seats.size(), scene->seats.size());
+      EXPECT_EQ(back->authority.size(), scene->authority.size());
+      for (const PhaseSpec& phase : back->phases) EXPECT_LE(phase.to, end);
+      std::size_t reached = 0;
+      for (const PhaseSpec& phase : scene->phases) reached += phase.from < end ? 1 : 0;
+      EXPECT_EQ(back->phases.size(), reached);
+    }
+  }
+}
+
 TEST(SceneBytes, DoNotFitIntoLessRoom) {
   const auto scene = parse_scene(find_shipped_scene("one_axis")->text, "one_axis.textproto");
   std::vector<char> room(encoded(*scene).size() - 1);
