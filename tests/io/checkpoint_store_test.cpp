@@ -57,7 +57,7 @@ class CheckpointStoreTest : public testing::Test {
     const std::lock_guard lock(lock_);
     reports_.push_back(text);
   }
-  /// What the store has reported.
+  /// Reports of the store so far.
   [[nodiscard]] std::vector<std::string> reports() {
     const std::lock_guard lock(lock_);
     return reports_;
