@@ -98,7 +98,7 @@ TEST_F(ServiceListTest, SaysThatASessionIsHeldOrMayBe) {
   EXPECT_NE(service_json(listed_of(reader, b.member, now_), now_).find("\"phase\":\"held\""), std::string::npos);
   list_seat(a, "lab", true);
   EXPECT_NE(text_now().find("lab: running, code"), std::string::npos) << text_now();
-  // Nobody reaches etcd: the owner holds its sessions, and cannot say so.
+  // No server reaches etcd: the owner holds its sessions, and cannot say so.
   for (Server* server : {&a, &b}) server->directory.cut = true;
   pass(12s);
   const std::string text = text_now();
