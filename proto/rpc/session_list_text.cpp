@@ -39,7 +39,9 @@ std::string session_list_text(const rpc::SessionList& list, const std::vector<st
                      seat.required ? "" : ", optional");
   }
   if (list.old)
-    text += "sessions of other servers may have changed: the server does not reach the service's directory\n";
+    text +=
+        "sessions of other servers may have changed, and running ones may be held: the server does not reach the "
+        "service's directory\n";
   if (list.more) text += "and more, which do not fit into one answer\n";
   return text;
 }

@@ -76,6 +76,10 @@ void ReportBuilder::add(const TickRecord& record) {
   const std::uint32_t stands_for = ticks_ > 0 && record.tick > newest_ ? record.tick - newest_ : 1;
   newest_ = record.tick;
   ticks_ += stands_for;
+  if (stands_for > std::max(1.0, kSpeedSpan * scene_->tick_hz)) {
+    sparse_ticks_ += stands_for;
+    ++sparse_records_;
+  }
   unleased_ticks_ += record.unleased ? stands_for : 0;
   track_stops(record);
   while (record.tick / stride_ >= slots_max_) decimate();
@@ -152,6 +156,10 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
   RunReport r;
   r.scenario = scene_->name;
   r.duration_s = static_cast<double>(ticks_) / scene_->tick_hz;
+  if (sparse()) {
+    r.sparse_s = static_cast<double>(sparse_ticks_) / scene_->tick_hz;
+    r.sparse_gap_s = r.sparse_s / static_cast<double>(sparse_records_);
+  }
   r.stopped_s = static_cast<double>(stopped_total_) / scene_->tick_hz;
   r.unleased_s = static_cast<double>(unleased_ticks_) / scene_->tick_hz;
   std::vector<Track> seats, tools;

@@ -38,7 +38,7 @@ struct SeatMetrics {
       force_error_commanded_rms_n = 0,  ///< error of the commanded one [N]
       force_error_percent = 0;          ///< share of the force [%]
   double effort_peak_n = 0,             ///< largest force of the motor [N]
-      speed_peak_m_s = 0;               ///< largest speed of the hand [m/s]
+      speed_peak_m_s = 0;               ///< largest speed of the hand [m/s]; NaN: no two samples are near enough
   /// Distance from the leading hand at the same session tick; NaN if no other seat led.
   double leader_offset_rms_m = 0;
 };
@@ -78,7 +78,10 @@ struct RunReport {
   double stopped_s = 0;    ///< time in which the session was stopped and its clock did not advance; not in `duration_s`
   double unleased_s = 0;   ///< time in which the directory of the service did not answer, so no hand was engaged
   double judged_s = 0;     ///< session time in which the metrics of at least one MASTER seat were evaluated
-  bool moved = false;      ///< a hand moved by more than ReportBuilder::kMoved while its seat was engaged
+  double sparse_s =
+      0;  ///< session time whose samples are more than ReportBuilder::kSpeedSpan apart; 0: a tenth at most
+  double sparse_gap_s = 0;            ///< mean interval between these samples [s]
+  bool moved = false;                 ///< a hand moved by more than ReportBuilder::kMoved while its seat was engaged
   std::vector<Violation> violations;  ///< violated invariants
   bool passed = true;                 ///< no violation but expected ones
   /// SHA-256 of the trace
@@ -110,6 +113,10 @@ class ReportBuilder {
   static constexpr std::size_t kSlotsMax =
       1'200'000;  ///< samples kept per seat: 20 min at 1 kHz; of longer runs every 2nd, 4th, ...
   static constexpr double kMoved = 0.002;  ///< smallest extent of a hand's path along an axis that counts as motion [m]
+  /// [s] Interval of speed differences: longer than encoder steps, shorter than motion.
+  static constexpr double kSpeedSpan = 0.005;
+  /// [s] The longest, where samples are sparse: the mean speed of a longer time is not that of the hand.
+  static constexpr double kSpeedSpanMax = 0.1;
   /// @param scene      must outlive the builder
   /// @param slots_max  as kSlotsMax, for tests
   explicit ReportBuilder(const SceneSpec& scene, std::size_t slots_max = kSlotsMax);
@@ -156,6 +163,8 @@ class ReportBuilder {
   /// @param of  windows; `outside` selects the time outside them
   [[nodiscard]] std::vector<char> usable_slots(const SeatAndSlave& pair, const std::vector<Window>& of,
                                                bool outside) const;
+  /// Samples of more than a tenth of the session are too far apart for kSpeedSpan.
+  [[nodiscard]] bool sparse() const noexcept { return sparse_ticks_ * 10 > ticks_; }
   [[nodiscard]] double rate() const noexcept {
     return scene_->tick_hz / static_cast<double>(stride_);
   }  ///< slots per second
@@ -174,6 +183,7 @@ class ReportBuilder {
   std::vector<std::uint32_t> engaged_since_, held_since_;
   std::vector<SeatRecord> last_;
   std::vector<double> mfs_;
+  std::uint64_t sparse_ticks_ = 0, sparse_records_ = 0;  ///< of records more than kSpeedSpan apart
   std::uint64_t ticks_ = 0, dropped_ticks_ = 0, stopped_ticks_ = 0, unleased_ticks_ = 0,
                 stopped_total_ = 0;  ///< stopped_ticks_: of the previous record; stopped_total_: sum
   std::uint32_t newest_ = 0;         ///< tick of the previous record

@@ -13,8 +13,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLagMax = 2.0;  // [s] longest lag in the search
 // [s] range around a dropped tick that it affects, by catching up and by the age of samples
 constexpr double kSlipReach = 0.15;
-// [s] interval of speed differences: longer than encoder steps, shorter than motion
-constexpr double kSpeedSpan = 0.005;
 
 double distance2(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   double sum = 0;
@@ -146,13 +144,19 @@ void ReportBuilder::find_peaks(const SeatAndSlave& pair, const ReportInterval& p
   const auto slipped_near = [&](std::size_t tick) {
     return std::ranges::any_of(slips_, [&](std::size_t slip) { return tick + reach >= slip && tick <= slip + reach; });
   };
+  // Sessions that nothing records have some 60 samples per second. A difference of neighbours is then the mean speed
+  // between them, which the fastest hand does not exceed.
+  const std::size_t longest = sparse() ? std::max(span, static_cast<std::size_t>(kSpeedSpanMax * rate())) : span;
+  if (sparse()) m.speed_peak_m_s = kNaN;
   for (std::size_t k = 0; k < n; ++k) {
     if (looked_at[k] == 0 || !s[k].known) continue;
     m.effort_peak_n = std::max(m.effort_peak_n, norm(s[k].f));
+    std::size_t back = span;
+    while (back < longest && k >= back && !s[k - back].known) ++back;
     // Differences across a gap in the samples, or where session time did not advance, give no valid speed.
-    if (k < span || !s[k - span].known || slipped_near(k * stride_)) continue;
-    m.speed_peak_m_s =
-        std::max(m.speed_peak_m_s, std::sqrt(distance2(s[k].x, s[k - span].x)) * rate() / static_cast<double>(span));
+    if (k < back || !s[k - back].known || slipped_near(k * stride_)) continue;
+    const double speed = std::sqrt(distance2(s[k].x, s[k - back].x)) * rate() / static_cast<double>(back);
+    m.speed_peak_m_s = std::fmax(m.speed_peak_m_s, speed);  // also of NaN
   }
 }
 

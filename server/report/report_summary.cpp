@@ -58,7 +58,7 @@ void put_row(std::string& out, const Labels& labels, const std::string& what, co
   out += format(kNumbers, cell(m.tracking_rms_m, 1e3, 2).c_str(), cell(m.tracking_rms_lag_removed_m, 1e3, 2).c_str(),
                 cell(m.transport_lag_rms_m, 1e3, 2).c_str(), cell(m.force_error_rms_n, 1, 3).c_str(),
                 cell(reached ? m.effort_peak_n : nothing, 1, 2).c_str(),
-                cell(reached ? m.speed_peak_m_s : nothing, 1, 2).c_str());
+                cell(reached ? m.speed_peak_m_s : nothing, 1, 3).c_str());
 }
 
 }  // namespace
@@ -87,7 +87,10 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   };
   for (const auto& p : r.phases) put_part(p);
   if (r.outside) put_part(*r.outside);
-  out += "  tracking: distance from hand to tool; lag free: the same without a constant lag; lag: by the delay alone\n";
+  out +=
+      "  tracking: distance from hand to tool; lag free: the same without a constant lag; lag: by the delay alone; "
+      "peak "
+      "and speed: the largest of the hand\n";
   std::string free;
   for (const auto& s : r.seats) {
     if (!s.taken) {
@@ -131,6 +134,11 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
         "engagement, and scripted pushes\n",
         r.judged_s, r.duration_s);
   }
+  if (r.sparse_s > 0)
+    out += format(
+        "  sampled every %.0f ms for %.1f of %.1f s: peaks between the samples are not in the table, and speed is the "
+        "mean between two of them; `--json`, `--trace` or `reports` sample every tick\n",
+        1e3 * r.sparse_gap_s, r.sparse_s, r.duration_s);
   for (const auto& v : r.violations)
     out += format("  %s invariant %s%s%s first at %.3f s, %llu times%s\n",
                   v.expected ? "broken, never promised:" : "BROKEN:", v.invariant.c_str(), v.seat.empty() ? "" : " at ",

@@ -24,10 +24,13 @@ struct ServiceList {
   struct Session {
     rpc::ListedSession listed;  ///< with its server, none if it has none now; without phase; no seats: not known
     std::string code;           ///< empty: tickets only
+    /// As its server has published it. A server whose sessions are HELD because it does not reach the directory cannot.
+    std::optional<rpc::SessionPhase> phase{};
     friend bool operator==(const Session&, const Session&) = default;
   };
   Known known = Known::kNothing;
-  std::vector<Session> sessions;  ///< of all servers, and those without a server, by name
+  std::vector<Session> sessions;   ///< of all servers, and those without a server, by name
+  std::optional<Time> answered{};  ///< kOld: time of the newest answer, of CLOCK_BOOTTIME, to a second
   friend bool operator==(const ServiceList&, const ServiceList&) = default;
 };
 
@@ -38,17 +41,18 @@ inline constexpr std::size_t kServiceListMax = std::size_t{8} << 20;
 [[nodiscard]] std::string to_text(const ServiceList& list);
 [[nodiscard]] std::optional<ServiceList> parse_service_list(std::string_view text);
 
-/// For users: a line per session with code, id and server, or why there is none. Ends with a line break.
-[[nodiscard]] std::string service_text(const ServiceList& others);
-/// As an object of JSON for machines: `directory` (now, old or nothing) and `sessions`.
-[[nodiscard]] std::string service_json(const ServiceList& others);
+/// For users: a line per session with phase, code, id and server, or why there is none. Ends with a line break.
+/// @param now  of CLOCK_BOOTTIME
+[[nodiscard]] std::string service_text(const ServiceList& others, Time now);
+/// As an object of JSON for machines: `directory` (now, old or nothing), `silent_s` if that is old, and `sessions`.
+[[nodiscard]] std::string service_json(const ServiceList& others, Time now);
 
 /// Makes the list of a member. Reads only the entries again that have changed.
 class ServiceListReader {
  public:
   /// Takes what the member knows. @return whether `list` may have changed
   [[nodiscard]] bool look(const ServiceMember& member, Time now);
-  /// Takes only whether the directory answers, which costs less. @return whether that has changed
+  /// Takes only whether the directory answers, and since when not, which costs less. @return whether that has changed
   [[nodiscard]] bool look_at_directory(const ServiceMember& member, Time now);
   /// The list as of the last look; takes longer than a look, and needs no member.
   [[nodiscard]] const ServiceList& list();
@@ -61,8 +65,10 @@ class ServiceListReader {
   struct Parsed {
     std::string text;
     std::vector<rpc::ListedSeat> seats;
+    std::optional<rpc::SessionPhase> phase{};
   };
   ServiceList::Known known_ = ServiceList::Known::kNothing;
+  std::optional<Time> answered_;  ///< unless the list is current
   std::map<std::string, Seen> seen_;
   std::map<std::string, Parsed> parsed_;
   ServiceList list_;

@@ -82,8 +82,9 @@ struct ServiceStatus {
   /// The copies follow the store, and its newest answer is no older than one and a half periods of renewal: a watch
   /// alone notices the silence of the store seconds later.
   bool current = false;
-  bool holding = true;  ///< no hand may be engaged
-  std::string trouble;  ///< the store's newest error since its last answer
+  std::optional<Time> answered{};  ///< time of the store's newest answer; nullopt: none yet
+  bool holding = true;             ///< no hand may be engaged
+  std::string trouble;             ///< the store's newest error since its last answer
   /// Time since the sending of the newest renewal that counts [s]; nullopt: no lease.
   std::optional<double> lease_age_s{};
   std::size_t owned = 0, members = 0, sessions = 0;

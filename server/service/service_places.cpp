@@ -129,6 +129,7 @@ ServiceStatus ServiceMember::status(Time now) const {
   status.follows = ownership_.view().follows() && catalogue_.follows();
   status.answers = answered_ && now - *answered_ < 2 * options_.times.answer_limit;
   status.current = status.follows && answered_ && now - *answered_ <= options_.times.renew_every * 3 / 2;
+  status.answered = answered_;
   status.holding = now >= keeper.hold_at();
   status.trouble = trouble_;
   if (keeper.lease() != 0) status.lease_age_s = seconds(now - keeper.hold_at() + options_.times.hold_after);

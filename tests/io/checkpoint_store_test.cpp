@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <mutex>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/support/file_faults.h"
 
@@ -19,7 +22,9 @@ class CheckpointStoreTest : public testing::Test {
   CheckpointStoreTest() {
     std::string name = (std::filesystem::temp_directory_path() / "tandem-store-XXXXXX").string();
     folder_ = mkdtemp(name.data());
-    auto opened = CheckpointStore::open(folder_, "", [](const std::string&) {});
+    auto opened = CheckpointStore::open(
+        folder_, "", [this](const std::string& text) { note("FAILS " + text); },
+        [this](const std::string& text) { note(text); });
     EXPECT_TRUE(opened) << opened.error();
     store_ = std::move(*opened);
     SessionSnapshot kept;
@@ -48,6 +53,15 @@ class CheckpointStoreTest : public testing::Test {
     for (int n = 0; n < 30000 && !condition(); ++n) std::this_thread::sleep_for(1ms);
     return condition();
   }
+  void note(const std::string& text) {
+    const std::lock_guard lock(lock_);
+    reports_.push_back(text);
+  }
+  /// Reports of the store so far.
+  [[nodiscard]] std::vector<std::string> reports() {
+    const std::lock_guard lock(lock_);
+    return reports_;
+  }
   /// Number of the newest stop in the file.
   [[nodiscard]] std::uint32_t stops_in_file() const {
     const auto bytes = auth::StateDirectory::open(folder_, auth::StateDirectory::Missing::kIsAnError)
@@ -56,6 +70,8 @@ class CheckpointStoreTest : public testing::Test {
                            .value();
     return bytes ? decode_snapshot(std::as_const(*bytes).bytes()).value().checkpoint.stops : 0;
   }
+  std::mutex lock_;
+  std::vector<std::string> reports_;
   std::string folder_;
   std::unique_ptr<CheckpointStore> store_;
   std::shared_ptr<CheckpointMailbox> mailbox_;
@@ -91,6 +107,36 @@ TEST_F(CheckpointStoreTest, SaysWhyAnOrderIsNotStoredUntilAWriteSucceeds) {
   EXPECT_EQ(stops_in_file(), 2u);
   EXPECT_EQ(mailbox_->stored().problem(), "");
   EXPECT_FALSE(mailbox_->stored().failed(2));
+}
+
+/// An operator who reads the log has to know that a restart continues the session again.
+TEST_F(CheckpointStoreTest, ReportsThatWritesFailAndThatTheySucceedAgainOnceEach) {
+  store_->start();
+  std::uint32_t orders = 0;
+  const auto write = [&](bool fails) {
+    fails ? test::inject(folder_, {.kind = FileFault::Kind::kNoSpace, .lasting = true}) : test::no_faults();
+    ++orders;
+    publish(orders, orders);
+    EXPECT_TRUE(wait_until([&] { return fails ? mailbox_->stored().failed(orders) : mailbox_->stored().has(orders); }));
+  };
+  write(false);
+  EXPECT_TRUE(reports().empty());
+  for (int n = 0; n < 4; ++n) {  // the disk has room for each second checkpoint
+    write(true);
+    write(false);
+  }
+  ASSERT_EQ(reports().size(), 1u) << reports().back();
+  EXPECT_EQ(reports()[0].find("FAILS session lab: "), 0u) << reports()[0];
+  EXPECT_TRUE(wait_until([&] {
+    publish(orders, orders);  // as the session does twice a second; nothing changes
+    return reports().size() > 1;
+  }));
+  EXPECT_EQ(reports().back(), "session lab: its checkpoints are written again; a restart continues it");
+  write(false);
+  EXPECT_EQ(reports().size(), 2u);
+  write(true);
+  EXPECT_TRUE(wait_until([&] { return reports().size() == 3; }));
+  EXPECT_EQ(reports().back().find("FAILS session lab: "), 0u);
 }
 
 /// The rename succeeds and the sync of the folder fails: the file may be either one, so the next one is written.

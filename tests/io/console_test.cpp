@@ -121,6 +121,27 @@ TEST(Control, RejectsInvalidCommandsWithTheAllowedValues) {
   EXPECT_NE(nobody.err().find("no server at 127.0.0.1:9"), std::string::npos) << nobody.err();
 }
 
+/// The hint is a command that an operator copies: it has the options of this console.
+TEST(Control, NamesTheCommandThatResumesAndTheNumberOfTheStop) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string address = address_of(host);
+  Process stop = console("stop danger\\nstatus\\nresume soon\\nresume 0\\n", {"--server", address});
+  EXPECT_EQ(stop.wait(), 2);
+  for (const std::string& words :
+       {std::string("STOPPED: all hands are released; `resume 1` ends it\n"),
+        "It can be ended by: an instructor (key r) or an operator (`tandem-client control --server " + address +
+            " --session free_motion resume`)"})
+    EXPECT_NE(stop.out().find(words), std::string::npos) << words << " not in " << stop.out();
+  for (const char* word : {"soon", "0"})
+    EXPECT_NE(
+        stop.err().find("resume: \"" + std::string(word) + "\" must be the number of a stop, as `status` shows it"),
+        std::string::npos)
+        << stop.err();
+  Process status = control(address, {"status"});
+  EXPECT_EQ(status.wait(), 0) << status.err();
+  EXPECT_NE(status.out().find("; `resume 1` ends it"), std::string::npos) << "no mistake resumed it: " << status.out();
+}
+
 TEST(Control, AcceptsExactlyOneOfTwoInstructorsChanges) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
@@ -285,6 +306,17 @@ TEST(MultiClientControl, AdmitsAnOperatorByASingleUseTicketAndAuditsEveryCommand
   Process seated = server({"ticket", "--session", "a", "--role", "operator", "--seat", "trainee", "--workstation",
                            "desk", "--state", fixture.state});
   EXPECT_EQ(seated.wait(), 2);
+}
+
+TEST(MultiClientControl, NamesTheFileOfATicketInTheCommandThatResumes) {
+  const MultiClientFixture fixture{"session { name: \"a\" scene: \"free_motion\" }"};
+  Process stop = console("pause\\nstatus\\n", {"--server", fixture.address, "--state", fixture.own, "--ticket",
+                                               operator_ticket(fixture, "operator")});
+  EXPECT_EQ(stop.wait(), 0) << stop.err();
+  EXPECT_NE(stop.out().find("`tandem-client control --server " + fixture.address + " --session a --state " +
+                            fixture.own + " --ticket-file FILE resume`"),
+            std::string::npos)
+      << stop.out();
 }
 
 TEST(MultiClientControl, RemovesOnlyTheSeatOfARevokedWorkstation) {

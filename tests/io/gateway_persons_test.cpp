@@ -104,6 +104,30 @@ TEST(GatewayPersons, WatchWithoutASeatAndGiveNoOrder) {
   }
 }
 
+/// Without a service a ticket admits once, so that only a new one helps.
+TEST(GatewayPersons, AndTheLogHearThatTheServerIsGoneForGood) {
+  Lesson lesson;
+  WebGateway own(lesson.address, {"--state", lesson.own, "--ticket", lesson.ticket_for({"--role", "operator"})});
+  WebGateway shared = lesson.gateway();
+  WebPage page = Lesson::page(shared, lesson.ticket_for({"--role", "operator"}));
+  EXPECT_FALSE(page.next("scene").is_null());
+  for (const WebGateway* gateway : {&own, &shared}) EXPECT_EQ(http_get(gateway->at, "/healthz").status, 200U);
+  lesson.host.signal(SIGKILL);
+  EXPECT_EQ(lesson.host.wait(), -SIGKILL);
+  const Json gone = page.until([](const Json& m) { return m["type"] == "notice" && m["server"] == "gone"; });
+  EXPECT_NE(gone["text"].get<std::string>().find("sign in again with a new ticket"), std::string::npos) << gone;
+  const auto ends = [](WebGateway& gateway, const std::string& remedy) {
+    EXPECT_TRUE(gateway.process.wait_for("; " + remedy + "\n")) << gateway.process.err();
+    EXPECT_NE(gateway.process.err().find("the connection to the server is gone ("), std::string::npos)
+        << gateway.process.err();
+    const HttpReply health = http_get(gateway.at, "/healthz");
+    EXPECT_EQ(health.status, 503U);
+    EXPECT_NE(health.body.find("; a new ticket is needed\n"), std::string::npos) << health.body;
+  };
+  ends(own, "start this program again with a new ticket");
+  ends(shared, "persons must sign in again with a new ticket");
+}
+
 TEST(GatewayPersons, SeeLiveValuesAfterTheFirstOneLeft) {
   const Lesson lesson;
   const WebGateway gateway = lesson.gateway({"--return-within", "1"});

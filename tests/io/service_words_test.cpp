@@ -162,6 +162,24 @@ TEST_F(ServiceWords, AServerIsReadyWhileItIsAMemberAndItsDirectoryAnswers) {
   wait_until_readiness_says(metrics, "200 OK");
 }
 
+/// The server that has the session holds it, and cannot write that into the directory.
+TEST_F(ServiceWords, AnotherServerSaysThatASessionMayBeHeldWhileTheDirectoryIsSilent) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 1);
+  service.start("b");
+  const Words asked{"sessions", "--state", service.folder().file("b")};
+  wait_for_output(asked, "\nlab: waiting, code ");
+  service.etcd().process().signal(SIGSTOP);
+  ASSERT_TRUE(a.wait_for("1 session HELD")) << a.err();
+  const std::string text =
+      wait_for_output(asked, "may be held: the directory of the service does not answer now (last answer ");
+  EXPECT_TRUE(contains(text, "\nlab: was waiting, code ")) << text;
+  wait_for_output({"sessions", "--state", service.folder().file("a")}, "\nlab: held, ");
+  service.etcd().process().signal(SIGCONT);
+  wait_for_output(asked, "\nlab: waiting, ");  // at server a, or taken over by b
+}
+
 TEST_F(ServiceWords, AServerWhoseVoucherExpiresSoonWarnsAndTellsTheTime) {
   LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
   service.set("a", {.vouch = {"--days", "20"}});

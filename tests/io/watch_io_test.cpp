@@ -135,7 +135,23 @@ TEST(WatchLive, SaysThatTheServerWasLost) {
   ASSERT_TRUE(seen.wait_for("s waiting")) << seen.err();
   host.signal(SIGKILL);
   EXPECT_EQ(seen.wait(), 1);
-  EXPECT_NE(seen.err().find("tandem-client watch: the server"), std::string::npos) << seen.err();
+  EXPECT_NE(seen.err().find("tandem-client watch: the server ended this connection: it has ended, was killed or is "
+                            "being restarted. Start again when it is back; a ticket is valid once\n"),
+            std::string::npos)
+      << seen.err();
+}
+
+/// Its connection stays open, so that only the silence shows it.
+TEST(WatchLive, SaysThatAServerThatStandsStillWasLost) {
+  Process host = hosting("one_axis");
+  Process seen = watch(address_of(host));
+  ASSERT_TRUE(seen.wait_for("s waiting")) << seen.err();
+  host.signal(SIGSTOP);
+  EXPECT_EQ(seen.wait(), 1);
+  EXPECT_NE(seen.err().find("tandem-client watch: the server was lost: no datagram for 3 s. Start again"),
+            std::string::npos)
+      << seen.err();
+  host.signal(SIGCONT);
 }
 
 TEST(WatchLive, ReportsWrongArgumentsAndMissingServers) {

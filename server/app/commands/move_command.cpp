@@ -70,8 +70,8 @@ int keep_session(ServiceQuery& service, const std::string& session, const std::s
   if (service.wait(kMoveMax, [&] { return home_of(service, session) == home; }))
     return report(at + (home.empty() ? " now" : "; from now on it stays there"));
   return print_error("move", "the server of session " + session +
-                                 " did not take the order within 10 s; its log has the cause, and `tandem-server "
-                                 "servers` says whether it has an older version, which does not know it");
+                                 " did not take the order within 10 s; `tandem-server servers` says whether it is "
+                                 "registered, and whether it has an older version, which does not know this order");
 }
 
 int move_command(const MoveArguments& arguments) {
@@ -94,8 +94,8 @@ int move_command(const MoveArguments& arguments) {
   });
   if (!moved)
     return print_error("move", "session " + session +
-                                   " did not move within 10 s; the log of its server has "
-                                   "the cause, and `tandem-server servers` shows where it is");
+                                   " did not move within 10 s; `tandem-server servers` shows where it is, and a line "
+                                   "MOVES in the log of its server whether it took the order");
   return report("session " + session + " is at server " + arguments.to + " now");
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/io/clock.h"
 #include "common/io/command_line.h"
 #include "proto/rpc/session_list_text.h"
 #include "server/app/commands/server_commands.h"
@@ -45,9 +46,10 @@ int sessions_command(const SessionsArguments& arguments) {
   if (*service) {
     const ServiceList others = without(**service, list);
     if (arguments.json)
-      text.insert(text.rfind('}'), ", \"service\": " + service_json(others));
+      text.insert(text.rfind('}'), ", \"service\": " + service_json(others, io::boottime_now()));
     else
-      text = (list.sessions.empty() ? "this server serves no session now\n" : text) + service_text(others);
+      text = (list.sessions.empty() ? "this server serves no session now\n" : text) +
+             service_text(others, io::boottime_now());
   }
   if (!arguments.json) std::printf("server at %s\n", (*serving)->address.c_str());
   std::fputs(text.c_str(), stdout);

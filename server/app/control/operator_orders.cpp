@@ -24,12 +24,14 @@ std::string with_reason(const std::string& text, const std::string& why) {
 
 }  // namespace
 
-std::optional<ErrorReply> SessionCommands::holder_problem(const rpc::CreateSession& wanted) const {
+std::optional<ErrorReply> SessionCommands::holder_problem(const rpc::CreateSession& wanted) {
   if (wanted.holders.empty()) return std::nullopt;
   const auto workstations = audit_.registry().workstations();
-  if (!workstations)
+  if (!workstations) {
+    report_failure({}, workstations.error());
     return ErrorReply{ErrorCode::kInternal,
                       "the server cannot read its registry of workstations; its log has the cause", 0};
+  }
   for (const rpc::SeatHolder& holder : wanted.holders) {
     const std::string whose = !holder.seat.empty()     ? "seat " + holder.seat
                               : !holder.person.empty() ? holder.person

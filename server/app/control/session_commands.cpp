@@ -157,12 +157,17 @@ std::optional<ErrorReply> SessionCommands::store(SessionEntry& entry, const rpc:
   if (std::string problem = entry.notes.problem(kept); !problem.empty())
     return ErrorReply{ErrorCode::kNotAllowed, std::move(problem), 0};
   if (const std::string problem = on_note_ ? on_note_(stored) : std::string{}; !problem.empty()) {
-    io::log_event(io::Level::kError, {.event = "error", .session = joined.session_name, .text = problem});
+    report_failure(joined.session_name, problem);
     return ErrorReply{ErrorCode::kInternal, "the server cannot store the note; its log has the cause", 0};
   }
   entry.notes.add(std::move(kept));
   if (entry.registration.recording) entry.registration.recording->add_note(stored);
   return std::nullopt;
+}
+
+void SessionCommands::report_failure(const std::string& session, const std::string& problem) {
+  if (on_message_) on_message_((session.empty() ? "" : session + ": ") + problem);  // log_event is for JSON logs only
+  io::log_event(io::Level::kError, {.event = "error", .session = session, .text = problem});
 }
 
 void SessionCommands::record(SessionEntry& entry, const std::string& who, const SessionCommand& command,

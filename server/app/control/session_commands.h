@@ -61,11 +61,14 @@ class SessionCommands {
   void complete(rpc::SessionCreated& created, const rpc::CreateSession& wanted, const std::string& who);
   /// Tells participants, operator and audit log of a recording that was started or ended by an order.
   void conclude_recording(const rpc::RecordSession& order, const std::string& who);
-  [[nodiscard]] std::optional<rpc::ErrorReply> holder_problem(const rpc::CreateSession& wanted) const;
+  [[nodiscard]] std::optional<rpc::ErrorReply> holder_problem(const rpc::CreateSession& wanted);
   /// Stores a note that the session has accepted. @return why it is rejected
   [[nodiscard]] std::optional<rpc::ErrorReply> store(SessionEntry& entry, const rpc::Welcome& joined,
                                                      const std::string& workstation, const rpc::Note& note,
                                                      const CommandOutcome& outcome);
+  /// Logs the cause of a failure of the server: the reply to the client names only that there is one.
+  /// @param session  its name; empty: none
+  void report_failure(const std::string& session, const std::string& problem);
   /// Replies to an executed command.
   /// @param who   workstation, role and seat of the client
   [[nodiscard]] rpc::Body conclude(SessionEntry& entry, const rpc::Welcome& joined, const std::string& workstation,

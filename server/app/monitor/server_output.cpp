@@ -52,6 +52,11 @@ void ServerOutput::post_checkpoint_error(const std::string& what) {
   posted_.add(io::Level::kError, "checkpoint: " + what);
 }
 
+void ServerOutput::post_checkpoint_recovery(const std::string& what) {
+  if (io::logs_json()) return io::log_event(io::Level::kWarn, {.event = "checkpoint_recovered", .text = what});
+  posted_.add(io::Level::kWarn, "checkpoint: " + what);
+}
+
 void ServerOutput::post_message(const std::string& text) {
   if (!io::logs_json()) posted_.add(io::Level::kInfo, text);
 }

@@ -37,6 +37,8 @@ class ServerOutput {
   void post_control_event(const ControlEventRecord& news);
   /// Reports an error of the checkpoint store.
   void post_checkpoint_error(const std::string& what);
+  /// Reports that the store writes again.
+  void post_checkpoint_recovery(const std::string& what);
   /// Reports an executed command. A JSON log has it already.
   void post_message(const std::string& text);
   /// Prints the posted messages.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/auth/io/state_directory.h"
+#include "common/io/clock.h"
 #include "common/io/thread_without_signals.h"
 
 namespace tandem::server {
@@ -31,17 +32,22 @@ std::string without_path(const std::string& problem, const std::string& path) {
 }  // namespace
 
 CheckpointStore::CheckpointStore(auth::StateDirectory folder, std::string prefix,
-                                 std::function<void(const std::string&)> trouble)
-    : folder_(std::move(folder)), prefix_(std::move(prefix)), on_error_(std::move(trouble)) {}
+                                 std::function<void(const std::string&)> trouble,
+                                 std::function<void(const std::string&)> recovered)
+    : folder_(std::move(folder)),
+      prefix_(std::move(prefix)),
+      on_error_(std::move(trouble)),
+      on_recovered_(std::move(recovered)) {}
 
 CheckpointStore::~CheckpointStore() { stop(); }
 
 std::expected<std::unique_ptr<CheckpointStore>, std::string> CheckpointStore::open(
-    const std::string& path, std::string prefix, std::function<void(const std::string&)> trouble) {
+    const std::string& path, std::string prefix, std::function<void(const std::string&)> trouble,
+    std::function<void(const std::string&)> recovered) {
   auto folder = auth::StateDirectory::open(path, auth::StateDirectory::Missing::kIsMade);
   if (!folder) return std::unexpected(folder.error());
   return std::unique_ptr<CheckpointStore>(
-      new CheckpointStore(std::move(*folder), std::move(prefix), std::move(trouble)));
+      new CheckpointStore(std::move(*folder), std::move(prefix), std::move(trouble), std::move(recovered)));
 }
 
 /// Replaces all characters that a file name should not contain by dashes: names come from file names and addresses.
@@ -188,8 +194,10 @@ void CheckpointStore::write(Entry& entry, const Checkpoint& checkpoint) {
   bytes.resize(encode_checkpoint(checkpoint, bytes));
   const std::int64_t now = auth::wall_seconds();
   StoredOrders& stored = entry.mailbox->stored();
-  if (bytes == entry.written && now - entry.snapshot.written_s < kRefreshS && now >= entry.snapshot.written_s)
-    return stored.set_stored(checkpoint.orders);
+  if (bytes == entry.written && now - entry.snapshot.written_s < kRefreshS && now >= entry.snapshot.written_s) {
+    stored.set_stored(checkpoint.orders);
+    return report(entry, {});
+  }
   entry.snapshot.checkpoint = checkpoint;
   entry.snapshot.written_s = now;
   const std::string file = file_of(entry.snapshot.name);
@@ -201,9 +209,23 @@ void CheckpointStore::write(Entry& entry, const Checkpoint& checkpoint) {
     entry.written.clear();  // the file may be either one
     stored.set_failed(checkpoint.orders, without_path(problem, folder_.path_of(file)));
   }
-  const bool before = std::exchange(entry.failing, !problem.empty());
-  if (!problem.empty() && !before)
-    on_error_("session " + entry.snapshot.name + ": " + problem + "; after a crash it would start from the beginning");
+  report(entry, problem);
+}
+
+void CheckpointStore::report(Entry& entry, const std::string& problem) {
+  const std::string session = "session " + entry.snapshot.name + ": ";
+  if (!problem.empty()) {
+    entry.works_since = {};
+    if (!std::exchange(entry.failing, true))
+      on_error_(session + problem + "; after a crash it would start from the beginning");
+    return;
+  }
+  if (!entry.failing) return;
+  const Time now = io::monotonic_now();
+  if (entry.works_since == Time{}) entry.works_since = now;
+  if (now - entry.works_since < kCalm) return;
+  entry.failing = false;
+  if (on_recovered_) on_recovered_(session + "its checkpoints are written again; a restart continues it");
 }
 
 }  // namespace tandem::server

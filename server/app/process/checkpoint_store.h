@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/auth/io/state_directory.h"
+#include "common/base/time.h"
 #include "common/io/event_fd.h"
 #include "server/app/process/snapshot_keeper.h"
 #include "server/session/session_snapshot.h"
@@ -27,10 +28,14 @@ class CheckpointStore final : public SnapshotKeeper {
  public:
   /// @param folder   directory for its owner only; created if missing
   /// @param prefix   of the file names, to distinguish servers that share a directory
-  /// @param trouble  receives write errors on the store's thread, once per session until a write succeeds. The
-  /// mailbox of the session has them too (CheckpointMailbox::stored).
+  /// @param trouble    receives write errors on the store's thread, once per session until its writes succeed again for
+  /// kCalm. The mailbox of the session has each of them (CheckpointMailbox::stored).
+  /// @param recovered  receives that they do, on the same thread
   [[nodiscard]] static std::expected<std::unique_ptr<CheckpointStore>, std::string> open(
-      const std::string& folder, std::string prefix, std::function<void(const std::string&)> trouble);
+      const std::string& folder, std::string prefix, std::function<void(const std::string&)> trouble,
+      std::function<void(const std::string&)> recovered = {});
+  /// A disk that fails each second time is reported once.
+  static constexpr Duration kCalm = std::chrono::seconds(2);
   ~CheckpointStore() override;
 
   // ---- Before `start` ----
@@ -65,18 +70,22 @@ class CheckpointStore final : public SnapshotKeeper {
     std::optional<std::vector<std::array<std::byte, 32>>> removed_workstations{};
     std::optional<std::vector<std::string>> persons{};  ///< the same
     std::vector<std::byte> written{};                   ///< bytes of the checkpoint in the file; empty: not known
-    bool failing = false, gone = false;
+    bool failing = false, gone = false;                 ///< failing: reported, and not over for kCalm
+    Time works_since{};                                 ///< failing: of the first write after the last error; 0: none
   };
 
-  CheckpointStore(auth::StateDirectory folder, std::string prefix, std::function<void(const std::string&)> trouble);
+  CheckpointStore(auth::StateDirectory folder, std::string prefix, std::function<void(const std::string&)> trouble,
+                  std::function<void(const std::string&)> recovered);
   [[nodiscard]] std::string file_of(const std::string& name) const;
   void run();
   void service_entry(Entry& entry);
   void write(Entry& entry, const Checkpoint& checkpoint);
+  /// @param problem  of a write; empty: it succeeded, or the file has the checkpoint already
+  void report(Entry& entry, const std::string& problem);
 
   auth::StateDirectory folder_;
   std::string prefix_;
-  std::function<void(const std::string&)> on_error_;
+  std::function<void(const std::string&)> on_error_, on_recovered_;
   io::EventFd wake_;
   std::mutex lock_;  ///< guards `entries_`; not held during a write
   std::list<std::shared_ptr<Entry>> entries_;

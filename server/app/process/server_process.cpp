@@ -108,9 +108,10 @@ class ServerProcess {
   /// not stored.
   std::string open_checkpoint_store() {
     if (control_->ephemeral_keys() && options_.control.listen.port() == 0) return {};
-    auto opened = CheckpointStore::open(control_->folder(),
-                                        control_->ephemeral_keys() ? io::to_text(options_.control.listen) + "-" : "",
-                                        [this](const std::string& what) { output_.post_checkpoint_error(what); });
+    auto opened = CheckpointStore::open(
+        control_->folder(), control_->ephemeral_keys() ? io::to_text(options_.control.listen) + "-" : "",
+        [this](const std::string& what) { output_.post_checkpoint_error(what); },
+        [this](const std::string& what) { output_.post_checkpoint_recovery(what); });
     if (!opened) return opened.error();
     checkpoints_ = std::move(*opened);
     return {};

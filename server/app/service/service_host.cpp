@@ -14,6 +14,7 @@
 #include "server/app/service/service_config.h"
 #include "server/app/service/service_specs.h"
 #include "server/directory/io/etcd_directory.h"
+#include "server/service/published_load.h"
 #include "server/service/service_consoles.h"
 
 namespace tandem::server {
@@ -22,7 +23,6 @@ namespace {
 constexpr Duration kPublishInterval = std::chrono::seconds(1);
 constexpr Duration kFormerRunMax = std::chrono::seconds(5);  // to end here before the next one opens
 constexpr Duration kLeaveMax = std::chrono::milliseconds(800);
-constexpr double kLoadStep = 0.05;      // [cores] a smaller change of the load writes nothing
 constexpr double kExpectedStep = 0.01;  // [cores] of the expected load, which changes with the sessions only
 
 std::uint64_t drawn_seed() {
@@ -275,7 +275,7 @@ void ServiceHost::set_act_until() {
 void ServiceHost::publish_load() {
   double used = 0;
   for (const auto& shard : parts_.shards.all()) used += shard->load().cpu_share();
-  record_.used = kLoadStep * std::round(used / kLoadStep);
+  record_.used = published_load(record_.used, used);
   std::vector<SessionLoad> loads;
   double expected = 0;
   for (SessionUse& use : parts_.sessions.uses()) {

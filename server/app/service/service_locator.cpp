@@ -57,6 +57,7 @@ std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
       if (!entry.spec || owner == server_) continue;
       Elsewhere there{{entry.spec->id, name, {}, {}}, std::move(owner)};
       static_cast<void>(read_listed(entry.listed_text, there.session));
+      if (there.server.empty()) there.session.phase = rpc::SessionPhase::kWaiting;  // its last server left the text
       list.push_back(std::move(there));
     }
     return list;

@@ -25,19 +25,21 @@ struct LivedThrough {
     for (int n = static_cast<int>(std::lround(seconds * spec.tick_hz)); n > 0; --n) {
       TickRecord r;
       r.tick = ++tick;
+      if (tick % every != 0) continue;
       r.running = true;
       r.stopped_ticks = stood;
-      const double x = amplitude * std::sin(2 * 3.14159265358979 * 0.5 * tick / spec.tick_hz);
+      const std::uint32_t sampled = tick - (every > 1 && tick / every % 2 == 0 ? 1 : 0);
+      const double x = amplitude * std::sin(2 * 3.14159265358979 * 0.5 * sampled / spec.tick_hz);
       for (std::size_t i = 0; i < spec.seats.size(); ++i) {
         r.seats[i].x = {x + offset, 0, 0};
         r.seats[i].f_out = {offset * 100, 0, 0};
         r.seats[i].engaged = engaged;
-        r.seats[i].sample_tick = tick;
+        r.seats[i].sample_tick = sampled;
       }
       for (std::size_t j = 0; j < spec.tools.size(); ++j) {
         r.tools[j].x = {x, 0, 0};
         r.tools[j].held = false;
-        r.tools[j].sample_tick = tick;
+        r.tools[j].sample_tick = sampled;
       }
       builder.add(r);
     }
@@ -50,6 +52,8 @@ struct LivedThrough {
   SceneSpec spec;
   ReportBuilder builder;
   std::uint32_t tick = 0;
+  std::uint32_t every =
+      1;  ///< interval of records [ticks]; above 1: every second sample is a tick older than its record
   std::uint64_t stood = 0;  ///< ticks for which the clock was stopped so far
 };
 
@@ -68,6 +72,38 @@ TEST(Report, CoversTheWholeSessionWhereASceneHasNoPhases) {
   EXPECT_NE(words.find("whole session"), std::string::npos) << words;
   EXPECT_NE(words.find("; lag free: the same without a constant lag; "), std::string::npos) << words;
   EXPECT_NE(words.find("judged: 29.0 of 30.0 s"), std::string::npos) << words;
+}
+
+// A session without --json, --trace, reports and recording.
+TEST(Report, GivesTheSpeedOfSparseSamplesAndSaysThatTheyAreSparse) {
+  LivedThrough whole{scene("lesson")}, sparse{scene("lesson")};
+  sparse.every = 17;
+  for (LivedThrough* run : {&whole, &sparse}) run->live(30, 0.004, 0.05);
+  const RunReport r = sparse.report(), all = whole.report();
+  const double peak = 2 * 3.14159265358979 * 0.5 * 0.05;  // 0.157 m/s
+  EXPECT_NEAR(all.seats[0].metrics.speed_peak_m_s, peak, 0.001);
+  EXPECT_NEAR(r.seats[0].metrics.speed_peak_m_s, peak, 0.001);
+  EXPECT_NEAR(r.seats[0].metrics.tracking_rms_m, 0.004, 1e-4);
+  EXPECT_NEAR(r.sparse_s, 30, 0.05);
+  const std::string words = report_summary(r, sparse.spec);
+  EXPECT_NE(words.find("sampled every 17 ms for 30.0 of 30.0 s: "), std::string::npos) << words;
+  EXPECT_EQ(report_summary(all, whole.spec).find("sampled every"), std::string::npos);
+}
+
+TEST(Report, GivesNoSpeedOfSamplesThatAreTooFarApart) {
+  LivedThrough run{scene("lesson")};
+  run.every = 200;
+  run.live(30, 0.004);
+  const RunReport r = run.report();
+  EXPECT_TRUE(std::isnan(r.seats[0].metrics.speed_peak_m_s)) << r.seats[0].metrics.speed_peak_m_s;
+}
+
+// A hand that creeps is not one that rests.
+TEST(Report, ShowsSpeedsBelowOneCentimetrePerSecond) {
+  LivedThrough run{scene("lesson")};
+  run.live(30, 0.004, 0.0011);  // 3.5 mm/s
+  const std::string words = report_summary(run.report(), run.spec);
+  EXPECT_NE(words.find(" 0.003\n"), std::string::npos) << words;
 }
 
 TEST(Report, NamesSeatsThatWereNotTakenInOneLine) {

@@ -16,8 +16,10 @@ ServiceList listed_of(ServiceListReader& reader, const ServiceMember& member, Ti
 
 struct ServiceListTest : ServiceTest {
   /// Publishes phase and seats of a session, as its server does.
-  void list_seat(Server& server, const std::string& session, bool taken) {
+  void list_seat(Server& server, const std::string& session, bool taken,
+                 rpc::SessionPhase phase = rpc::SessionPhase::kRunning) {
     rpc::ListedSession listed;
+    listed.phase = phase;
     listed.seats = {{"trainee", AccessRole::kTrainee, taken, true}};
     server.member.set_listed(session, listed_text(listed));
     pass(1s);
@@ -38,8 +40,8 @@ TEST_F(ServiceListTest, NamesTheSessionsOfOtherServersWithTheirSeats) {
             (rpc::ListedSession{session_spec(1).id, "lab", {}, {{"trainee", AccessRole::kTrainee, false, true}}, "a"}));
   EXPECT_EQ(parse_service_list(to_text(list)), list);
   EXPECT_FALSE(reader.look(b.member, now_)) << "nothing changed";
-  const std::string text = service_text(list);
-  for (const char* words : {"lab: code CODE0-00001", "server a"})
+  const std::string text = service_text(list, now_);
+  for (const char* words : {"lab: running, code CODE0-00001", "server a"})
     EXPECT_NE(text.find(words), std::string::npos) << text;
 }
 
@@ -60,7 +62,7 @@ TEST_F(ServiceListTest, FollowsEndsOfSessionsAndTheLossOfTheirServer) {
   const ServiceList list = listed_of(of_c, c.member, now_);
   ASSERT_EQ(list.sessions.size(), 1U);
   EXPECT_EQ(list.sessions[0].listed.server, "");
-  EXPECT_NE(service_text(list).find("no server now"), std::string::npos);
+  EXPECT_NE(service_text(list, now_).find("no server now"), std::string::npos);
 }
 
 TEST_F(ServiceListTest, SaysWhatTheDirectoryHasTold) {
@@ -72,7 +74,7 @@ TEST_F(ServiceListTest, SaysWhatTheDirectoryHasTold) {
   const ServiceList old = listed_of(reader, a.member, now_);
   EXPECT_EQ(old.known, Known::kOld);
   EXPECT_EQ(old.sessions.size(), 1U);
-  EXPECT_NE(service_text(old).find("may have changed"), std::string::npos);
+  EXPECT_NE(service_text(old, now_).find("may have changed"), std::string::npos);
   directory::ModelStore store;
   Server never(store, {.server = "b"});
   never.directory.cut = true;
@@ -80,8 +82,47 @@ TEST_F(ServiceListTest, SaysWhatTheDirectoryHasTold) {
   ServiceListReader of_never;
   const ServiceList nothing = listed_of(of_never, never.member, now_);
   EXPECT_EQ(nothing.known, Known::kNothing);
-  EXPECT_NE(service_text(nothing).find("has not answered this server yet"), std::string::npos);
-  EXPECT_EQ(service_text({.known = Known::kNow, .sessions = {}}), "the service has no other session\n");
+  EXPECT_NE(service_text(nothing, now_).find("has not answered this server yet"), std::string::npos);
+  EXPECT_EQ(service_text({.known = Known::kNow, .sessions = {}, .answered = {}}, now_),
+            "the service has no other session\n");
+}
+
+TEST_F(ServiceListTest, SaysThatASessionIsHeldOrMayBe) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  ServiceListReader reader;
+  const auto text_now = [&] { return service_text(listed_of(reader, b.member, now_), now_); };
+  EXPECT_NE(text_now().find("lab: code"), std::string::npos) << "nothing published yet: " << text_now();
+  list_seat(a, "lab", true, rpc::SessionPhase::kHeld);
+  EXPECT_NE(text_now().find("lab: held, code"), std::string::npos) << text_now();
+  EXPECT_NE(service_json(listed_of(reader, b.member, now_), now_).find("\"phase\":\"held\""), std::string::npos);
+  list_seat(a, "lab", true);
+  EXPECT_NE(text_now().find("lab: running, code"), std::string::npos) << text_now();
+  // No server reaches etcd: the owner holds its sessions, and cannot say so.
+  for (Server* server : {&a, &b}) server->directory.cut = true;
+  pass(12s);
+  const std::string text = text_now();
+  for (const char* words : {"lab: was running, code", "running ones may be held", "(last answer 1"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << " not in " << text;
+  const ServiceList list = listed_of(reader, b.member, now_);
+  EXPECT_EQ(parse_service_list(to_text(list)), list);
+  EXPECT_NE(service_json(list, now_).find("\"silent_s\":1"), std::string::npos) << service_json(list, now_);
+  const std::string written = to_text(list);
+  pass(5s);
+  EXPECT_FALSE(reader.look(b.member, now_)) << "the file has the time of the answer, not its age";
+  EXPECT_EQ(to_text(reader.list()), written);
+}
+
+// The text of its last server stays in the directory.
+TEST_F(ServiceListTest, NamesNoPhaseOfASessionWithoutServer) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  list_seat(a, "lab", true);
+  a.runs = false;
+  pass(5s);
+  Server& c = start("c");
+  ServiceListReader reader;
+  const std::string text = service_text(listed_of(reader, c.member, now_), now_);
+  EXPECT_NE(text.find("lab: code"), std::string::npos) << text;
 }
 
 TEST_F(ServiceListTest, IsOldOnceAnAnswerOfTheDirectoryIsOverdue) {
@@ -102,7 +143,7 @@ TEST_F(ServiceListTest, IsOldOnceAnAnswerOfTheDirectoryIsOverdue) {
 }
 
 TEST(ServiceList, RejectsOtherTexts) {
-  ServiceList list{.known = Known::kOld, .sessions = {}};
+  ServiceList list{.known = Known::kOld, .sessions = {}, .answered = Time{} + 7s};
   list.sessions.push_back(
       {{session_spec(3).id, "lab", {}, {{"trainer", AccessRole::kInstructor, false, true}}, "a"}, ""});
   const std::string text = to_text(list);
@@ -115,15 +156,16 @@ TEST(ServiceList, RejectsOtherTexts) {
     rejected += parse_service_list(flipped) ? 0 : 1;
   }
   EXPECT_GT(rejected, text.size() / 3);
-  for (const char* other :
-       {"[]", "{\"directory\":\"soon\",\"sessions\":[]}", "{\"directory\":\"now\",\"sessions\":[1]}",
-        "{\"directory\":\"now\",\"sessions\":[{\"id\":\"00\",\"name\":\"x\",\"seats\":[]}]}"})
+  for (const char* other : {"[]", "{\"directory\":\"old\",\"answered_s\":-1,\"sessions\":[]}",
+                            "{\"directory\":\"old\",\"answered_s\":1e300,\"sessions\":[]}",
+                            "{\"directory\":\"soon\",\"sessions\":[]}", "{\"directory\":\"now\",\"sessions\":[1]}",
+                            "{\"directory\":\"now\",\"sessions\":[{\"id\":\"00\",\"name\":\"x\",\"seats\":[]}]}"})
     EXPECT_FALSE(parse_service_list(other)) << other;
 }
 
 TEST(ServiceList, LeavesSeatsOutBeforeTheFileIsTooLong) {
   constexpr std::size_t kWithSeats = 5000;
-  ServiceList list{.known = Known::kNow, .sessions = {}};
+  ServiceList list{.known = Known::kNow, .sessions = {}, .answered = {}};
   for (std::size_t i = 0; i < ServiceCatalogue::kSessionsMax; ++i) {
     ServiceList::Session session{
         {session_spec(static_cast<int>(i)).id, std::string(60, 'n'), {}, {}, std::string(60, 's')}, "CODE000001"};

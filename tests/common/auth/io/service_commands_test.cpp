@@ -91,6 +91,11 @@ TEST_F(Beside, SessionsShowsTheWholeServiceAndWhatTheDirectoryHasTold) {
   EXPECT_NE(process->out().find("\"service\": {\"directory\":\"now\",\"sessions\":[{\"code\":\"ZZZZZ12345\""),
             std::string::npos)
       << process->out();
+  std::string held = exam();
+  held.insert(1, "\"phase\":\"held\",");
+  know("now", held);
+  ASSERT_EQ(run({"sessions"}), 0);
+  EXPECT_NE(process->out().find("\nexam: held, code ZZZZZ-12345"), std::string::npos) << process->out();
   write("serving.textproto", print_serving({"lab:7000", {}}));
   know("nothing", "");
   ASSERT_EQ(run({"sessions"}), 0);

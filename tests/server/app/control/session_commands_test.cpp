@@ -4,6 +4,7 @@
 #include "common/io/clock.h"
 #include "server/app/control/note_check.h"
 #include "server/session/connection_id.h"
+#include "tests/common/auth/io/temporary_folder.h"
 #include "tests/server/app/control/commanding.h"
 
 namespace tandem::server {
@@ -133,6 +134,7 @@ TEST(SessionCommands, PassANoteWithItsAuthorAndTime) {
   problem = "no space";
   EXPECT_EQ(error_of(c.ask(rpc::Note{id_of(1), rpc::NoteKind::kMark, "{}"})).code, ErrorCode::kInternal)
       << "a note that is not stored is not confirmed";
+  EXPECT_EQ(c.messages, std::vector<std::string>{"lesson: no space"}) << "the reply says that the log has the cause";
 }
 
 TEST(SessionCommands, NameThePersonOfTheTicket) {
@@ -227,6 +229,24 @@ TEST(SessionCommands, GiveTicketsToPersonsWithAndWithoutASeat) {
   EXPECT_EQ(tickets[1].role, AccessRole::kEvaluator);
   EXPECT_EQ(ticket_of(2).person, "");
   EXPECT_EQ(ticket_of(2).role, AccessRole::kRecorder);
+}
+
+TEST(SessionCommands, LogWhyTheRegistryOfWorkstationsCannotBeRead) {
+  Commanding c;
+  const auth::test::Folder folder;
+  ASSERT_TRUE(auth::ServerKeystore::init(folder.path("state"), auth::wall_seconds()));
+  auto keys = auth::ServerKeystore::open(folder.path("state"));
+  ASSERT_TRUE(keys) << keys.error();
+  folder.write(std::string("state/") + auth::ServerRegistry::kWorkstationsFile, "no list");
+  SessionCommands commands{c.registry, *keys, [&](const std::string& line) { c.messages.push_back(line); }};
+  SessionOrders orders;
+  commands.set_orders(orders);
+  rpc::Body reply;
+  commands.execute(c.joined, c.office, rpc::CreateSession{.name = "exam", .holders = {{"trainee", "office"}}},
+                   [&](rpc::Body body) { reply = std::move(body); });
+  EXPECT_NE(error_of(reply).text.find("its log has the cause"), std::string::npos) << error_of(reply).text;
+  ASSERT_EQ(c.messages.size(), 1U);
+  EXPECT_NE(c.messages[0].find("workstations.textproto"), std::string::npos) << c.messages[0];
 }
 
 TEST(SessionCommands, QueueOrdersAboutSessionsUpToALimit) {

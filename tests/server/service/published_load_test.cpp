@@ -1,0 +1,37 @@
+// The load that a server publishes for the other servers and for `tandem-server servers`.
+#include "server/service/published_load.h"
+
+#include <gtest/gtest.h>
+
+#include "common/base/rng.h"
+
+namespace tandem::server {
+namespace {
+
+TEST(PublishedLoad, StaysWhileTheLoadOfSessionsVariesALittle) {
+  RandomStream noise{RandomKey{1}};
+  for (double load = 0; load < 2; load += 0.005) {
+    double published = published_load(0, load);
+    int changes = 0;
+    for (int second = 0; second < 200; ++second) {
+      const double next = published_load(published, load + 0.014 * (2 * noise.uniform() - 1));
+      changes += next != published ? 1 : 0;
+      published = next;
+    }
+    EXPECT_LE(changes, 1) << load;
+    EXPECT_NEAR(published, load, 0.055) << load;
+  }
+}
+
+TEST(PublishedLoad, FollowsALoadThatGrowsOrEnds) {
+  double published = 0;
+  for (double load = 0; load < 1; load += 0.01) {
+    published = published_load(published, load);
+    EXPECT_NEAR(published, load, 0.041) << load;
+  }
+  EXPECT_EQ(published_load(published, 0.004), 0);
+  EXPECT_EQ(published_load(0.05, 0.004), 0) << "idle";
+}
+
+}  // namespace
+}  // namespace tandem::server
