@@ -152,6 +152,10 @@ void CopyCoupling::set_delivered(const AxisArray& effort) noexcept {
   }
 }
 
+void CopyCoupling::yield(const AxisArray& part) noexcept {
+  for (Copy& copy : copies_) copy.tool.yield(part);
+}
+
 void CopyCoupling::fill_sample(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept {
   for (std::size_t a = 0; a < dof_; ++a) {
     const control::HandMotion& anchor = copies_[k].tool.anchor(a);

@@ -151,8 +151,10 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   guards_.update(now, device_.reading(), motion_scale_.position_at_hand(tools_.end(0).state().ref), effort_,
                  was_active);
   in.engage = may_engage();
-  effort_ = gate_.step(in).effort;
+  const control::ForceGate::Output out = gate_.step(in);
+  effort_ = out.effort;
   if (was_active) coupling_->set_delivered(motion_scale_.effort_at_tool(effort_));
+  if (was_active && gate_.phase() == control::GatePhase::kRampIn) coupling_->yield(out.held_back);
   if (was_active != gate_.active()) rest();
 
   fill_state(now, device.homed, in.wanted);

@@ -126,6 +126,11 @@ void ForceGate::lose(const Input& in, Output& out) noexcept {
   if (losses_.record(in.now) && p_.latch) phase_ = GatePhase::kLatched;
 }
 
+double ForceGate::gain_of_ramp(Time now) const noexcept {
+  if (phase_ != GatePhase::kRampIn) return 1;
+  return std::min(1.0, seconds(now - since_) / std::max(1e-3, seconds(p_.ramp_in)));
+}
+
 void ForceGate::limit(const Input& in, Output& out) noexcept {
   AxisArray& f = out.effort;
   const double dt = std::clamp(seconds(in.now - last_step_), 0.0, 0.01);
@@ -136,9 +141,7 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
       ++not_finite_;
       return;  // zero
     }
-    const double gain = phase_ == GatePhase::kRampIn
-                            ? std::min(1.0, seconds(in.now - since_) / std::max(1e-3, seconds(p_.ramp_in)))
-                            : 1.0;
+    const double gain = gain_of_ramp(in.now);
     // Damping replaces what the growing spring does not hold yet, so that a hand that is moving at engagement is slowed
     // and not accelerated.
     for (std::size_t a = 0; a < p_.dof; ++a)
@@ -173,7 +176,11 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
     const double step = (phase_ == GatePhase::kRampIn ? kSlewRampIn : kSlewActive) * dt;
     if (change2 > step * step) {
       const double share = step / std::sqrt(change2);
-      for (std::size_t a = 0; a < p_.dof; ++a) f[a] = effort_[a] + share * (f[a] - effort_[a]);
+      for (std::size_t a = 0; a < p_.dof; ++a) {
+        const double left = (1 - share) * (f[a] - effort_[a]), whole = gain_of_ramp(in.now) * in.wanted[a];
+        if (phase_ == GatePhase::kRampIn && left * whole > 0) out.held_back[a] = std::min(1.0, left / whole);
+        f[a] = effort_[a] + share * (f[a] - effort_[a]);
+      }
     }
   }
   if ((!renewed_ || phase_ == GatePhase::kReleasing) && !tank_.allows(f, in.v)) f.fill(0);

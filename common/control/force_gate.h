@@ -59,6 +59,7 @@ class ForceGate {
   /// Result of one step.
   struct Output {
     AxisArray effort{};        ///< effort for the motor [N or N m]
+    AxisArray held_back{};     ///< share of the wanted effort that the slew of the ramp held back, [0, 1]
     bool clipped = false,      ///< the norm was clamped
         not_finite = false;    ///< the wanted effort was not finite and became 0
     bool tripped = false;      ///< a loss of the link began in this step
@@ -87,6 +88,7 @@ class ForceGate {
   void change_phase(const Input& in, Output& out) noexcept;
   void lose(const Input& in, Output& out) noexcept;
   void limit(const Input& in, Output& out) noexcept;
+  [[nodiscard]] double gain_of_ramp(Time now) const noexcept;
 
   GateParams p_;
   SilenceTank tank_;

@@ -58,7 +58,9 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   VirtualTool::Pulls pulls{}, without_dampers{};
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double q = place(hand, a);
-    const double velocity = hand_[a].step(hand[a]);
+    // Of the place to which the spring is attached. With the hand's own velocity the damper would hold back a tool that
+    // returns to the hand: 2 N at 0.1 m/s in two axes.
+    const double velocity = hand_[a].step(hand[a]) - offset_.last_step()[a] / p_.dt;
     pulls[a].spring(own * pull_ * p_.k_c, q - lag_[a]);  // with the force that the hand feels
     pulls[a].spring(reference.k[a], reference.ref[a]);
     without_dampers[a] = pulls[a];
@@ -109,7 +111,7 @@ void ToolCopy::decay_offset(ChannelEnd& end) noexcept {
   const double pace = offset_.pace(engaged_for_);
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double step = offset_.decay(a, pace);
-    if (step != 0 && end.pay(a, share_ * wanted_[a] * step)) offset_.move(a, step);
+    offset_.move(a, step != 0 && end.pay(a, share_ * wanted_[a] * step) ? step : 0);
   }
 }
 
@@ -196,6 +198,17 @@ void ToolCopy::release_spring() noexcept {
     offset_.set(a, offset_[a] - (wanted_[a] / p_.k_c - lag_[a]));  // also of what the hand was not shown
     shown_[a] = tool_.x(a);
     wanted_[a] = lag_[a] = 0;
+  }
+}
+
+/// The force of the ramp changes by 10 N/s, that of a following hand by more. A spring that waited for its force would
+/// swing against the hand, and what it had wound up would come at 1 N per ms when the ramp ends. Energy that the spring
+/// loses here is dropped and never credited.
+void ToolCopy::yield(const AxisArray& part) noexcept {
+  for (std::size_t a = 0; a < p_.axes; ++a) {
+    const double given_up = unit_share(part[a], 0) * wanted_[a];
+    offset_.set(a, offset_[a] - given_up / p_.k_c);
+    wanted_[a] -= given_up;
   }
 }
 

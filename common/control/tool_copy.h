@@ -69,6 +69,9 @@ class ToolCopy {
   const AxisArray& step(const AxisArray& hand, double authority, ChannelEnd& end) noexcept TANDEM_REALTIME;
   /// Reports the part of `step`'s effort that the gate passed; the copy is pulled by exactly that effort.
   void delivered(const AxisArray& effort) noexcept TANDEM_REALTIME;
+  /// Moves into the offset a share of the elongation per axis, [0, 1], because the motor does not give its force while
+  /// the gate ramps in.
+  void yield(const AxisArray& part) noexcept TANDEM_REALTIME;
 
   /// Returns the given share of the wanted effort, [0, 1]; nullopt where the wanted effort is too small for a ratio.
   [[nodiscard]] static std::optional<double> share_of(const AxisArray& given, const AxisArray& wanted,

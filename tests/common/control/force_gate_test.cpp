@@ -119,6 +119,25 @@ TEST(ForceGate, RampsInWithoutABump) {
   EXPECT_NEAR(d.out.effort[0], 3, 1e-9);
 }
 
+TEST(ForceGate, ReportsTheShareThatTheSlewOfTheRampHoldsBack) {
+  GateDrive d;
+  d.ticks(250);
+  EXPECT_EQ(d.out.held_back[0], 0);
+  d.in.wanted[0] = 3;  // half of it at once, where 0.01 N are allowed
+  d.tick();
+  EXPECT_NEAR(d.out.held_back[0], 1 - d.out.effort[0] / 1.5, 0.01);
+  EXPECT_GT(d.out.held_back[0], 0.98);
+  EXPECT_EQ(d.out.held_back[1], 0);
+  d.in.wanted[0] = 0;  // the effort is above the wanted one: nothing is held back
+  d.tick();
+  EXPECT_EQ(d.out.held_back[0], 0);
+  d.ticks(500);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kActive);
+  d.in.wanted[0] = 3;
+  d.tick();
+  EXPECT_EQ(d.out.held_back[0], 0) << "the ramp is over";
+}
+
 TEST(ForceGate, CatchesAHandFoundInMotion) {
   GateDrive d;
   d.in.v[0] = 0.3;

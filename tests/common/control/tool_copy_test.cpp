@@ -62,6 +62,34 @@ struct Seat {
   double most = 3.3;
 };
 
+TEST(ToolCopy, ReturnsToAMovingHandWithoutHoldingItBack) {
+  Seat seat;
+  seat.engage(0, 0.05);
+  double most = 0, speed = 0;
+  for (int i = 1; i <= 1500; ++i) {
+    most = std::max(most, std::abs(seat.tick(0.05 + 0.1 * i * kT)));
+    if (i > 100) speed = std::max(speed, std::abs(seat.copy.tool().v(0)));
+  }
+  EXPECT_EQ(seat.copy.offset(0), 0);
+  EXPECT_LE(most, 0.3) << "damping towards the hand itself, and not towards the place, took 1.4 N";
+  EXPECT_LE(speed, 0.1 + 0.1 + 0.01) << "its own speed, and the approach";
+}
+
+TEST(ToolCopy, GivesUpTheElongationThatTheGateHoldsBack) {
+  Seat seat;
+  seat.engage(0, 0);
+  double before = 0;
+  for (int i = 1; i <= 20; ++i) before = seat.tick(0.001 * i);
+  ASSERT_LT(before, -0.1);
+  const double offset = seat.copy.offset(0), margin = seat.end.ledger(0).margin();
+  seat.copy.yield(at(0.75));
+  EXPECT_NEAR(seat.copy.offset(0) - offset, -0.75 * before / 400, 1e-12) << "the hand is ahead of the tool by so much";
+  EXPECT_EQ(seat.end.ledger(0).margin(), margin) << "nothing is credited";
+  const double x = seat.copy.tool().x(0);
+  EXPECT_LT(std::abs(seat.tick(0.020)), 0.5 * std::abs(before));
+  EXPECT_LT(seat.copy.tool().x(0) - x, 1e-3) << "the tool does not jump";
+}
+
 TEST(ToolCopy, RendersContactLocallyToALeader) {
   Seat seat(one_axis(20000));
   seat.engage(0, 0);
