@@ -1,5 +1,5 @@
 // Hands that go on moving while a server restarts feel no step, and little beside the session without a restart
-// (ARCHITECTURE.md, invariants 225 and 226). tests/bench/resume_table prints the figures.
+// (ARCHITECTURE.md, invariants 222 and 223). tests/bench/resume_table prints the figures.
 #include <gtest/gtest.h>
 
 #include "tests/sim/resume_cell.h"
