@@ -50,16 +50,6 @@ AxisArray SpringCoupling::step(const Input& in) noexcept {
   return wanted;
 }
 
-void SpringCoupling::yield(const AxisArray& part, control::ChannelEnd& end) noexcept {
-  if (!master_) return;  // the device of a slave keeps the place of its tool
-  AxisArray x{}, of_end{};
-  for (std::size_t a = 0; a < dof_; ++a) {
-    x[a] = ipc_[a].x;
-    of_end[a] = part[a] * (1 + end.state().k[a] / gains_[a].k_c);  // the same elongation is more of the stiffer spring's
-  }
-  end.yield(of_end, x);
-}
-
 void SpringCoupling::fill_sample(std::size_t, const Input& in, bool engaged, PortSample& out) const noexcept {
   const control::EndState& state = in.tools[0].end->state();
   for (std::size_t a = 0; a < dof_; ++a) {
@@ -162,7 +152,7 @@ void CopyCoupling::set_delivered(const AxisArray& effort) noexcept {
   }
 }
 
-void CopyCoupling::yield(const AxisArray& part, control::ChannelEnd&) noexcept {
+void CopyCoupling::yield(const AxisArray& part) noexcept {
   for (Copy& copy : copies_) copy.tool.yield(part);
 }
 

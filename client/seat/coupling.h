@@ -46,8 +46,7 @@ class Coupling {
   /// Sets the part of the effort from `step` that passed the gate.
   virtual void set_delivered(const AxisArray&) noexcept TANDEM_REALTIME {}
   /// Gives up a share of the wanted effort per axis, [0, 1]: the gate ramps in and holds it back.
-  /// @param end  of the first tool
-  virtual void yield(const AxisArray& part, control::ChannelEnd& end) noexcept TANDEM_REALTIME = 0;
+  virtual void yield(const AxisArray&) noexcept TANDEM_REALTIME {}
   /// Writes position, velocity, force and acceleration of tool k into the sample for the server.
   /// @param engaged  false: the sample contains the motion of the device itself
   virtual void fill_sample(std::size_t k, const Input& in, bool engaged,
@@ -72,7 +71,6 @@ class SpringCoupling final : public Coupling {
   explicit SpringCoupling(const SeatSetup& setup);
   void reset(const Input& in, bool heard) noexcept override;
   AxisArray step(const Input& in) noexcept override;
-  void yield(const AxisArray& part, control::ChannelEnd& end) noexcept override;
   void fill_sample(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept override;
 
  private:
@@ -94,7 +92,7 @@ class CopyCoupling final : public Coupling {
     copies_[k].tool.update_contacts(contacts);
   }
   void set_delivered(const AxisArray& effort) noexcept override;
-  void yield(const AxisArray& part, control::ChannelEnd& end) noexcept override;
+  void yield(const AxisArray& part) noexcept override;
   void fill_sample(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept override;
   [[nodiscard]] const control::VirtualTool* tool_copy(std::size_t k = 0) const noexcept override {
     return k < copies_.size() ? &copies_[k].tool.tool() : nullptr;

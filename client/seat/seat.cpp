@@ -154,7 +154,7 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   const control::ForceGate::Output out = gate_.step(in);
   effort_ = out.effort;
   if (was_active) coupling_->set_delivered(motion_scale_.effort_at_tool(effort_));
-  if (was_active && gate_.phase() == control::GatePhase::kRampIn) coupling_->yield(out.held_back, tools_.end(0));
+  if (was_active && gate_.phase() == control::GatePhase::kRampIn) coupling_->yield(out.held_back);
   if (was_active != gate_.active()) rest();
 
   fill_state(now, device.homed, in.wanted);

@@ -26,8 +26,6 @@ void ChannelEnd::engage(const AxisArray& x, double age) noexcept {
 
 void ChannelEnd::clamp_reference(const AxisArray&) noexcept {}
 
-void ChannelEnd::yield(const AxisArray&, const AxisArray&) noexcept {}
-
 void ChannelEnd::replace_velocity(AxisArray&) const noexcept {}
 
 void ChannelEnd::follow_unpaid(const EndInput& in, std::size_t a, double k) noexcept {

@@ -105,10 +105,6 @@ class ChannelEnd {
   /// within the distance from `x` at which the spring pulls with the strongest motor's force. Energy released by this
   /// clamp is dropped and never credited.
   virtual void clamp_reference(const AxisArray& x) noexcept TANDEM_REALTIME;
-  /// Moves the reference towards the near end by a share of the elongation per axis, [0, 1]: the motor does not give that
-  /// part of the force while the gate ramps in. The energy is dropped and never credited. Laws whose reference is not a
-  /// place keep it.
-  virtual void yield(const AxisArray& part, const AxisArray& x) noexcept TANDEM_REALTIME;
   /// Computes the new reference, stiffness and damping; called once per tick. Accepts any input and is real-time safe.
   virtual const EndState& move(const EndInput& in) noexcept TANDEM_REALTIME = 0;
   /// Replaces what this law sends in place of the velocity; most laws send the velocity itself.

@@ -44,11 +44,4 @@ const EndState& SetPositionEnd::move(const EndInput& in) noexcept {
   return state_;
 }
 
-void SetPositionEnd::yield(const AxisArray& part, const AxisArray& x) noexcept {
-  for (std::size_t a = 0; a < params_.dof; ++a) {
-    const double given_up = unit_share(part[a], 0) * (state_.ref[a] - x[a]);
-    if (std::isfinite(given_up)) state_.ref[a] -= given_up;
-  }
-}
-
 }  // namespace tandem::control

@@ -11,7 +11,6 @@ namespace tandem::control {
 class SetPositionEnd final : public EnergyBoundedEnd {
  public:
   using EnergyBoundedEnd::EnergyBoundedEnd;
-  void yield(const AxisArray& part, const AxisArray& x) noexcept TANDEM_REALTIME override;
   const EndState& move(const EndInput& in) noexcept TANDEM_REALTIME override;
   [[nodiscard]] Guarantees guarantees() const noexcept override { return {.ledger = true, .bounded_step = true}; }
 };

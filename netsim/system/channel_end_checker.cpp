@@ -55,9 +55,7 @@ void ChannelEndChecker::check(const ObservedSeat& seat, const Sample& sample) {
         (std::abs(sample.received.v[a]) + sample.gains_speed + seat.scene.channel.v_app / std::sqrt(sample.scale[a])) *
         seat.tick();
     const bool rested = ref_[a] == x_[a] || ref_[a] == x_before[a];  // engaged again, without elongation
-    // A spring that gives up elongation follows its near end.
-    const bool nearer = std::abs(ref_[a] - x_[a]) <= std::abs(ref_before[a] - x_[a]);
-    if (is > was && !nearer && !rested && std::abs(ref_[a] - ref_before[a]) > step * (1 + 1e-9) + 1e-12)
+    if (is > was && !rested && std::abs(ref_[a] - ref_before[a]) > step * (1 + 1e-9) + 1e-12)
       seat.violated("approach", !guarantees.bounded_step);
   }
   if (seat.ordinary_motion && comparable) {

@@ -173,22 +173,6 @@ TEST(SetPosition, YieldsWhileItsOtherEndIsSilentAndMovesNoEnergy) {
   EXPECT_NEAR(end.state().ref[0], 0.003, 1e-12);
 }
 
-TEST(SetPosition, GivesUpAShareOfItsElongationAndCreditsNothing) {
-  SetPositionEnd end(plain());
-  end.engage({}, 0);
-  end.move(towards(0.008));
-  const std::uint64_t margin = end.ledger(0).margin_nj(), in = end.ledger(0).in_nj();
-  end.yield({0.25}, {0.002});  // a quarter of 6 mm
-  EXPECT_DOUBLE_EQ(end.state().ref[0], 0.0065);
-  EXPECT_EQ(end.ledger(0).margin_nj(), margin);
-  EXPECT_EQ(end.ledger(0).in_nj(), in);
-  for (const double bad : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) end.yield({bad}, {0.002});
-  end.yield({1}, {std::numeric_limits<double>::infinity()});
-  EXPECT_DOUBLE_EQ(end.state().ref[0], 0.0065);
-  end.yield({7}, {0.002});
-  EXPECT_DOUBLE_EQ(end.state().ref[0], 0.002) << "never beyond its near end";
-}
-
 TEST(SetPosition, StartsAgainWithoutElongationAndWithoutCredit) {
   SetPositionEnd end(plain());
   end.engage({}, 0);
