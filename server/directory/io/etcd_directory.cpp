@@ -4,7 +4,6 @@
 #include <grpc/support/log.h>
 #include <grpc/support/time.h>
 
-#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -14,14 +13,12 @@
 #include <set>
 #include <thread>
 
-#include "common/base/format.h"
 #include "server/directory/io/etcd_codec.h"
 
 namespace tandem::directory {
 
 namespace {
 
-constexpr std::size_t kEndpointsMax = 9;
 constexpr std::size_t kRepliesMax = 65536;
 /// For this long the reply of a call is held back that has failed at once while no member answers. Callers try again on
 /// a reply, and would otherwise do nothing else.
@@ -29,16 +26,6 @@ constexpr std::chrono::milliseconds kFailurePause{100};
 using std::chrono::steady_clock;
 
 using Context = std::shared_ptr<grpc::ClientContext>;
-
-bool valid_endpoint(const std::string& endpoint) {
-  const std::size_t colon = endpoint.rfind(':');
-  if (colon == std::string::npos || colon == 0) return false;
-  unsigned port = 0;
-  const char* const end = endpoint.data() + endpoint.size();
-  const auto [rest, error] = std::from_chars(endpoint.data() + colon + 1, end, port);
-  return error == std::errc{} && rest == end && port > 0 && port < 65536 &&
-         endpoint.find_first_of("/, ") == std::string::npos;
-}
 
 /// Stubs of one member.
 struct Member {
@@ -52,18 +39,6 @@ struct Member {
 };
 
 }  // namespace
-
-std::optional<std::string> EtcdOptions::problem() const {
-  if (endpoints.empty() || endpoints.size() > kEndpointsMax)
-    return format("endpoints: %zu given, 1 to %zu are allowed", endpoints.size(), kEndpointsMax);
-  for (const std::string& endpoint : endpoints)
-    if (!valid_endpoint(endpoint)) return "endpoints: '" + endpoint + "' is not HOST:PORT";
-  if (authority.empty() != certificate.empty() || authority.empty() != key.empty())
-    return "certificates: give the authority, the certificate and its key, or none of them";
-  if (answer_limit <= Duration{} || answer_limit > std::chrono::seconds(60))
-    return format("answer_limit: %g s is not in (0, 60] s", seconds(answer_limit));
-  return std::nullopt;
-}
 
 /// Queues, connections and open calls. `stop` waits for the last call, because gRPC's threads may not end a connection.
 class EtcdDirectory::Core {
@@ -154,7 +129,8 @@ class EtcdDirectory::Core {
       ++counters_.endpoint_changes;
       ++failed_members_;
     }
-    if (reply.outcome != Outcome::kUnknown || failed_members_ < options_.endpoints.size()) return push(std::move(reply));
+    if (reply.outcome != Outcome::kUnknown || failed_members_ < options_.endpoints.size())
+      return push(std::move(reply));
     held_back_.emplace_back(steady_clock::now() + kFailurePause, std::move(reply));
     wake_.notify_all();
   }
