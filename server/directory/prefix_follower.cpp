@@ -35,11 +35,14 @@ std::optional<PrefixFollower::News> PrefixFollower::on_reply(const Reply& reply)
     state_ = State::kStale;
   } else if (state_ == State::kReading) {
     news.all = true;
+    news.back = reply.revision < revision();
     if (!reply.found.empty())
       for (const KeyValue& entry : reply.found.front()) news.changes.push_back({entry, false});
     next_ = after(reply.revision);
     ++readings_;
     state_ = State::kRead;
+  } else if (reply.revision > 0 && reply.revision < revision()) {
+    state_ = State::kStale;
   } else {
     // A stream that was built again may repeat changes.
     for (const Change& change : reply.changes)

@@ -246,6 +246,177 @@ TEST(SharedRegistry, LosesNothingWhenTheDirectoryIsBegunFromNothing) {
   run(second, again);
   EXPECT_EQ(again.key_of("a"), 1);
   EXPECT_EQ(again.registry.agreed().mark, "two");
+  EXPECT_EQ(again.registry.losses(), 1U);
+}
+
+/// Servers whose directory is lost while they run: it comes back with nothing, or as it was before, and each server
+/// reaches it again at a moment of its own.
+struct LostDesks : Desks {
+  using Desks::Desks;
+  void lose(RandomStream& draws, directory::ModelStore next = directory::ModelStore{}) {
+    for (const auto& d : desk) d->directory.cut = true;
+    pass(100ms);
+    store = std::move(next);
+    std::vector<Time> back;
+    for (std::size_t i = 0; i < desk.size(); ++i)
+      back.push_back(now + Duration{static_cast<std::int64_t>(draws.below(500'000'000))});
+    for (int n = 0; n < 26; ++n) {
+      for (std::size_t i = 0; i < desk.size(); ++i) desk[i]->directory.cut = now < back[i];
+      pass(20ms);
+    }
+    for (const auto& d : desk) d->directory.cut = false;
+  }
+  void expect_all_have(const std::vector<std::string>& names) {
+    for (const auto& d : desk)
+      for (const std::string& name : names) EXPECT_NE(d->key_of(name), 0) << name;
+    for (const std::string& name : names) EXPECT_TRUE(store.entries().contains("/t/registry/" + name)) << name;
+  }
+};
+
+// The server that had written the mark of the lost directory wrote the same mark into the new one: the other servers
+// took the missing rows for revocations.
+TEST(SharedRegistry, LosesNothingWhenTheDirectoryIsLostWhileServersRun) {
+  const std::uint64_t count = tandem::test::seeds(100);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(2 + draws.below(2));
+    desks[0].enroll("a", 1);
+    desks[1].enroll("b", 2);
+    desks.pass(1s);
+    for (int loss = 0; loss < 4; ++loss) {
+      desks.lose(draws);
+      if (draws.below(2) == 0) desks.pass(1s);  // else it is lost again before all have written
+    }
+    desks.pass(2s);
+    desks.expect_all_have({"a", "b"});
+    // A revocation is one again.
+    desks[draws.below(desks.desk.size())].revoke("a");
+    desks.pass(1s);
+    for (const auto& d : desks.desk) EXPECT_EQ(d->key_of("a"), 0);
+    desks.expect_all_have({"b"});
+  }
+}
+
+// The new directory has as many revisions as the lost one before a server sees it.
+TEST(SharedRegistry, LosesNothingWhenTheNewDirectoryHasMoreRevisionsThanTheLostOne) {
+  const std::uint64_t count = tandem::test::seeds(50);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(3);
+    desks[0].enroll("a", 1);
+    desks.pass(1s);
+    directory::ModelStore next;
+    for (std::uint64_t n = draws.below(20); n > 0; --n)
+      static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{"/t/other", "x", 0}}, {}}));
+    desks.lose(draws, std::move(next));
+    desks.pass(2s);
+    desks.expect_all_have({"a"});
+  }
+}
+
+// A server of an older version writes the mark of the lost directory again, at the same revision even.
+TEST(SharedRegistry, LosesNothingToAnOlderServerThatWritesTheOldMark) {
+  const std::uint64_t count = tandem::test::seeds(50);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(2);
+    desks[0].enroll("a", 1);
+    desks[1].enroll("b", 2);
+    desks.pass(1s);
+    const directory::KeyValue mark = desks.store.entries().at("/t/registry/.mark");
+    directory::ModelStore next;
+    while (next.revision() + 1 < mark.created)
+      static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{"/t/other", "x", 0}}, {}}));
+    static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{mark.key, mark.value, 0}}, {}}));
+    if (draws.below(2) == 0)  // as many revisions as before: only the revision of the mark tells them apart
+      for (next = {}; next.revision() < desks.store.revision();)
+        static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{mark.key, mark.value, 0}}, {}}));
+    const directory::KeyValue again = next.entries().at(mark.key);
+    if (again.created == mark.created && next.revision() >= desks.store.revision()) continue;
+    desks.lose(draws, std::move(next));
+    desks.pass(2s);
+    desks.expect_all_have({"a", "b"});
+  }
+}
+
+// A backup that is restored while servers run, against the manual: what came after it is kept.
+TEST(SharedRegistry, KeepsWhatCameAfterABackupThatIsRestoredWhileServersRun) {
+  const std::uint64_t count = tandem::test::seeds(50);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(2);
+    desks[0].enroll("a", 1);
+    desks.pass(1s);
+    directory::ModelStore backup = desks.store;
+    desks[1].enroll("b", 2);
+    desks.pass(1s);
+    desks.lose(draws, std::move(backup));
+    desks.pass(2s);
+    desks.expect_all_have({"a", "b"});
+  }
+}
+
+TEST(SharedRegistry, KeepsARevocationThatWasMadeBetweenTheLossOfTheDirectoryAndTheNextOne) {
+  const std::uint64_t count = tandem::test::seeds(50);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(2);
+    desks[0].enroll("a", 1);
+    desks[1].enroll("b", 2);
+    desks.pass(1s);
+    for (const auto& d : desks.desk) d->directory.cut = true;
+    desks.pass(100ms);
+    desks[draws.below(2)].revoke("a");
+    desks.lose(draws);
+    desks.pass(2s);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(desks[i].key_of("a"), 0);
+    desks.expect_all_have({"b"});
+    desks[draws.below(2)].enroll("a", 7);
+    desks.pass(1s);
+    desks.expect_all_have({"a", "b"});
+  }
+}
+
+// A server that starts may hear from the directory before it has read its files.
+TEST(SharedRegistry, RevokesNothingBeforeTheFilesWereRead) {
+  Desks desks(1);
+  desks[0].enroll("a", 1);
+  desks.pass(1s);
+  for (const bool lost : {false, true}) {
+    directory::ModelStore store = lost ? directory::ModelStore{} : desks.store;
+    Desk again(store, "two", desks[0].registry.agreed());
+    for (int i = 0; i < 100; ++i) {
+      desks.now += 20ms;
+      while (auto request = again.registry.poll_request(desks.now, again.operation + 1, 1s))
+        again.directory.begin(++again.operation, *request);
+      while (const auto reply = again.directory.poll()) again.registry.on_reply(*reply);
+      EXPECT_FALSE(again.registry.wanted());
+    }
+    EXPECT_EQ(store.entries().contains("/t/registry/a"), !lost);
+    again.lists = desks[0].lists;
+    for (int i = 0; i < 100; ++i) again.step(desks.now += 20ms);
+    EXPECT_EQ(again.key_of("a"), 1);
+    EXPECT_TRUE(store.entries().contains("/t/registry/a"));
+  }
+}
+
+// `etcdctl del --prefix`.
+TEST(SharedRegistry, LosesNothingWhenAllKeysAreErased) {
+  Desks desks(2);
+  desks[0].enroll("a", 1);
+  desks.pass(1s);
+  const std::string mark = desks.store.entries().at("/t/registry/.mark").value;
+  static_cast<void>(desks.store.execute(
+      1, directory::Transaction{{}, {directory::Erase{"/t/registry/.mark"}, directory::Erase{"/t/registry/a"}}, {}}));
+  desks.pass(2s);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(desks[i].key_of("a"), 1);
+  EXPECT_TRUE(desks.store.entries().contains("/t/registry/a"));
+  EXPECT_NE(desks.store.entries().at("/t/registry/.mark").value, mark);
 }
 
 TEST(SharedRegistry, LeavesAloneWhatItCannotRead) {
