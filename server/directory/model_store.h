@@ -19,8 +19,9 @@ class ModelStore {
   /// Changes that are kept for watches; older ones are compacted.
   static constexpr std::size_t kHistoryMax = 100'000;
 
+  ModelStore() = default;
   /// @param leases_from  number after which leases are numbered, as two stores have no lease id in common
-  explicit ModelStore(LeaseId leases_from = 0) : newest_lease_(leases_from) {}
+  explicit ModelStore(LeaseId leases_from) : newest_lease_(leases_from) {}
 
   /// Ends the leases whose time is over, in the order of their ends.
   void advance(Time now);
@@ -77,7 +78,7 @@ class ModelStore {
   Revision compact_revision_ = 0;  ///< of the newest Compact
   Revision compacted_ = 0;         ///< changes up to this revision are forgotten
   std::uint64_t term_ = 1, writes_ = 0;
-  LeaseId newest_lease_;
+  LeaseId newest_lease_ = 0;
   OperationId connections_ = 0;
   std::map<std::string, KeyValue> entries_;
   std::map<LeaseId, Lease> leases_;

@@ -23,7 +23,7 @@ namespace tandem::server {
 /// have kept, and later the other servers those of their configuration.
 class DirectoryLoss {
  public:
-  static constexpr Duration kOthersLater = std::chrono::seconds(2);  ///< than the former owners
+  static constexpr Duration kOthersLater = std::chrono::seconds(5);  ///< than the former owners
 
   /// A session that this server served until now.
   struct Kept {

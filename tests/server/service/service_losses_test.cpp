@@ -68,7 +68,7 @@ TEST_F(ServiceLosses, AllSessionsGoOnFromTheirStateWhenTheDirectoryIsBegunFromNo
       const Duration outage = std::chrono::milliseconds(100 + draws.below(8000));
       const Duration apart = std::chrono::milliseconds(draws.below(2) == 0 ? 300 : 3000);
       lose(draws, outage, apart, empty(loss * 1000, draws.below(2) == 0 ? 0 : draws.below(40)));
-      pass(10s);
+      pass(12s);
       for (const char* name : {"lab", "two", "made"}) {
         ASSERT_NE(owner(name), nullptr) << name;
         const ServiceEvent& open = owner(name)->open.at(name);
@@ -130,11 +130,11 @@ TEST_F(ServiceLosses, ServerThatStartsAgainWaitsForTheLeasesOfTheLostDirectory) 
   servers_.push_back(std::make_unique<Server>(
       store_,
       ServiceMemberOptions{.server = "b", .key = RandomKey{2}, .configured = configured, .agreed = agreed}));
-  servers_.back()->member.describe({.address = "b:7000", .key = "k", .version = "1", .capacity = 4});
+  servers_.back()->member.describe({.address = "b:7000", .key = "k", .version = "1", .zone = {}, .capacity = 4});
   servers_.back()->member.registry().set_local({});
   pass(2s);
   EXPECT_TRUE(servers_.back()->member.status(now_).recovers);
-  pass(6s);
+  pass(9s);
   EXPECT_TRUE(servers_.back()->open.contains("lab"));
   EXPECT_EQ(servers_.back()->member.status(now_).losses, 1u);
 }
@@ -152,7 +152,7 @@ TEST_F(ServiceLosses, ClientsAreToldThatTheSessionComesAndCreationsAreRefusedMea
   act(a);
   EXPECT_EQ(a.events.back().kind, Kind::kRefused);
   EXPECT_NE(a.events.back().text.find("begun from nothing"), std::string::npos);
-  pass(6s);
+  pass(9s);
   EXPECT_FALSE(a.member.status(now_).recovers);
   EXPECT_EQ(a.member.locate(named("lab")).kind, SessionPlace::Kind::kHere);
   EXPECT_EQ(a.member.locate(named("other")).kind, SessionPlace::Kind::kNone);

@@ -47,7 +47,7 @@ TEST_F(ServiceNewsTest, ReportsADirectoryThatHasLostItsDataWithTheRemedy) {
   events(a, 500ms);
   store_ = directory::ModelStore(1000);
   a.directory.cut = false;
-  EXPECT_EQ(events(a, 8s), (Events{"service_directory_lost", "service_recovered"}));
+  EXPECT_EQ(events(a, 12s), (Events{"service_directory_lost", "service_recovered"}));
   EXPECT_NE(told_.find("10.0.0.1:2379 has lost its data"), std::string::npos) << told_;
   EXPECT_NE(told_.find("--data-dir"), std::string::npos) << told_;
 }
