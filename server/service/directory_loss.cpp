@@ -37,8 +37,8 @@ DirectoryLoss::Found DirectoryLoss::on_reply(const directory::Reply& reply, cons
   known_ = true;
   if (agreed.mark.empty()) return Found::kSame;
   const auto& mark = reply.found[0];
-  const bool same = !mark.empty() && mark[0].value == agreed.mark &&
-                    (agreed.created == 0 || agreed.created == mark[0].created);
+  const bool same =
+      !mark.empty() && mark[0].value == agreed.mark && (agreed.created == 0 || agreed.created == mark[0].created);
   return same ? Found::kSame : Found::kOther;
 }
 

@@ -67,7 +67,8 @@ class DirectoryLoss {
   }
   [[nodiscard]] bool waits(Time now) const noexcept { return losses_ > 0 && !all_may_begin(now); }
   [[nodiscard]] std::uint64_t losses() const noexcept { return losses_; }
-  /// To be added to revisions of ownerships of the present directory, so that they are higher than all of the lost ones.
+  /// To be added to revisions of ownerships of the present directory, so that they are higher than all of the lost
+  /// ones.
   [[nodiscard]] std::int64_t epoch_base() const noexcept { return base_; }
   /// Takes the base of a session of the directory.
   void on_base(std::int64_t base) noexcept { highest_base_ = std::max(highest_base_, base); }

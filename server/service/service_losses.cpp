@@ -52,8 +52,8 @@ void ServiceMember::follow_losses(Time now) {
     auto& [session, as] = kept;
     if (entries_.contains(session)) return false;  // its former run is not over
     const auto* const seen = ownership_.view().session(session);
-    const bool elsewhere = (seen != nullptr && (seen->owner || seen->standby)) ||
-                           catalogue_.entries().contains(session);
+    const bool elsewhere =
+        (seen != nullptr && (seen->owner || seen->standby)) || catalogue_.entries().contains(session);
     if (elsewhere || leaving_ || record_.drains || !ownership_.claim(session)) return true;
     Entry entry;
     entry.spec = based(std::move(as.spec));

@@ -142,7 +142,9 @@ void ServiceMember::take_notices(Time now) {
 
 /// The server that runs first begins the sessions of the configuration. Later ones find them owned, or with a standby.
 void ServiceMember::claim_configured(Time now) {
-  if (!loss_.all_may_begin(now) || !ownership_.keeper().registered() || !ownership_.view().follows() || !catalogue_.follows()) return;
+  if (!loss_.all_may_begin(now) || !ownership_.keeper().registered() || !ownership_.view().follows() ||
+      !catalogue_.follows())
+    return;
   configured_claimed_ = true;
   for (const auto& [session, spec] : options_.configured) {
     const auto* const seen = ownership_.view().session(session);

@@ -43,11 +43,11 @@ struct ServiceEvent {
   };
   Kind kind{};
   std::string session;
-  ServiceSession spec{};             ///< kOpen
-  std::string snapshot{};            ///< kOpen: bytes of `encode_snapshot`; empty: a new session
-  std::string consoles{};            ///< kOpen: text of ServiceConsoles, as the former owner wrote it; empty: none
-  std::int64_t revision = 0;         ///< kOpen: of the ownership, with the session's epoch_base: its epoch
-  std::uint64_t order = 0;           ///< kOpen, kRefused: number of the creation; 0: none
+  ServiceSession spec{};      ///< kOpen
+  std::string snapshot{};     ///< kOpen: bytes of `encode_snapshot`; empty: a new session
+  std::string consoles{};     ///< kOpen: text of ServiceConsoles, as the former owner wrote it; empty: none
+  std::int64_t revision = 0;  ///< kOpen: of the ownership, with the session's epoch_base: its epoch
+  std::uint64_t order = 0;    ///< kOpen, kRefused: number of the creation; 0: none
   std::string text{};
 };
 
@@ -201,11 +201,11 @@ class ServiceMember {
     std::optional<ServiceSession> spec{};    ///< to be written
     std::optional<ServiceSession> served{};  ///< as opened
     std::string snapshot{}, consoles{};      ///< newest
-    bool fresh = false;                    ///< the spec may not exist before
-    bool abandoned = false;                ///< its creation was refused while the spec was being written
-    bool first = false;                    ///< claimed at start: a changed configuration replaces the spec
-    std::string target{};                  ///< kMoving
-    int steps_until_move = -1;             ///< kMoving: after the hand-over; -1: not handed over, or moving
+    bool fresh = false;                      ///< the spec may not exist before
+    bool abandoned = false;                  ///< its creation was refused while the spec was being written
+    bool first = false;                      ///< claimed at start: a changed configuration replaces the spec
+    std::string target{};                    ///< kMoving
+    int steps_until_move = -1;               ///< kMoving: after the hand-over; -1: not handed over, or moving
     std::uint64_t order = 0;
     Time order_ends{}, next_attempt{}, next_standby{};
     Time opened{};

@@ -48,15 +48,11 @@ bool read(const Json& in, const char* key, T& into) {
 }  // namespace
 
 std::string to_text(const ServiceSession& session) {
-  Json out{{"id", to_hex(session.id)},
-                 {"code", session.code},
-                 {"scene", session.scene},
-                 {"scene_name", session.scene_name},
-                 {"duration_s", session.duration_s},
-                 {"tickets_only", session.tickets_only},
-                 {"restart", session.restart},
-                 {"created", session.created},
-                 {"ends_s", session.ends_s}};
+  Json out{{"id", to_hex(session.id)},         {"code", session.code},
+           {"scene", session.scene},           {"scene_name", session.scene_name},
+           {"duration_s", session.duration_s}, {"tickets_only", session.tickets_only},
+           {"restart", session.restart},       {"created", session.created},
+           {"ends_s", session.ends_s}};
   if (session.epoch_base != 0) out["epoch_base"] = session.epoch_base;
   return dumped(out);
 }

@@ -56,8 +56,8 @@ class Participants {
   [[nodiscard]] const CloseOuts& closing() const noexcept { return closing_; }
   /// Seats whose springs may act on tools, as of the last tick.
   [[nodiscard]] const std::array<bool, kSeatsMax>& present() const noexcept { return present_; }
-  /// Seats that may be engaged once they are ready: they receive force, are not quarantined and not being removed, as of
-  /// the last tick.
+  /// Seats that may be engaged once they are ready: they receive force, are not quarantined and not being removed, as
+  /// of the last tick.
   [[nodiscard]] const std::array<bool, kSeatsMax>& admissible() const noexcept { return admissible_; }
   /// Seats that are ready (`SeatEndpoint::ready`), as of the last tick.
   [[nodiscard]] const std::array<bool, kSeatsMax>& ready() const noexcept { return ready_; }

@@ -128,8 +128,7 @@ TEST_F(ServiceLosses, ServerThatStartsAgainWaitsForTheLeasesOfTheLostDirectory) 
   a.directory.cut = true;
   store_ = empty(1000);
   servers_.push_back(std::make_unique<Server>(
-      store_,
-      ServiceMemberOptions{.server = "b", .key = RandomKey{2}, .configured = configured, .agreed = agreed}));
+      store_, ServiceMemberOptions{.server = "b", .key = RandomKey{2}, .configured = configured, .agreed = agreed}));
   servers_.back()->member.describe({.address = "b:7000", .key = "k", .version = "1", .zone = {}, .capacity = 4});
   servers_.back()->member.registry().set_local({});
   pass(2s);
