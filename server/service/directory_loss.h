@@ -18,9 +18,9 @@ namespace tandem::server {
 /// Two signs: an answer of a lower revision than a former one, and another mark than the agreed one (SharedRegistry).
 /// The mark is asked for at the start and after each loss of a lease or session; no session is claimed before.
 ///
-/// The lost directory granted leases that nobody can see now. A server that cannot reach the new one acts by its lease
-/// until that ends, so no session is claimed for the time of a lease. Then former owners claim the sessions that they
-/// have kept, and later the other servers those of their configuration.
+/// The lost directory granted leases that no server can see now. A server that cannot reach the new one acts by its
+/// lease until that ends, so no session is claimed for the time of a lease. Then former owners claim the sessions that
+/// they have kept, and later the other servers those of their configuration.
 class DirectoryLoss {
  public:
   static constexpr Duration kOthersLater = std::chrono::seconds(5);  ///< than the former owners

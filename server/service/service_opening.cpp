@@ -1,4 +1,4 @@
-// What a server reads and writes until a session is open, and when it ends.
+// Reads and writes of a server until a session is open, and when it ends.
 #include <algorithm>
 #include <utility>
 

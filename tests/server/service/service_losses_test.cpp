@@ -16,7 +16,7 @@ class ServiceLosses : public ServiceTest {
     pass(200ms);
     return server;
   }
-  /// Nobody reaches the directory for this time. Then each server reaches the next one at a moment of its own.
+  /// No server reaches the directory for this time. Then each server reaches the next one at a moment of its own.
   void lose(RandomStream& draws, Duration outage, Duration apart, directory::ModelStore next) {
     for (const auto& server : servers_) server->directory.cut = true;
     pass(outage);
@@ -138,7 +138,7 @@ TEST_F(ServiceLosses, ServerThatStartsAgainWaitsForTheLeasesOfTheLostDirectory) 
   EXPECT_EQ(servers_.back()->member.status(now_).losses, 1u);
 }
 
-TEST_F(ServiceLosses, ClientsAreToldThatTheSessionComesAndCreationsAreRefusedMeanwhile) {
+TEST_F(ServiceLosses, SessionsAreComingAndCreationsAreRefusedMeanwhile) {
   RandomStream draws{RandomKey{1}};
   Server& a = begin("a", {{"lab", session_spec(1)}});
   pass(1s);
