@@ -31,7 +31,8 @@ std::optional<Request> PrefixFollower::poll_request(Time now, OperationId operat
 std::optional<PrefixFollower::News> PrefixFollower::on_reply(const Reply& reply) {
   if (reply.operation != operation_ || (state_ != State::kReading && state_ != State::kFollowing)) return std::nullopt;
   News news;
-  if (reply.outcome != Outcome::kDone) {
+  const bool watch_went_back = state_ == State::kFollowing && reply.revision > 0 && reply.revision < revision();
+  if (reply.outcome != Outcome::kDone || watch_went_back) {
     state_ = State::kStale;
   } else if (state_ == State::kReading) {
     news.all = true;
@@ -41,8 +42,6 @@ std::optional<PrefixFollower::News> PrefixFollower::on_reply(const Reply& reply)
     next_ = after(reply.revision);
     ++readings_;
     state_ = State::kRead;
-  } else if (reply.revision > 0 && reply.revision < revision()) {
-    state_ = State::kStale;
   } else {
     // A stream that was built again may repeat changes.
     for (const Change& change : reply.changes)
