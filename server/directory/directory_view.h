@@ -42,6 +42,8 @@ class DirectoryView {
 
   /// The view is complete and follows the store.
   [[nodiscard]] bool follows() const noexcept { return follower_.follows(); }
+  /// Has everything read again.
+  void read_again() noexcept { follower_.restart(); }
   [[nodiscard]] const std::map<std::string, SessionEntry, std::less<>>& sessions() const noexcept { return sessions_; }
   [[nodiscard]] const std::map<std::string, ServerEntry, std::less<>>& servers() const noexcept { return servers_; }
   [[nodiscard]] const SessionEntry* session(std::string_view name) const;

@@ -19,6 +19,10 @@ class ModelStore {
   /// Changes that are kept for watches; older ones are compacted.
   static constexpr std::size_t kHistoryMax = 100'000;
 
+  ModelStore() = default;
+  /// @param leases_from  number after which leases are numbered, as two stores have no lease id in common
+  explicit ModelStore(LeaseId leases_from) : newest_lease_(leases_from) {}
+
   /// Ends the leases whose time is over, in the order of their ends.
   void advance(Time now);
   /// Executes a request at the present time. A Watch opens a stream whose changes `take_changes` returns.

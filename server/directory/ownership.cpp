@@ -273,6 +273,14 @@ void Ownership::lose(const std::string& session, Entry& entry) {
   notify(Notice::Kind::kLost, session);
 }
 
+void Ownership::begin_again() {
+  for (auto& [session, entry] : entries_)
+    if (entry.phase != Phase::kClaiming && entry.phase != Phase::kLost) lose(session, entry);
+  std::erase_if(entries_, [](const auto& entry) { return entry.second.phase == Phase::kClaiming; });
+  released_.clear();
+  view_.read_again();
+}
+
 bool Ownership::claim(const std::string& session) {
   if (!DirectoryKeys::valid_name(session)) return false;
   const auto found = entries_.find(session);

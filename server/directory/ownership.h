@@ -83,6 +83,8 @@ class Ownership {
   /// @param again  takes the place of a use that stands in the store: the caller knows that it was for this session,
   ///               at a former owner, and ended with that
   bool use_ticket(const std::string& session, const std::string& ticket, LeaseId lease = 0, bool again = false);
+  /// The store has lost its data: every session is lost, claims are forgotten, and the view is read again.
+  void begin_again();
   /// Removes a lost session.
   void forget(const std::string& session);
   void describe(std::string text) { keeper_.describe(std::move(text)); }

@@ -31,10 +31,12 @@ std::optional<Request> PrefixFollower::poll_request(Time now, OperationId operat
 std::optional<PrefixFollower::News> PrefixFollower::on_reply(const Reply& reply) {
   if (reply.operation != operation_ || (state_ != State::kReading && state_ != State::kFollowing)) return std::nullopt;
   News news;
-  if (reply.outcome != Outcome::kDone) {
+  const bool watch_went_back = state_ == State::kFollowing && reply.revision > 0 && reply.revision < revision();
+  if (reply.outcome != Outcome::kDone || watch_went_back) {
     state_ = State::kStale;
   } else if (state_ == State::kReading) {
     news.all = true;
+    news.back = reply.revision < revision();
     if (!reply.found.empty())
       for (const KeyValue& entry : reply.found.front()) news.changes.push_back({entry, false});
     next_ = after(reply.revision);

@@ -11,10 +11,14 @@ namespace tandem::directory {
 
 /// Follows all keys with one prefix by one read and a watch. When the watch breaks or its revision was compacted, it
 /// reads everything again. The changes that it reports may be old.
+///
+/// A store that has lost its data begins again with low revisions, and a watch there waits in silence for revisions
+/// that are to come. So an answer of a lower revision than a former one has everything read again.
 class PrefixFollower {
  public:
   struct News {
-    bool all = false;  ///< `changes` are all keys; others have gone
+    bool all = false;   ///< `changes` are all keys; others have gone
+    bool back = false;  ///< with `all`: the store has a lower revision than before, so it has lost changes
     std::vector<Change> changes;
   };
 
@@ -25,6 +29,8 @@ class PrefixFollower {
   [[nodiscard]] std::optional<Request> poll_request(Time now, OperationId operation, Duration retry_after);
   /// Takes a reply. Returns its changes, or nothing if it belongs to another object.
   [[nodiscard]] std::optional<News> on_reply(const Reply& reply);
+  /// Has everything read again, because the copy may be of a store that is no more.
+  void restart() noexcept { state_ = State::kStale; }
 
   /// The copy is complete and follows the store.
   [[nodiscard]] bool follows() const noexcept { return state_ == State::kFollowing; }

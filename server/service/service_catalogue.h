@@ -37,6 +37,8 @@ class ServiceCatalogue {
   bool on_reply(const directory::Reply& reply);
 
   [[nodiscard]] bool follows() const noexcept { return follower_.follows(); }
+  /// Has everything read again.
+  void read_again() noexcept { follower_.restart(); }
   /// Times at which everything was read.
   [[nodiscard]] std::uint64_t readings() const noexcept { return follower_.readings(); }
   [[nodiscard]] const Entries& entries() const noexcept { return entries_; }

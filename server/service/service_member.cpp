@@ -5,28 +5,18 @@
 
 namespace tandem::server {
 
-using directory::Condition;
-using directory::Erase;
 using directory::Notice;
 using directory::OperationId;
 using directory::Outcome;
-using directory::Put;
-using directory::Read;
 using directory::Reply;
 using directory::Request;
-using directory::Transaction;
 
 namespace {
 
 /// First number of this class's own operations; those of Ownership count from 1.
 constexpr OperationId kOwnOperations = OperationId{1} << 62;
-constexpr Duration kAgain = std::chrono::milliseconds(50);
 constexpr Duration kWritePause = std::chrono::milliseconds(50);  // 32 values each: 256 sessions, twice a second
 constexpr Duration kStandbyPause = std::chrono::seconds(2);      // between two attempts to name a standby
-
-const std::string* found_text(const Reply& reply, std::size_t n) {
-  return n < reply.found.size() && !reply.found[n].empty() ? &reply.found[n][0].value : nullptr;
-}
 
 }  // namespace
 
@@ -40,6 +30,7 @@ ServiceMember::ServiceMember(ServiceMemberOptions options, directory::Directory&
       tickets_(ownership_, names_),
       writer_(names_, keys_.writes(options_.server), kWritePause),
       registry_(options_.prefix, options_.agreed, options_.registry_mark),
+      loss_(options_.prefix, options_.times.ttl),
       placement_(options_.key),
       planner_(options_.key),
       newest_(kOwnOperations) {}
@@ -49,7 +40,10 @@ void ServiceMember::describe(const directory::ServerRecord& record) {
   ownership_.describe(directory::to_text(record_));
 }
 
-void ServiceMember::begin(OperationId operation, const Request& request) { store_.begin(operation, request); }
+void ServiceMember::begin(OperationId operation, const Request& request) {
+  loss_.on_begin(operation, request);
+  store_.begin(operation, request);
+}
 
 void ServiceMember::note(const Reply& reply, Time now) {
   if (reply.outcome == Outcome::kUnknown || reply.outcome == Outcome::kRefused) {
@@ -65,6 +59,11 @@ void ServiceMember::step(Time now) {
   now_ = now;
   while (const auto reply = store_.poll()) {
     note(*reply, now);
+    if (loss_.went_back(*reply)) on_directory_lost(now);
+    if (const auto found = loss_.on_reply(*reply, registry_.agreed()); found != DirectoryLoss::Found::kNothing) {
+      if (found == DirectoryLoss::Found::kOther) on_directory_lost(now);
+      continue;
+    }
     if (reply->operation < kOwnOperations) {
       ownership_.on_reply(now, *reply);
     } else if (reply->operation == revoking_) {
@@ -81,11 +80,13 @@ void ServiceMember::step(Time now) {
     return;
   }
   take_notices(now);
-  if (!configured_claimed_) claim_configured();
+  follow_losses(now);
+  if (!configured_claimed_) claim_configured(now);
   begin_moves();
   balance(now);
   advance_sessions(now);
   const Duration retry = 2 * options_.times.answer_limit;
+  if (const auto request = loss_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = catalogue_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = tickets_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = writer_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
@@ -127,6 +128,8 @@ void ServiceMember::take_notices(Time now) {
         }
         break;
       case Notice::Kind::kLeaseLost:  // a kLost of each session follows
+        loss_.doubt();
+        break;
       case Notice::Kind::kStandbySet:
         break;
       case Notice::Kind::kTicketAccepted:
@@ -138,15 +141,17 @@ void ServiceMember::take_notices(Time now) {
 }
 
 /// The server that runs first begins the sessions of the configuration. Later ones find them owned, or with a standby.
-void ServiceMember::claim_configured() {
-  if (!ownership_.keeper().registered() || !ownership_.view().follows() || !catalogue_.follows()) return;
+void ServiceMember::claim_configured(Time now) {
+  if (!loss_.all_may_begin(now) || !ownership_.keeper().registered() || !ownership_.view().follows() ||
+      !catalogue_.follows())
+    return;
   configured_claimed_ = true;
   for (const auto& [session, spec] : options_.configured) {
     const auto* const seen = ownership_.view().session(session);
     if (entries_.contains(session) || (seen != nullptr && (seen->owner || seen->standby))) continue;
     if (!ownership_.claim(session)) continue;
     Entry entry;
-    entry.spec = spec;
+    entry.spec = based(spec);
     entry.first = true;
     entries_[session] = std::move(entry);
   }
@@ -174,6 +179,7 @@ void ServiceMember::on_lost(const std::string& session) {
   if (found == entries_.end()) return;
   Entry& entry = found->second;
   refuse(entry, session, "this server has lost the session to another one");
+  keep(session, entry);
   if (entry.phase != Phase::kOpening && entry.phase != Phase::kOpen) {
     if (entry.phase != Phase::kLosing) entries_.erase(found);
     return;
@@ -191,7 +197,7 @@ void ServiceMember::refuse(Entry& entry, const std::string& session, std::string
 }
 
 void ServiceMember::want(const std::string& session) {
-  if (entries_.contains(session) || leaving_ || record_.drains) return;
+  if (!loss_.all_may_begin(now_) || entries_.contains(session) || leaving_ || record_.drains) return;
   if (const auto refused = refused_until_.find(session); refused != refused_until_.end()) {
     if (now_ < refused->second) return;
     refused_until_.erase(refused);
@@ -201,142 +207,18 @@ void ServiceMember::want(const std::string& session) {
 }
 
 bool ServiceMember::create(Time now, const std::string& session, ServiceSession spec, std::uint64_t order) {
-  if (entries_.contains(session) || leaving_ || !ownership_.claim(session)) return false;
   Entry entry;
-  entry.spec = std::move(spec);
-  entry.fresh = true;
   entry.order = order;
+  if (loss_.waits(now)) {
+    refuse(entry, session, "the directory of the service was begun from nothing; try again in some seconds");
+    return true;
+  }
+  if (entries_.contains(session) || leaving_ || !ownership_.claim(session)) return false;
+  entry.spec = based(std::move(spec));
+  entry.fresh = true;
   entry.order_ends = now + kCreationLimit;
   entries_[session] = std::move(entry);
   return true;
-}
-
-std::optional<Request> ServiceMember::request_of(const std::string& session, const Entry& entry) const {
-  const Condition owned{names_.owner(session), Condition::Of::kCreated, entry.revision};
-  const std::string spec = keys_.spec(session);
-  switch (entry.phase) {
-    case Phase::kLoading:
-      return Transaction{{owned}, {Read{spec}, Read{keys_.snapshot(session)}, Read{keys_.consoles(session)}}, {}};
-    case Phase::kWriting: {
-      Transaction write{{owned},
-                        {Put{spec, to_text(*entry.spec), 0}, Erase{keys_.snapshot(session)},
-                         Erase{keys_.consoles(session)}, Erase{keys_.listed(session)}},
-                        {Read{spec}, Read{names_.owner(session)}}};
-      if (entry.fresh) write.conditions.push_back({spec, Condition::Of::kCreated, 0});
-      return write;
-    }
-    case Phase::kEnding:
-      return Transaction{{owned},
-                         {Erase{spec}, Erase{keys_.listed(session)}, Erase{keys_.move(session)},
-                          Erase{keys_.home(session)}, Erase{keys_.snapshot(session)}, Erase{keys_.consoles(session)}},
-                         {}};
-    default:
-      return std::nullopt;
-  }
-}
-
-void ServiceMember::advance_sessions(Time now) {
-  std::vector<std::string> abandoned;
-  for (auto& [session, entry] : entries_) {
-    if (entry.order != 0 && entry.phase != Phase::kOpening && now >= entry.order_ends) {
-      refuse(entry, session, "the directory of the service does not answer");
-      abandoned.push_back(session);
-      continue;
-    }
-    if (entry.phase == Phase::kOpen) choose_standby(now, session, entry);
-    if (entry.phase == Phase::kMoving) advance_move(session, entry);
-    if (entry.operation != 0 && now - entry.sent >= 2 * options_.times.answer_limit) entry.operation = 0;
-    if (entry.operation != 0 || now < entry.next_attempt) continue;
-    if (const auto request = request_of(session, entry)) {
-      entry.operation = ++newest_;
-      entry.sent = now;
-      begin(entry.operation, *request);
-    }
-  }
-  for (const std::string& session : abandoned) {
-    Entry& entry = entries_[session];
-    if (entry.phase != Phase::kWriting) {
-      entries_.erase(session);  // a later success of the claim finds no spec and ends it
-    } else {
-      entry.phase = Phase::kLoading;
-      entry.abandoned = true;
-      entry.operation = 0;
-    }
-  }
-}
-
-void ServiceMember::on_session_reply(Time now, const Reply& reply) {
-  const auto found =
-      std::ranges::find_if(entries_, [&](const auto& e) { return e.second.operation == reply.operation; });
-  if (found == entries_.end()) return;
-  const std::string session = found->first;
-  Entry& entry = found->second;
-  entry.operation = 0;
-  if (reply.outcome != Outcome::kDone) {
-    entry.next_attempt = now + kAgain;
-    return;
-  }
-  switch (entry.phase) {
-    case Phase::kLoading:
-      if (reply.held) return on_loaded(now, session, entry, reply);
-      entry.next_attempt = now + kAgain;  // not ours any more: the ownership reports it
-      return;
-    case Phase::kWriting:
-      return on_written(now, session, entry, reply);
-    case Phase::kEnding:
-      if (reply.held) return release(now, session);
-      entry.next_attempt = now + kAgain;
-      return;
-    default:
-      return;
-  }
-}
-
-void ServiceMember::on_loaded(Time now, const std::string& session, Entry& entry, const Reply& reply) {
-  const std::string* const spec_text = found_text(reply, 0);
-  if (entry.abandoned) {
-    // The write whose answer is missing made the spec, or found one that belongs to the session without owner.
-    const bool ours = spec_text != nullptr && *spec_text == to_text(*entry.spec);
-    if (!ours) return release(now, session);
-    entry.phase = Phase::kEnding;
-    return;
-  }
-  const std::string *const snapshot = found_text(reply, 1), *const consoles = found_text(reply, 2);
-  auto spec = spec_text != nullptr ? parse_service_session(*spec_text) : std::nullopt;
-  const bool changed = entry.first && spec && entry.spec &&
-                       (spec->scene != entry.spec->scene || spec->duration_s != entry.spec->duration_s ||
-                        spec->tickets_only != entry.spec->tickets_only || spec->restart != entry.spec->restart);
-  if (spec && !changed)
-    return open(session, entry, std::move(*spec), snapshot != nullptr ? *snapshot : "",
-                consoles != nullptr ? *consoles : "");
-  // A configured session without owner begins; any other without a spec has ended.
-  entry.phase = entry.spec ? Phase::kWriting : Phase::kEnding;
-}
-
-void ServiceMember::on_written(Time now, const std::string& session, Entry& entry, const Reply& reply) {
-  if (reply.held) return open(session, entry, *entry.spec);
-  const std::string* const written = found_text(reply, 0);
-  if (written != nullptr && entry.spec && *written == to_text(*entry.spec))  // by a write whose answer was lost
-    return open(session, entry, *entry.spec);
-  if (written != nullptr && entry.fresh) {
-    refuse(entry, session, "a session " + session + " exists already, and no server serves it now");
-    return release(now, session);
-  }
-  entry.next_attempt = now + kAgain;
-}
-
-void ServiceMember::open(const std::string& session, Entry& entry, ServiceSession spec, std::string snapshot,
-                         std::string consoles) {
-  entry.phase = Phase::kOpening;
-  events_.push_back({.kind = ServiceEvent::Kind::kOpen,
-                     .session = session,
-                     .spec = std::move(spec),
-                     .snapshot = std::move(snapshot),
-                     .consoles = std::move(consoles),
-                     .revision = entry.revision,
-                     .order = std::exchange(entry.order, 0)});
-  entry.spec.reset();
-  entry.fresh = entry.first = false;
 }
 
 void ServiceMember::on_opened(const std::string& session) {
@@ -384,6 +266,8 @@ void ServiceMember::replace(const std::string& session, ServiceSession spec) {
   writer_.drop(session);
   found->second.phase = Phase::kWriting;
   found->second.spec = std::move(spec);
+  found->second.snapshot.clear();
+  found->second.consoles.clear();
   found->second.operation = 0;
   found->second.next_attempt = {};
 }

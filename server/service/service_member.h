@@ -11,6 +11,7 @@
 #include "server/directory/placement/move_planner.h"
 #include "server/directory/placement/placement.h"
 #include "server/directory/placement/server_record.h"
+#include "server/service/directory_loss.h"
 #include "server/service/fenced_writer.h"
 #include "server/service/service_catalogue.h"
 #include "server/service/service_session.h"
@@ -42,11 +43,11 @@ struct ServiceEvent {
   };
   Kind kind{};
   std::string session;
-  ServiceSession spec{};             ///< kOpen
-  std::string snapshot{};            ///< kOpen: bytes of `encode_snapshot`; empty: a new session
-  std::string consoles{};            ///< kOpen: text of ServiceConsoles, as the former owner wrote it; empty: none
-  directory::Revision revision = 0;  ///< kOpen: of the ownership
-  std::uint64_t order = 0;           ///< kOpen, kRefused: number of the creation; 0: none
+  ServiceSession spec{};      ///< kOpen
+  std::string snapshot{};     ///< kOpen: bytes of `encode_snapshot`; empty: a new session
+  std::string consoles{};     ///< kOpen: text of ServiceConsoles, as the former owner wrote it; empty: none
+  std::int64_t revision = 0;  ///< kOpen: of the ownership, with the session's epoch_base: its epoch
+  std::uint64_t order = 0;    ///< kOpen, kRefused: number of the creation; 0: none
   std::string text{};
 };
 
@@ -70,7 +71,7 @@ struct SessionPlace {
   Kind kind = Kind::kNone;
   std::string session, server;
   std::optional<directory::ServerRecord> record{};  ///< kElsewhere
-  directory::Revision revision = 0;                 ///< kElsewhere: of its ownership
+  std::int64_t revision = 0;                        ///< kElsewhere: of its ownership, with the epoch_base
 };
 
 /// State of a member for operators.
@@ -90,6 +91,8 @@ struct ServiceStatus {
   std::size_t owned = 0, members = 0, sessions = 0;
   std::uint64_t unanswered = 0;  ///< requests without an answer
   std::uint64_t moves = 0;       ///< sessions that this server has begun to move to others
+  std::uint64_t losses = 0;      ///< times at which the directory was begun from nothing, or put back
+  bool recovers = false;         ///< after that: sessions are not claimed yet
   FencedWriter::Counters writes{};
   std::int64_t voucher_ends = 0;  ///< last second of this server's voucher, since 1970, UTC; 0: unknown
 
@@ -104,6 +107,7 @@ struct ServiceStatus {
 ///   asks for it, or by its standby.
 /// - An owned session is opened from its spec and its newest snapshot in the directory.
 /// - A session that ends takes its keys with it: spec, snapshot, then the owner key.
+/// - In a directory that was begun from nothing, a server begins its sessions again from what it has (DirectoryLoss).
 class ServiceMember {
  public:
   static constexpr Duration kCreationLimit = std::chrono::seconds(4);  ///< then a creation is refused
@@ -195,12 +199,14 @@ class ServiceMember {
   struct Entry {
     Phase phase = Phase::kClaiming;
     directory::Revision revision = 0;
-    std::optional<ServiceSession> spec{};  ///< to be written
-    bool fresh = false;                    ///< the spec may not exist before
-    bool abandoned = false;                ///< its creation was refused while the spec was being written
-    bool first = false;                    ///< claimed at start: a changed configuration replaces the spec
-    std::string target{};                  ///< kMoving
-    int steps_until_move = -1;             ///< kMoving: after the hand-over; -1: not handed over, or moving
+    std::optional<ServiceSession> spec{};    ///< to be written
+    std::optional<ServiceSession> served{};  ///< as opened
+    std::string snapshot{}, consoles{};      ///< newest
+    bool fresh = false;                      ///< the spec may not exist before
+    bool abandoned = false;                  ///< its creation was refused while the spec was being written
+    bool first = false;                      ///< claimed at start: a changed configuration replaces the spec
+    std::string target{};                    ///< kMoving
+    int steps_until_move = -1;               ///< kMoving: after the hand-over; -1: not handed over, or moving
     std::uint64_t order = 0;
     Time order_ends{}, next_attempt{}, next_standby{};
     Time opened{};
@@ -223,7 +229,14 @@ class ServiceMember {
   void release(Time now, const std::string& session);
   void refuse(Entry& entry, const std::string& session, std::string why);
   [[nodiscard]] std::optional<directory::Request> request_of(const std::string& session, const Entry& entry) const;
-  void claim_configured();
+  void claim_configured(Time now);
+  void on_directory_lost(Time now);
+  void follow_losses(Time now);
+  void keep(const std::string& session, Entry& entry);
+  /// Returns the spec with an epoch that clients have not seen.
+  [[nodiscard]] ServiceSession based(ServiceSession spec) const;
+  /// Name of a session that begins here again after the loss of the directory; empty: none fits.
+  [[nodiscard]] std::string kept_name(const rpc::SessionChoice& choice) const;
   void advance_sessions(Time now);
   void begin_moves();
   void balance(Time now);
@@ -244,6 +257,8 @@ class ServiceMember {
   ServiceTickets tickets_;
   FencedWriter writer_;
   SharedRegistry registry_;
+  DirectoryLoss loss_;
+  std::uint64_t registry_losses_ = 0, kept_since_losses_ = 0;
   directory::Placement placement_;
   directory::MovePlanner planner_;
   directory::ServerRecord record_;

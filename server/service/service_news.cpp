@@ -62,6 +62,22 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
                            "; end it, or give this server a member file with another name (`tandem-server service "
                            "vouch --name NAME`, then `tandem-server service join`). This server goes on trying"});
   }
+  if (status.losses != std::exchange(losses_, status.losses))
+    lines.push_back(
+        {true, "service_directory_lost",
+         "the directory of the service at " + endpoints_ +
+             " has lost its data: it was begun from nothing, or put back to an older state. This server writes its "
+             "workstations there again" +
+             format(", and serves its sessions again when the leases of before are over, in %g s, from their last "
+                    "state. Sessions that an operator created at a server which does not run are gone, and a ticket "
+                    "that was used may be accepted once more. If etcd has its data elsewhere, check its --data-dir; "
+                    "if there is a backup, end all servers and restore it",
+                    seconds(times_.ttl))});
+  if (!status.recovers && std::exchange(recovers_, status.recovers))
+    lines.push_back({false, "service_recovered",
+                     format("the service goes on in a directory that was begun from nothing: %zu session%s known here",
+                            status.sessions, status.sessions == 1 ? " is" : "s are")});
+  recovers_ = status.recovers;
   const bool held = status.held();
   if (held != std::exchange(held_, held))
     lines.push_back(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +39,8 @@ class ServiceNews {
   directory::LeaseTimes times_;
   std::string tls_options_;
   State state_ = State::kStarting;
-  bool held_ = false;
+  bool held_ = false, recovers_ = false;
+  std::uint64_t losses_ = 0;
   std::optional<Time> began_, name_taken_since_;
 };
 

@@ -35,8 +35,14 @@ SessionPlace ServiceMember::locate(const rpc::SessionChoice& choice) {
   place.session = catalogue_.name_of(choice);
   const bool known = ownership_.view().readings() > 0 && catalogue_.readings() > 0;
   const bool follows = ownership_.view().follows() && catalogue_.follows();
+  const bool recovers = loss_.waits(now_);
   if (place.session.empty()) {
-    place.kind = known && follows ? SessionPlace::Kind::kNone : SessionPlace::Kind::kUnknown;
+    if (recovers) place.session = kept_name(choice);
+    if (!place.session.empty()) {
+      place.kind = SessionPlace::Kind::kComing;
+      return place;
+    }
+    place.kind = known && follows && !recovers ? SessionPlace::Kind::kNone : SessionPlace::Kind::kUnknown;
     return place;
   }
   if (const auto own = entries_.find(place.session); own != entries_.end()) {
@@ -50,7 +56,8 @@ SessionPlace ServiceMember::locate(const rpc::SessionChoice& choice) {
   const auto* const seen = ownership_.view().session(place.session);
   if (seen != nullptr && seen->owner) {
     place.server = seen->owner->name;
-    place.revision = seen->owner->created;
+    const ServiceSession* const spec = catalogue_.find(place.session);
+    place.revision = seen->owner->created + (spec != nullptr ? spec->epoch_base : 0);
     const auto* const server = ownership_.view().server(place.server);
     if (server != nullptr && place.server != options_.server)
       place.record = directory::parse_server_record(server->text);
@@ -107,6 +114,7 @@ void ServiceMember::set_state(const std::string& session, const std::string& key
   if (found == entries_.end()) return;
   const Phase phase = found->second.phase;
   if (phase != Phase::kOpen && phase != Phase::kOpening && phase != Phase::kMoving) return;
+  (key == keys_.consoles(session) ? found->second.consoles : found->second.snapshot) = value;
   writer_.set(session, key, std::move(value), found->second.revision, mark);
 }
 
@@ -139,6 +147,8 @@ ServiceStatus ServiceMember::status(Time now) const {
   status.sessions = catalogue_.entries().size();
   status.unanswered = unanswered_;
   status.moves = moves_;
+  status.losses = loss_.losses();
+  status.recovers = loss_.waits(now);
   status.writes = writer_.counters();
   return status;
 }

@@ -48,20 +48,19 @@ bool read(const Json& in, const char* key, T& into) {
 }  // namespace
 
 std::string to_text(const ServiceSession& session) {
-  return dumped({{"id", to_hex(session.id)},
-                 {"code", session.code},
-                 {"scene", session.scene},
-                 {"scene_name", session.scene_name},
-                 {"duration_s", session.duration_s},
-                 {"tickets_only", session.tickets_only},
-                 {"restart", session.restart},
-                 {"created", session.created},
-                 {"ends_s", session.ends_s}});
+  Json out{{"id", to_hex(session.id)},         {"code", session.code},
+           {"scene", session.scene},           {"scene_name", session.scene_name},
+           {"duration_s", session.duration_s}, {"tickets_only", session.tickets_only},
+           {"restart", session.restart},       {"created", session.created},
+           {"ends_s", session.ends_s}};
+  if (session.epoch_base != 0) out["epoch_base"] = session.epoch_base;
+  return dumped(out);
 }
 
 std::optional<ServiceSession> parse_service_session(std::string_view text) {
   constexpr std::size_t kTextMax = 255;
   constexpr double kDurationMax = 3e6;
+  constexpr std::int64_t kEpochBaseMax = std::int64_t{1} << 62;  // half of what an epoch can be
   if (text.size() > kServiceSessionMax) return std::nullopt;
   const Json in = Json::parse(text, nullptr, false);
   if (!in.is_object()) return std::nullopt;
@@ -75,6 +74,8 @@ std::optional<ServiceSession> parse_service_session(std::string_view text) {
   if (!complete || out.code.size() > kTextMax || out.scene.empty() || out.scene_name.empty() ||
       out.scene_name.size() > kTextMax || out.ends_s < 0)
     return std::nullopt;
+  if (in.contains("epoch_base") && !read(in, "epoch_base", out.epoch_base)) return std::nullopt;
+  if (out.epoch_base < 0 || out.epoch_base > kEpochBaseMax) return std::nullopt;
   if (!(out.duration_s >= 0 && out.duration_s <= kDurationMax)) return std::nullopt;
   return out;
 }

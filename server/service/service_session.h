@@ -20,6 +20,9 @@ struct ServiceSession {
   bool restart = false;       ///< when the session is over, a new one replaces it
   bool created = false;       ///< an operator created it at run time
   std::int64_t ends_s = 0;    ///< wall-clock time of its end [s since 1970, UTC]; 0: none
+  /// The epoch of the session is the revision of its ownership plus this: its ownerships in a directory that was lost
+  /// had higher revisions than those of the present one.
+  std::int64_t epoch_base = 0;
   friend bool operator==(const ServiceSession&, const ServiceSession&) = default;
 };
 

@@ -43,6 +43,8 @@ class ServiceTickets {
            bool again = false);
   /// Makes a ticket valid again whose use this server was granted; any other stays as it is.
   void restore(const std::string& session, const std::string& ticket);
+  /// Uses get new leases: those of a directory that is lost do not exist.
+  void forget_leases() { leases_.clear(); }
   /// Whether a ticket of the session is not yet valid again in the directory.
   [[nodiscard]] bool restoring(std::string_view session) const noexcept;
   [[nodiscard]] bool restoring() const noexcept { return !restores_.empty(); }

@@ -24,7 +24,7 @@ bool valid_mark(std::string_view text) {
 }  // namespace
 
 std::string to_text(const RegistryAgreement& agreed) {
-  return nlohmann::json{{"mark", agreed.mark}, {"entries", agreed.entries}}.dump(1) + "\n";
+  return nlohmann::json{{"mark", agreed.mark}, {"created", agreed.created}, {"entries", agreed.entries}}.dump(1) + "\n";
 }
 
 std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text) {
@@ -34,6 +34,10 @@ std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text)
     return std::nullopt;
   RegistryAgreement agreed{in["mark"].get<std::string>(), {}};
   if (!valid_mark(agreed.mark)) return std::nullopt;
+  if (const auto created = in.find("created"); created != in.end()) {
+    if (!created->is_number_integer()) return std::nullopt;
+    agreed.created = created->get<directory::Revision>();
+  }
   for (const auto& [name, value] : in["entries"].items()) {
     if (!value.is_string() || !readable_entry(value.get<std::string>())) return std::nullopt;
     agreed.entries[name] = value.get<std::string>();
@@ -55,6 +59,8 @@ std::string SharedRegistry::merged(const std::string& name) const {
   const std::string &before = text_in(agreed_.entries, name), &local = text_in(local_, name),
                     &stored = stored_text(name);
   if (unreadable(name)) return local;
+  // Revoked here while the lost directory did not answer; another server has brought the row into the new one.
+  if (local.empty() && before.empty() && !stored.empty() && stored == text_in(lost_, name)) return kNone;
   if (local == before) return stored;
   if (stored == before || local == stored) return local;
   return local.empty() || stored.empty() ? kNone : merged_entry(before, local, stored);  // a revocation wins
@@ -79,7 +85,8 @@ directory::Request SharedRegistry::change(const std::string& name, std::string t
   directory::Transaction change{
       {{prefix_ + name, directory::Condition::Of::kModified, known == stored_.end() ? 0 : known->second.modified}},
       {},
-      {}};
+      {directory::Read{prefix_ + kMark}}};
+  if (name != kMark) change.conditions.push_back({prefix_ + kMark, directory::Condition::Of::kCreated, mark().created});
   if (change_.empty()) {
     change.then.push_back(directory::Erase{prefix_ + name});
   } else {
@@ -96,8 +103,13 @@ std::optional<directory::Request> SharedRegistry::poll_request(Time now, directo
     refused_ = false;
     next_ = now + kPause;
   }
-  if (!follower_.follows() || operation_ != 0 || now < next_) return std::nullopt;
-  if (stored_text(kMark).empty()) return change(kMark, new_mark_, now, operation);
+  if (!follower_.follows() || !local_known_ || operation_ != 0 || now < next_) return std::nullopt;
+  if (stored_text(kMark).empty()) {
+    // Each attempt has a mark of its own: one that was written into a directory which is lost now is never seen again.
+    std::string drawn = new_mark_ + (marks_ == 0 ? "" : "-" + std::to_string(marks_));
+    ++marks_;
+    return change(kMark, std::move(drawn), now, operation);
+  }
   agree();
   for (const std::string& name : names())
     if (std::string wanted = merged(name); !unreadable(name) && wanted != stored_text(name))
@@ -107,21 +119,53 @@ std::optional<directory::Request> SharedRegistry::poll_request(Time now, directo
 
 bool SharedRegistry::on_reply(const directory::Reply& reply) {
   if (const auto news = follower_.on_reply(reply)) {
-    if (news->all) stored_.clear();
-    for (const directory::Change& change : news->changes) apply(change);
+    on_news(*news);
     return true;
   }
   if (operation_ == 0 || reply.operation != operation_) return false;
   operation_ = 0;
   // If it was not written, another server has changed the name meanwhile, of which the follower tells.
   refused_ = reply.outcome != directory::Outcome::kDone || !reply.held;
-  if (refused_) return true;
+  if (refused_) {
+    const bool told = reply.outcome == directory::Outcome::kDone && !reply.found.empty();
+    const directory::Revision created = told && !reply.found[0].empty() ? reply.found[0][0].created : 0;
+    if (told && mark().created != 0 && created != mark().created) read_again();
+    return true;
+  }
   if (change_.empty()) {
     stored_.erase(changing_);
   } else {
-    stored_[changing_] = {change_, reply.revision};
+    Stored& stored = stored_[changing_];
+    stored = {change_, reply.revision, stored.created == 0 ? reply.revision : stored.created};
   }
   return true;
+}
+
+SharedRegistry::Stored SharedRegistry::mark() const {
+  const auto found = stored_.find(kMark);
+  return found == stored_.end() ? Stored{} : found->second;
+}
+
+bool SharedRegistry::as_agreed() const {
+  const Stored now = mark();
+  return now.text == agreed_.mark && (agreed_.created == 0 || agreed_.created == now.created);
+}
+
+void SharedRegistry::begin_again() {
+  if (!agreed_.mark.empty()) ++losses_;
+  for (auto& [name, text] : agreed_.entries)
+    if (!local_known_ || !local_.contains(name)) lost_[name] = std::move(text);
+  agreed_ = {};
+}
+
+void SharedRegistry::on_news(const directory::PrefixFollower::News& news) {
+  const Stored before = mark();
+  if (news.all) stored_.clear();
+  for (const directory::Change& change : news.changes) apply(change);
+  if (news.back || ((news.all || !before.text.empty()) && !as_agreed())) begin_again();
+  // The changes of another directory do not fit to the copy of the one before.
+  const bool other = !before.text.empty() && (before.text != mark().text || before.created != mark().created);
+  if (!news.all && other) read_again();
 }
 
 void SharedRegistry::apply(const directory::Change& change) {
@@ -133,17 +177,21 @@ void SharedRegistry::apply(const directory::Change& change) {
   const bool readable =
       name == kMark ? valid_mark(change.entry.value) : auth::is_valid_name(name) && readable_entry(change.entry.value);
   if (!readable) ++rejected_;
-  stored_[name] = {readable ? change.entry.value : "", change.entry.modified};
+  stored_[name] = {readable ? change.entry.value : "", change.entry.modified, change.entry.created};
 }
 
 void SharedRegistry::set_local(RegistryEntries local) {
   local_ = std::move(local);
+  local_known_ = true;
+  for (const auto& [name, text] : local_) lost_.erase(name);
   agree();
 }
 
 void SharedRegistry::agree() {
-  if (!follower_.follows() || stored_text(kMark).empty()) return;
-  if (agreed_.mark != stored_text(kMark)) agreed_ = {stored_text(kMark), {}};
+  if (!follower_.follows() || !local_known_ || stored_text(kMark).empty()) return;
+  if (!as_agreed()) begin_again();
+  agreed_.mark = stored_text(kMark);
+  agreed_.created = mark().created;
   for (const std::string& name : names()) {
     const std::string& local = text_in(local_, name);
     if (unreadable(name) || local != stored_text(name)) continue;
@@ -156,7 +204,7 @@ void SharedRegistry::agree() {
 }
 
 std::optional<RegistryEntries> SharedRegistry::wanted() const {
-  if (!follower_.follows() || agreed_.mark.empty() || agreed_.mark != stored_text(kMark)) return std::nullopt;
+  if (!follower_.follows() || !local_known_ || agreed_.mark.empty() || !as_agreed()) return std::nullopt;
   RegistryEntries all;
   for (const std::string& name : names())
     if (std::string text = merged(name); !text.empty()) all[name] = std::move(text);

@@ -15,6 +15,7 @@ namespace tandem::server {
 struct RegistryAgreement {
   std::string mark;  ///< of that directory
   RegistryEntries entries;
+  directory::Revision created = 0;  ///< of the mark; 0: unknown, a server of an older version has stored this
   friend bool operator==(const RegistryAgreement&, const RegistryAgreement&) = default;
 };
 /// As one text for a file, and back. Reads any bytes; nullopt: they are no such text.
@@ -27,20 +28,22 @@ struct RegistryAgreement {
 /// other. If both sides changed, a revocation wins, else key and code are merged (`merged_entry`). The files take only
 /// what they can hold (`tenable`); of one key under two names the later enrolment is revoked.
 ///
-/// While the directory does not answer, the files hold as they are. A directory that was begun from nothing gets the
-/// content of the files: a mark in it, drawn at random, tells it from the one of the last agreement. Pure: no clock,
-/// file, socket or thread.
+/// While the directory does not answer, the files hold as they are. A missing entry is a revocation only in the
+/// directory of the last agreement. Any other gets the content of the files: one that was begun from nothing, or was
+/// put back to an older state while this server ran. Three things tell it: a mark in it, drawn at random for each
+/// attempt to write one; the revision that created the mark; and revisions that go back. Each change has the condition
+/// that the mark is the known one. Pure: no clock, file, socket or thread.
 class SharedRegistry {
  public:
   static constexpr Duration kPause = std::chrono::milliseconds(50);  ///< after a change that was not written
 
   /// @param prefix  of the directory's keys, begins and ends with "/"
   /// @param agreed  `agreed()` from the time before a restart; empty: there was none
-  /// @param mark    random text, for a directory without one
+  /// @param mark    random text, the beginning of marks for directories without one
   SharedRegistry(const std::string& prefix, RegistryAgreement agreed, std::string mark)
       : prefix_(prefix + "registry/"), follower_(prefix_), agreed_(std::move(agreed)), new_mark_(std::move(mark)) {}
 
-  /// Sets the entries of the files as they are now.
+  /// Sets the entries of the files as they are now. Nothing changes on either side before the first call.
   void set_local(RegistryEntries local);
 
   /// Returns the request to begin now, if there is one.
@@ -56,13 +59,19 @@ class SharedRegistry {
   [[nodiscard]] const RegistryAgreement& agreed() const noexcept { return agreed_; }
   /// The copy of the directory is complete and follows it.
   [[nodiscard]] bool follows() const noexcept { return follower_.follows(); }
+  /// Has the directory read again: it may be another one than before.
+  void read_again() noexcept { follower_.restart(); }
+  /// Times at which the directory was not the one of the last agreement.
+  [[nodiscard]] std::uint64_t losses() const noexcept { return losses_; }
+  /// Takes the directory for another one than that of the last agreement.
+  void begin_again();
   /// Keys of the directory that cannot be read; they change nothing here.
   [[nodiscard]] std::uint64_t rejected() const noexcept { return rejected_; }
 
  private:
   struct Stored {
     std::string text;  ///< empty: it cannot be read
-    directory::Revision modified = 0;
+    directory::Revision modified = 0, created = 0;
   };
   void apply(const directory::Change& change);
   /// Text that both sides should have; empty: none.
@@ -73,18 +82,24 @@ class SharedRegistry {
   [[nodiscard]] directory::Request change(const std::string& key, std::string text, Time now,
                                           directory::OperationId operation);
   void agree();
+  /// The mark is the one of the last agreement, and the directory has lost nothing since.
+  [[nodiscard]] bool as_agreed() const;
+  void on_news(const directory::PrefixFollower::News& news);
+  [[nodiscard]] Stored mark() const;
 
   std::string prefix_;
   directory::PrefixFollower follower_;
   RegistryAgreement agreed_;
   std::string new_mark_;
   RegistryEntries local_;
+  bool local_known_ = false;
+  RegistryEntries lost_;  ///< as agreed in directories that are lost, without names that the files have
   std::map<std::string, Stored, std::less<>> stored_;
   directory::OperationId operation_ = 0;  ///< of a change under way; 0: none
   std::string changing_, change_;         ///< its name and text
   Time sent_{}, next_{};
   bool refused_ = false;
-  std::uint64_t rejected_ = 0;
+  std::uint64_t rejected_ = 0, losses_ = 0, marks_ = 0;
 };
 
 }  // namespace tandem::server

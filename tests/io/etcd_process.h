@@ -94,6 +94,14 @@ class Etcd {
     EXPECT_EQ(restored.wait(), 0) << restored.err();
     start();
   }
+  /// Kills the member, which is alone. It comes back after `outage` with no data.
+  void lose(std::chrono::milliseconds outage) {
+    process_->signal(SIGKILL);
+    EXPECT_TRUE(process_->wait());
+    std::this_thread::sleep_for(outage);
+    *(std::ranges::find(command_, "--data-dir") + 1) = folder_.file(format("data-%d", ++losses_));
+    start();
+  }
   [[nodiscard]] std::string endpoint() const { return format("127.0.0.1:%d", client_); }
   [[nodiscard]] Process& process() { return *process_; }
   [[nodiscard]] const Folder& folder() const { return folder_; }
@@ -119,7 +127,7 @@ class Etcd {
 
  private:
   Folder folder_;
-  int client_ = 0;
+  int client_ = 0, losses_ = 0;
   Words command_;
   std::optional<Process> process_;
 };

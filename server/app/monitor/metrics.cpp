@@ -101,6 +101,9 @@ void describe_service(Families& page, const ServiceStatus& service) {
              static_cast<double>(service.members));
   page.count("tandem_service_moves_total", "Sessions that this server has begun to move to other servers", {},
              static_cast<double>(service.moves));
+  page.count("tandem_service_directory_lost_total",
+             "Times at which the directory was begun from nothing, or put back to an older state", {},
+             static_cast<double>(service.losses));
   page.count("tandem_service_unanswered_total", "Requests to the directory without an answer", {},
              static_cast<double>(service.unanswered));
   page.count("tandem_service_written_total", "Snapshots and lists that were written to the directory", {},
@@ -212,6 +215,8 @@ const char* unready_text(const ServiceStatus& service) {
                           : "the directory of the service does not answer\n";
   if (service.name_taken) return "another server is registered in the service under the name of this one\n";
   if (!service.registered) return "this server is not registered in its service\n";
+  if (service.recovers)
+    return "the directory of the service was begun from nothing: sessions are served again within seconds\n";
   return service.held() ? "the sessions are HELD: the lease of this server was not renewed in time\n" : "";
 }
 

@@ -40,7 +40,8 @@ std::string SessionTable::open_owned(OwnedSession owned) {
 }
 
 void SessionTable::give_up(const std::string& name) {
-  end_here(name, {"given_up", "", "GIVEN UP: another server may own the session now; its clients join there", true});
+  end_here(name,
+           {"given_up", "", "GIVEN UP: this server owns the session no more; its clients join the next owner", true});
 }
 
 void SessionTable::hand_over(const std::string& name, std::string text) {

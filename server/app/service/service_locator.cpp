@@ -40,7 +40,8 @@ SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
     case SessionPlace::Kind::kComing:
       return Coming{};
     case SessionPlace::Kind::kUnknown:
-      return Unknown{"the directory of the service does not answer; try again in some seconds"};
+      return Unknown{
+          "the directory of the service does not answer, or was begun from nothing; try again in some seconds"};
     case SessionPlace::Kind::kElsewhere:
       break;
   }

@@ -98,5 +98,23 @@ TEST_F(DirectoryViewTest, ReadsAgainWhenItsRevisionWasForgotten) {
   EXPECT_EQ(changed(), (std::set<std::string>{"one", "two"}));
 }
 
+// A watch at a revision that the store does not have yet would wait in silence.
+TEST_F(DirectoryViewTest, ReadsAgainWhenTheStoreHasLostItsDataBeforeTheWatch) {
+  for (int n = 0; n < 5; ++n)
+    static_cast<void>(store_.execute(1, Transaction{{}, {Put{keys_.server("a"), std::to_string(n)}}, {}}));
+  directory_.begin(5, *view_.poll_request(now_, 5, 1s));
+  EXPECT_TRUE(view_.on_reply(*directory_.poll()));
+  EXPECT_NE(view_.server("a"), nullptr);
+  store_ = ModelStore{};
+  directory_.begin(6, *view_.poll_request(now_, 6, 1s));
+  EXPECT_TRUE(view_.on_reply(*directory_.poll()));
+  EXPECT_FALSE(view_.follows());
+  operation_ = 6;
+  settle();
+  EXPECT_TRUE(view_.follows());
+  EXPECT_EQ(view_.server("a"), nullptr);
+  EXPECT_EQ(view_.revision(), store_.revision());
+}
+
 }  // namespace
 }  // namespace tandem::directory

@@ -40,6 +40,18 @@ TEST_F(ServiceNewsTest, ReportsEachChangeOnce) {
   EXPECT_EQ(events(a, 5s), Events{});
 }
 
+TEST_F(ServiceNewsTest, ReportsADirectoryThatHasLostItsDataWithTheRemedy) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  EXPECT_EQ(events(a, 5s), Events{"service_joined"});
+  a.directory.cut = true;
+  events(a, 500ms);
+  store_ = directory::ModelStore(1000);
+  a.directory.cut = false;
+  EXPECT_EQ(events(a, 12s), (Events{"service_directory_lost", "service_recovered"}));
+  EXPECT_NE(told_.find("10.0.0.1:2379 has lost its data"), std::string::npos) << told_;
+  EXPECT_NE(told_.find("--data-dir"), std::string::npos) << told_;
+}
+
 TEST_F(ServiceNewsTest, ReportsADirectoryThatCannotBeReachedAtTheStart) {
   servers_.push_back(std::make_unique<Server>(store_, ServiceMemberOptions{.server = "a"}));
   Server& a = *servers_.back();

@@ -15,6 +15,9 @@ TEST(ServiceSession, ComesBackFromItsText) {
   spec.tickets_only = spec.restart = spec.created = true;
   spec.ends_s = 1'800'000'000;
   EXPECT_EQ(parse_service_session(to_text(spec)), spec);
+  EXPECT_EQ(to_text(spec).find("epoch_base"), std::string::npos);
+  spec.epoch_base = 1'000'000;
+  EXPECT_EQ(parse_service_session(to_text(spec)), spec);
 }
 
 TEST(ServiceSession, RejectsEveryOtherText) {
@@ -30,6 +33,9 @@ TEST(ServiceSession, RejectsEveryOtherText) {
                                                         {"\"duration_s\":0.0", "\"duration_s\":4e6"},
                                                         {"\"ends_s\":0", "\"ends_s\":-1"},
                                                         {"\"ends_s\":0", "\"ends_s\":0.5"},
+                                                        {"\"ends_s\":0", "\"epoch_base\":-1,\"ends_s\":0"},
+                                                        {"\"ends_s\":0", "\"epoch_base\":\"1\",\"ends_s\":0"},
+                                                        {"\"ends_s\":0", "\"epoch_base\":9e18,\"ends_s\":0"},
                                                         {"\"restart\":false", "\"restart\":0"},
                                                         {"\"id\":\"01", "\"id\":\"0G"},
                                                         {"\"id\":\"01", "\"id\":\""},

@@ -9,90 +9,11 @@
 #include <vector>
 
 #include "common/base/rng.h"
-#include "proto/text/registry_text.h"
 #include "tests/common/base/counts.h"
-#include "tests/server/service/service_fixture.h"
+#include "tests/server/service/registry_desks.h"
 
 namespace tandem::server {
 namespace {
-
-using namespace std::chrono_literals;
-
-WorkstationRow workstation(const std::string& name, int key) { return {name, {std::byte(key)}, 1000 + key}; }
-CodeRow code(const std::string& name, int hash) { return {{std::byte(hash)}, name, 2000 + hash}; }
-
-/// A server with its two lists, as its files have them.
-struct Desk {
-  Desk(directory::ModelStore& store, std::string drawn, RegistryAgreement agreed = {})
-      : directory(store), registry("/t/", std::move(agreed), std::move(drawn)) {}
-
-  void step(Time now) {
-    registry.set_local(entries_of(lists));
-    while (auto request = registry.poll_request(now, operation + 1, 1s)) directory.begin(++operation, *request);
-    while (const auto reply = directory.poll()) registry.on_reply(*reply);
-    if (const auto wanted = registry.wanted()) {
-      lists = lists_of(*wanted);
-      expect_files_hold(lists);
-    }
-  }
-  /// The server's files hold these lists: they are read as they were printed.
-  static void expect_files_hold(const auth::RegistryLists& lists) {
-    const auto workstations = parse_workstations(print_workstations(lists.workstations), "workstations");
-    const auto codes = parse_codes(print_codes(lists.codes), "codes");
-    ASSERT_TRUE(workstations) << tandem::to_text(workstations.error());
-    ASSERT_TRUE(codes) << tandem::to_text(codes.error());
-    EXPECT_EQ((auth::RegistryLists{*workstations, *codes}), lists);
-  }
-  /// Enrols a key as auth::enroll does: not a key that has another name.
-  void enroll(const std::string& name, int key) {
-    if (std::ranges::any_of(lists.workstations, [&](const WorkstationRow& row) {
-          return row.name != name && row.spki == workstation(name, key).spki;
-        }))
-      return;
-    std::erase_if(lists.workstations, [&](const WorkstationRow& row) { return row.name == name; });
-    std::erase_if(lists.codes, [&](const CodeRow& row) { return row.workstation == name; });
-    lists.workstations.push_back(workstation(name, key));
-  }
-  /// Issues a code that no other name has.
-  void issue(const std::string& name, int hash) {
-    if (std::ranges::any_of(lists.codes, [&](const CodeRow& row) {
-          return row.workstation != name && row.hash == code(name, hash).hash;
-        }))
-      return;
-    std::erase_if(lists.codes, [&](const CodeRow& row) { return row.workstation == name; });
-    lists.codes.push_back(code(name, hash));
-  }
-  void revoke(const std::string& name) {
-    std::erase_if(lists.workstations, [&](const WorkstationRow& row) { return row.name == name; });
-    std::erase_if(lists.codes, [&](const CodeRow& row) { return row.workstation == name; });
-  }
-  [[nodiscard]] int key_of(const std::string& name) const {
-    for (const WorkstationRow& row : lists.workstations)
-      if (row.name == name) return std::to_integer<int>(row.spki[0]);
-    return 0;
-  }
-
-  auth::RegistryLists lists;
-  test::CuttableDirectory directory;
-  SharedRegistry registry;
-  directory::OperationId operation = 0;
-};
-
-struct Desks {
-  explicit Desks(std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) desk.push_back(std::make_unique<Desk>(store, "mark" + std::to_string(i)));
-  }
-  void pass(Duration time) {
-    for (const Time end = now + time; now < end; now += 20ms) {
-      store.advance(now);
-      for (const auto& d : desk) d->step(now);
-    }
-  }
-  Desk& operator[](std::size_t i) { return *desk[i]; }
-  directory::ModelStore store;
-  std::vector<std::unique_ptr<Desk>> desk;
-  Time now{1s};
-};
 
 TEST(RegistryEntries, HaveOneTextPerNameAndReadBack) {
   const auth::RegistryLists lists{{workstation("a", 1), workstation("b", 2)}, {code("b", 3), code("c", 4)}};
@@ -246,6 +167,7 @@ TEST(SharedRegistry, LosesNothingWhenTheDirectoryIsBegunFromNothing) {
   run(second, again);
   EXPECT_EQ(again.key_of("a"), 1);
   EXPECT_EQ(again.registry.agreed().mark, "two");
+  EXPECT_EQ(again.registry.losses(), 1U);
 }
 
 TEST(SharedRegistry, LeavesAloneWhatItCannotRead) {

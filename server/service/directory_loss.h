@@ -1,0 +1,93 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "server/directory/directory.h"
+#include "server/service/service_session.h"
+#include "server/service/shared_registry.h"
+
+namespace tandem::server {
+
+/// Notices that the directory is not the one of before: it was begun from nothing, or put back to an older state. Keeps
+/// what this server needs to serve its sessions again there.
+///
+/// Two signs: an answer of a lower revision than a former one, and another mark than the agreed one (SharedRegistry).
+/// The mark is asked for at the start and after each loss of a lease or session; no session is claimed before.
+///
+/// The lost directory granted leases that no server can see now. A server that cannot reach the new one acts by its
+/// lease until that ends, so no session is claimed for the time of a lease. Then former owners claim the sessions that
+/// they have kept, and later the other servers those of their configuration.
+class DirectoryLoss {
+ public:
+  static constexpr Duration kOthersLater = std::chrono::seconds(5);  ///< than the former owners
+
+  /// A session that this server served until now.
+  struct Kept {
+    ServiceSession spec;
+    std::string snapshot, consoles;
+  };
+  using Sessions = std::map<std::string, Kept, std::less<>>;
+
+  /// @param prefix  of the directory's keys
+  DirectoryLoss(const std::string& prefix, Duration ttl) : mark_(prefix + "registry/.mark"), ttl_(ttl) {}
+
+  /// Notes that a request begins now.
+  void on_begin(directory::OperationId operation, const directory::Request& request);
+  /// Takes any reply. Returns whether the store has lost changes that it has told before.
+  [[nodiscard]] bool went_back(const directory::Reply& reply);
+
+  /// Has the mark asked for, because the directory may be another one.
+  void doubt() noexcept {
+    known_ = false;
+    operation_ = 0;  // an answer of before does not count
+    asked_.reset();
+  }
+  [[nodiscard]] std::optional<directory::Request> poll_request(Time now, directory::OperationId operation,
+                                                               Duration retry_after);
+  enum class Found : std::uint8_t { kNothing, kSame, kOther };
+  /// Takes a reply, kNothing: it belongs to another object.
+  [[nodiscard]] Found on_reply(const directory::Reply& reply, const RegistryAgreement& agreed);
+
+  /// The directory is another one.
+  void on_loss(Time now);
+  void keep(const std::string& session, Kept kept) { kept_[session] = std::move(kept); }
+  [[nodiscard]] Sessions& kept() noexcept { return kept_; }
+  [[nodiscard]] const Sessions& kept() const noexcept { return kept_; }
+
+  /// The directory is the one that this server knows.
+  [[nodiscard]] bool known() const noexcept { return known_; }
+  /// Whether sessions may be claimed: those that this server has kept, and any.
+  [[nodiscard]] bool kept_may_begin(Time now) const noexcept { return known_ && now >= wait_until_; }
+  [[nodiscard]] bool all_may_begin(Time now) const noexcept {
+    return known_ && (losses_ == 0 || now >= wait_until_ + kOthersLater);
+  }
+  [[nodiscard]] bool waits(Time now) const noexcept { return losses_ > 0 && !all_may_begin(now); }
+  [[nodiscard]] std::uint64_t losses() const noexcept { return losses_; }
+  /// To be added to revisions of ownerships of the present directory, so that they are higher than all of the lost
+  /// ones.
+  [[nodiscard]] std::int64_t epoch_base() const noexcept { return base_; }
+  /// Takes the base of a session of the directory.
+  void on_base(std::int64_t base) noexcept { highest_base_ = std::max(highest_base_, base); }
+
+ private:
+  static constexpr std::size_t kSentMax = 4096;
+  static constexpr Duration kAskAgain = std::chrono::milliseconds(100);  ///< after an error
+
+  std::string mark_;
+  Duration ttl_;
+  std::map<directory::OperationId, directory::Revision> sent_;  ///< transactions, with the newest revision at that time
+  directory::Revision newest_ = 0;
+  directory::OperationId operation_ = 0;  ///< asks for the mark; 0: none
+  std::optional<Time> asked_;
+  Time wait_until_{};
+  bool known_ = false;
+  std::uint64_t losses_ = 0;
+  std::int64_t base_ = 0, highest_base_ = 0;
+  Sessions kept_;
+};
+
+}  // namespace tandem::server

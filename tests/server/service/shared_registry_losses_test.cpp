@@ -1,0 +1,155 @@
+// Workstations of servers whose directory loses its data, in virtual time.
+#include "tests/common/base/counts.h"
+#include "tests/server/service/registry_desks.h"
+
+namespace tandem::server {
+namespace {
+
+// The server that had written the mark of the lost directory wrote the same mark into the new one: the other servers
+// took the missing rows for revocations.
+TEST(SharedRegistry, LosesNothingWhenTheDirectoryIsLostWhileServersRun) {
+  const std::uint64_t count = tandem::test::seeds(100);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(2 + draws.below(2));
+    desks[0].enroll("a", 1);
+    desks[1].enroll("b", 2);
+    desks.pass(1s);
+    for (int loss = 0; loss < 4; ++loss) {
+      desks.lose(draws);
+      if (draws.below(2) == 0) desks.pass(1s);  // else it is lost again before all have written
+    }
+    desks.pass(2s);
+    desks.expect_all_have({"a", "b"});
+    // A revocation is one again.
+    desks[draws.below(desks.desk.size())].revoke("a");
+    desks.pass(1s);
+    for (const auto& d : desks.desk) EXPECT_EQ(d->key_of("a"), 0);
+    desks.expect_all_have({"b"});
+  }
+}
+
+// The new directory has as many revisions as the lost one before a server sees it.
+TEST(SharedRegistry, LosesNothingWhenTheNewDirectoryHasMoreRevisionsThanTheLostOne) {
+  const std::uint64_t count = tandem::test::seeds(50);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(3);
+    desks[0].enroll("a", 1);
+    desks.pass(1s);
+    directory::ModelStore next;
+    for (std::uint64_t n = draws.below(20); n > 0; --n)
+      static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{"/t/other", "x", 0}}, {}}));
+    desks.lose(draws, std::move(next));
+    desks.pass(2s);
+    desks.expect_all_have({"a"});
+  }
+}
+
+// A server of an older version writes the mark of the lost directory again, at the same revision even.
+TEST(SharedRegistry, LosesNothingToAnOlderServerThatWritesTheOldMark) {
+  const std::uint64_t count = tandem::test::seeds(50);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(2);
+    desks[0].enroll("a", 1);
+    desks[1].enroll("b", 2);
+    desks.pass(1s);
+    const directory::KeyValue mark = desks.store.entries().at("/t/registry/.mark");
+    directory::ModelStore next;
+    while (next.revision() + 1 < mark.created)
+      static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{"/t/other", "x", 0}}, {}}));
+    static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{mark.key, mark.value, 0}}, {}}));
+    if (draws.below(2) == 0)  // as many revisions as before: only the revision of the mark tells them apart
+      for (next = {}; next.revision() < desks.store.revision();)
+        static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{mark.key, mark.value, 0}}, {}}));
+    const directory::KeyValue again = next.entries().at(mark.key);
+    if (again.created == mark.created && next.revision() >= desks.store.revision()) continue;
+    desks.lose(draws, std::move(next));
+    desks.pass(2s);
+    desks.expect_all_have({"a", "b"});
+  }
+}
+
+// A backup that is restored while servers run, against the manual: nothing that came after it is lost.
+TEST(SharedRegistry, KeepsWhatCameAfterABackupThatIsRestoredWhileServersRun) {
+  const std::uint64_t count = tandem::test::seeds(50);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(2);
+    desks[0].enroll("a", 1);
+    desks.pass(1s);
+    directory::ModelStore backup = desks.store;
+    desks[1].enroll("b", 2);
+    desks.pass(1s);
+    desks.lose(draws, std::move(backup));
+    desks.pass(2s);
+    desks.expect_all_have({"a", "b"});
+  }
+}
+
+TEST(SharedRegistry, KeepsARevocationThatWasMadeBetweenTheLossOfTheDirectoryAndTheNextOne) {
+  const std::uint64_t count = tandem::test::seeds(50);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream draws{RandomKey{seed}};
+    LostDesks desks(2);
+    desks[0].enroll("a", 1);
+    desks[1].enroll("b", 2);
+    desks.pass(1s);
+    for (const auto& d : desks.desk) d->directory.cut = true;
+    desks.pass(100ms);
+    desks[draws.below(2)].revoke("a");
+    desks.lose(draws);
+    desks.pass(2s);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(desks[i].key_of("a"), 0);
+    desks.expect_all_have({"b"});
+    desks[draws.below(2)].enroll("a", 7);
+    desks.pass(1s);
+    desks.expect_all_have({"a", "b"});
+  }
+}
+
+// A server that starts may hear from the directory before it has read its files.
+TEST(SharedRegistry, RevokesNothingBeforeTheFilesWereRead) {
+  Desks desks(1);
+  desks[0].enroll("a", 1);
+  desks.pass(1s);
+  for (const bool lost : {false, true}) {
+    directory::ModelStore store = lost ? directory::ModelStore{} : desks.store;
+    Desk again(store, "two", desks[0].registry.agreed());
+    for (int i = 0; i < 100; ++i) {
+      desks.now += 20ms;
+      while (auto request = again.registry.poll_request(desks.now, again.operation + 1, 1s))
+        again.directory.begin(++again.operation, *request);
+      while (const auto reply = again.directory.poll()) again.registry.on_reply(*reply);
+      EXPECT_FALSE(again.registry.wanted());
+    }
+    EXPECT_EQ(store.entries().contains("/t/registry/a"), !lost);
+    again.lists = desks[0].lists;
+    for (int i = 0; i < 100; ++i) again.step(desks.now += 20ms);
+    EXPECT_EQ(again.key_of("a"), 1);
+    EXPECT_TRUE(store.entries().contains("/t/registry/a"));
+  }
+}
+
+// `etcdctl del --prefix`.
+TEST(SharedRegistry, LosesNothingWhenAllKeysAreErased) {
+  Desks desks(2);
+  desks[0].enroll("a", 1);
+  desks.pass(1s);
+  const std::string mark = desks.store.entries().at("/t/registry/.mark").value;
+  static_cast<void>(desks.store.execute(
+      1, directory::Transaction{{}, {directory::Erase{"/t/registry/.mark"}, directory::Erase{"/t/registry/a"}}, {}}));
+  desks.pass(2s);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(desks[i].key_of("a"), 1);
+  EXPECT_TRUE(desks.store.entries().contains("/t/registry/a"));
+  EXPECT_NE(desks.store.entries().at("/t/registry/.mark").value, mark);
+}
+
+}  // namespace
+}  // namespace tandem::server
