@@ -92,6 +92,7 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
   if (const auto* refused = std::get_if<ErrorReply>(&found))
     return answer(redirect_.refusal(request.hello.session, *refused));
   SessionEntry& entry = *std::get<SessionEntry*>(found);
+  answer = unless_given_up(entry.registration.id, std::move(answer));
   if (!request.hello.link_test)
     answer = used_once(
         tickets_.uses(), request, std::move(answer), [this](const rpc::Welcome& w) { on_join_failed(w); },
@@ -102,6 +103,18 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
     return answer(*busy);
   if (request.hello.link_test) return join_link_test(entry, request, std::move(answer));
   join_seat(entry, request, std::move(answer));
+}
+
+/// The last snapshot of a session that is given up here has no client that is admitted from now on: its next owner
+/// would know neither the seat nor its secret, and the ticket would be used for nothing.
+std::function<void(JoinReply)> SessionJoins::unless_given_up(const rpc::Id& session,
+                                                             std::function<void(JoinReply)> answer) {
+  return [this, session, answer = std::move(answer)](JoinReply reply) {
+    const SessionEntry* const entry = registry_.find(session);
+    if (entry == nullptr || !entry->given_up) return answer(std::move(reply));
+    if (const auto* const welcome = std::get_if<rpc::Welcome>(&reply)) on_join_failed(*welcome);
+    answer(being_taken_over());
+  };
 }
 
 std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) {

@@ -38,10 +38,15 @@ struct Joining : RegistryFixture {
 
   /// A ticket for a console of session 1 at workstation touch-07.
   [[nodiscard]] rpc::Credential operators_ticket(const auth::Id16& id) const {
+    return ticket_for(id, "", AccessRole::kOperator);
+  }
+  /// A ticket for session 1 at workstation touch-07. @param seat  empty: for a console
+  [[nodiscard]] rpc::Credential ticket_for(const auth::Id16& id, const std::string& seat, AccessRole role) const {
     auth::Ticket ticket;
     ticket.ticket_id = id;
     ticket.session_id = id_of(1);
-    ticket.role = AccessRole::kOperator;
+    ticket.seat = seat;
+    ticket.role = role;
     ticket.workstation.sha256 = {std::byte{7}};
     ticket.not_before = auth::wall_seconds() - 1;
     ticket.not_after = ticket.not_before + 3600;
@@ -228,6 +233,47 @@ TEST(SessionJoins, ReplyNotNowForASessionThatAnotherServerGoesOnWith) {
   request.hello.session = id_of(2);
   EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kNotNow);
   EXPECT_FALSE(moves.seats[1].joining());
+}
+
+/// The directory of a service, which answers when the test says so.
+struct LateUses final : TicketUses {
+  void use(const std::string&, const auth::Id16&, std::int64_t, bool, std::function<void(Outcome)> done) override {
+    answer = std::move(done);
+  }
+  void restore(const std::string&, const auth::Id16& ticket) override { restored.push_back(ticket); }
+  std::function<void(Outcome)> answer;
+  std::vector<auth::Id16> restored;
+};
+
+/// The next owner would not know the seat: the last snapshot is made before the client is admitted.
+TEST(SessionJoins, AdmitNoClientAndUseNoTicketOnceTheSessionIsHandedOver) {
+  for (const auto outcome :
+       {TicketUses::Outcome::kAccepted, TicketUses::Outcome::kUsed, TicketUses::Outcome::kNoAnswer}) {
+    Joining j;
+    LateUses uses;
+    j.joins.set_ticket_uses(&uses);
+    j.serve();
+    const JoinRequest request =
+        Joining::request("trainee", j.ticket_for({std::byte{3}}, "trainee", AccessRole::kTrainee));
+    std::optional<JoinReply> reply;
+    j.joins.admit(request, [&](JoinReply decided) { reply = std::move(decided); });
+    j.wait_until([&] { return static_cast<bool>(uses.answer); });
+    EXPECT_FALSE(reply) << "the Welcome waits for the use of its ticket";
+    j.registry.end(id_of(1), wire::CloseReason::kServerReturns);
+    uses.answer(outcome);
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(error_of(*reply), being_taken_over());
+    EXPECT_EQ(uses.restored.size(), 1U);
+    EXPECT_FALSE(j.lesson.seats[1].joining());
+    EXPECT_FALSE(j.lesson.seats[1].owner());
+    j.lesson.given_up = false;  // as at the next owner
+    uses.answer = nullptr;
+    j.joins.set_ticket_uses(nullptr);
+    const auto again = j.keys.tickets().redeem(
+        std::get<rpc::TicketCredential>(request.hello.credential).bytes,
+        {id_of(1), 3, "trainee", AccessRole::kTrainee, auth::KeyFingerprint{{std::byte{7}}}, auth::wall_seconds(), 0});
+    EXPECT_TRUE(again) << again.error().text;
+  }
 }
 
 TEST(SessionJoins, ServeNoMoreLinkTestsThanThereAreSlots) {
