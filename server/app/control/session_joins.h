@@ -58,6 +58,9 @@ class SessionJoins final : public JoinHandler {
   /// Decides after the session has reported the state of the seat. A ticket is redeemed last, because it is then used.
   [[nodiscard]] JoinReply decide_seat(SessionEntry& entry, const JoinRequest& request,
                                       SeatReservation::ResumeMatch match, const ShardRequest& asked);
+  /// Error reply for a seat that another client has. A client whose ticket was used waits for the seat in vain.
+  [[nodiscard]] rpc::ErrorReply taken_or_used(const SessionEntry& entry, const JoinRequest& request,
+                                              std::size_t seat) const;
   /// Error reply if the session's code does not admit to a seat of this role; nullopt if it does.
   [[nodiscard]] static std::optional<rpc::ErrorReply> check_code(const SessionEntry& entry, const JoinRequest& request,
                                                                  const std::string& code, AccessRole role);

@@ -151,6 +151,34 @@ TEST(SessionJoins, AdmitASeatByTheSessionsCode) {
   EXPECT_EQ(error_of(j.join(again)).code, ErrorCode::kResume) << "a wrong secret";
 }
 
+/// Its owner would wait for the seat in vain. A ticket that is wrong tells nothing about its use.
+TEST(SessionJoins, SayThatATicketIsUsedBeforeThatItsSeatIsTaken) {
+  Joining j;
+  j.serve();
+  const rpc::Credential ticket = j.ticket_for({std::byte{4}}, "trainee", AccessRole::kTrainee);
+  const JoinRequest request = Joining::request("trainee", ticket);
+  const JoinReply first = j.join(request);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(first)) << error_of(first).text;
+  const auto expect_refused = [&] {
+    EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kTicket);
+    EXPECT_NE(error_of(j.join(request)).text.find("used"), std::string::npos) << error_of(j.join(request)).text;
+    JoinRequest other = request;
+    other.hello.credential = j.ticket_for({std::byte{5}}, "trainee", AccessRole::kTrainee);
+    EXPECT_EQ(error_of(j.join(other)).code, ErrorCode::kSeatTaken) << "its ticket is valid once the seat is free";
+    JoinRequest thief = request;
+    thief.workstation = {"touch-08", {std::byte{8}}, 0};
+    EXPECT_EQ(error_of(j.join(thief)).code, ErrorCode::kSeatTaken) << "a ticket of another workstation";
+    JoinRequest forger = request;
+    auto& bytes = std::get<rpc::TicketCredential>(forger.hello.credential).bytes;
+    bytes.back() ^= std::byte{1};
+    EXPECT_EQ(error_of(j.join(forger)).code, ErrorCode::kSeatTaken) << "a wrong signature";
+  };
+  expect_refused();
+  j.joins.on_joined(request, std::get<rpc::Welcome>(first), {});
+  j.wait_until([&] { return !j.lesson.seats[1].joining(); });
+  expect_refused();
+}
+
 TEST(SessionJoins, FreeASeatWhoseWelcomeCouldNotBeSent) {
   Joining j;
   j.serve();
