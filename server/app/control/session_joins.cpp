@@ -222,7 +222,8 @@ void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
   if (ticket == nullptr)
     return answer(ErrorReply{ErrorCode::kNoSeat,
                              "a join without a seat needs a ticket, such as from " +
-                                 ticket_command(entry, "--role operator", request.workstation.name) +
+                                 ticket_command(entry, request.hello.watch ? "--role observer" : "--role operator",
+                                                request.workstation.name) +
                                  "; seats: " + entry.session().seat_catalogue().seat_names(),
                              0});
   const auto role = auth::claimed_role(ticket->bytes);

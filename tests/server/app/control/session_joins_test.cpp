@@ -109,6 +109,15 @@ TEST(SessionJoins, RejectSeatsWhileTheServerDrainsButCheckConsolesFurther) {
             "--workstation touch-07`; seats: trainer trainee");
 }
 
+TEST(SessionJoins, ProposeTheLeastTicketThatWatches) {
+  Joining j;
+  JoinRequest request = Joining::request("");
+  request.hello.watch = true;
+  EXPECT_EQ(error_of(j.join(request)).text,
+            "a join without a seat needs a ticket, such as from `tandem-server ticket --session lesson --role observer "
+            "--workstation touch-07`; seats: trainer trainee");
+}
+
 TEST(SessionJoins, RejectUnknownSeatsAndDevicesWithTooFewAxes) {
   Joining j;
   EXPECT_EQ(error_of(j.join(Joining::request("pilot", rpc::CodeCredential{kCode}))),
