@@ -98,6 +98,18 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   return j.dump(2) + "\n";
 }
 
+std::string server_lost_text(bool announced, double waited_s) {
+  if (announced)
+    return format(
+        "server lost: it ended or gave the session away, and no server has given the seat back for %.0f s. Ask its "
+        "operator when it serves the session again, then join again",
+        waited_s);
+  return format(
+      "server lost: no news for %.0f s; the force was released after the first losses. Check the network and the "
+      "server, then join again",
+      waited_s);
+}
+
 std::string join_failure_json(const std::string& seat, const std::string& server, const std::string& device,
                               const std::string& why) {
   const ReportJson j = {{"seat", seat},

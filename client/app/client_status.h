@@ -111,7 +111,7 @@ struct ClientReport {
   std::string server,                  ///< address of the server
       device_note;                     ///< description of the device
   double seconds = 0;                  ///< time at the seat [s]
-  double outage_longest_s = 0;         ///< longest outage of the server that ended [s]
+  double outage_longest_s = 0;         ///< longest outage of the server [s]
   ExitReason end = ExitReason::kDone;  ///< reason of the end
   ClientStatus last;                   ///< status at the end
   hal::DeviceStats device;             ///< statistics of the device
@@ -121,6 +121,10 @@ struct ClientReport {
 };
 [[nodiscard]] SeatVerdict verdict_of(const ClientReport& report) noexcept;
 [[nodiscard]] std::string to_json(const ClientReport& report, const SeatSetup& setup);
+
+/// Returns why a seat ended that waited for its server in vain. @param announced  the server had said that it ends here
+/// @param waited_s  for which the seat waited [s]
+[[nodiscard]] std::string server_lost_text(bool announced, double waited_s);
 
 /// Returns the JSON report of a failed join. @param why  reason as shown to the user
 [[nodiscard]] std::string join_failure_json(const std::string& seat, const std::string& server,

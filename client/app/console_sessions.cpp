@@ -119,8 +119,9 @@ std::string created_text(const rpc::SessionCreated& created, const JoinOptions& 
                    seat.required ? "" : ", optional");
   for (const rpc::SeatTicket& t : created.tickets)
     text += "  ticket of " + t.workstation + " for seat " + t.seat + ": " + auth::ticket_text(t.ticket) + "\n";
-  const bool by_ticket = created.code.empty() || !created.tickets.empty();
-  const bool by_code = !by_ticket && !asked.ticket.empty();  // otherwise this user may join without either
+  // A user whose console needed no ticket needs neither ticket nor code for a seat.
+  const bool by_ticket = !created.tickets.empty() || (created.code.empty() && !asked.ticket.empty());
+  const bool by_code = !by_ticket && !asked.ticket.empty();
   // A seat that this way admits, and a simulated device, so that the command works as it is printed.
   const auto admitted = std::ranges::find_if(s.seats, [&](const auto& seat) {
     return !created.tickets.empty() ? seat.name == created.tickets.front().seat

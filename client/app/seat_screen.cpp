@@ -14,6 +14,7 @@ namespace tandem::client {
 namespace {
 
 constexpr std::size_t kBar = 10;         // [characters] width of a force bar
+constexpr double kSilenceMax = 0.5;      // [s] silence up to which the server counts as present
 constexpr std::size_t kReasonMax = 160;  // [bytes] longest shown reason of a stop by another participant
 
 using Words = std::optional<rpc::Status>;
@@ -53,6 +54,9 @@ std::string own_reason(const ClientStatus& s) {
   return {};
 }
 
+/// True while the last words of the server may be out of date: it is silent, or has closed the connection.
+bool away(const ClientStatus& s) { return s.reconnecting || s.closed || (s.heard && s.silence_s > kSilenceMax); }
+
 io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
   const std::string name = setup.seat.name + " ";
   if (s.reconnecting && s.closed)
@@ -61,7 +65,8 @@ io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const W
     return {name + format("SERVER SILENT for %.0f s: reconnecting", s.silence_s), name + "SERVER SILENT: reconnecting"};
   if (s.closed) return {name + "closed", ""};
   if (!s.heard) return {name + "waiting for the server", ""};
-  if (s.silence_s > 0.5) return {name + format("SERVER SILENT for %.0f s", s.silence_s), name + "SERVER SILENT"};
+  if (s.silence_s > kSilenceMax)
+    return {name + format("SERVER SILENT for %.0f s", s.silence_s), name + "SERVER SILENT"};
   const std::string time = format("%.1f s", std::max(0.0, s.session_time));
   switch (s.session) {
     case wire::SessionState::kWaiting:
@@ -100,6 +105,7 @@ io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const W
 /// contains only the requested authority, which gives the proportions among the other seats.
 std::string leader_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
   using enum wire::SessionState;
+  if (away(s)) return "authority unknown";
   if (s.session == kStopped || s.session == kPaused || s.session == kHeld || s.session == kOverloaded)
     return "no leader";
   const std::size_t tool = static_cast<std::size_t>(setup.seat.tool);

@@ -6,6 +6,8 @@
 namespace tandem::client {
 namespace {
 
+constexpr double kPresentSilence = 0.5;  // [s] silence up to which the server counts as present
+
 double sum_j(const EnergyArray& nj) {
   double sum = 0;
   for (const auto e : nj) sum += static_cast<double>(e) * 1e-9;
@@ -59,9 +61,11 @@ const ClientStatus& SeatStatusRecorder::update(Time now, const Seat& seat) noexc
   s.close_reason = seat.close_reason();
   s.stops = force.stops;
   s.missing = force.missing;
-  if (const auto time = seat.clock().server_time(now))
-    s.session_time = *time;  // without a running session, e.g. after a server restart, the last value stays
   s.silence_s = seconds(timing.heard() ? timing.unanswered_for(now) : now - *connected_);
+  // Without a running session the last value stays, e.g. after a server restart. So it does while the server is silent
+  // or has ended: the session may have ended with it.
+  if (const auto time = seat.clock().server_time(now); time && !s.closed && s.silence_s <= kPresentSilence)
+    s.session_time = *time;
   s.alpha = seat.tools().authority();
   s.authority_version = force.authority_version;
   s.touching = force.touching;

@@ -280,10 +280,8 @@ std::string SeatSupervisor::exit_message(ExitReason end) const {
       if (!distrust_.empty())
         return "server lost: the one that answers is not accepted for this seat: " + distrust_ +
                ". Then join again by a new ticket or the session's code";
-      return format(
-          "server lost: no news for %.0f s; the force was released after the first losses. Check the network and the "
-          "server, then join again",
-          o_.options.reconnect_timeout_s > 0 ? o_.options.reconnect_timeout_s : kServerLost);
+      return server_lost_text(server_restarts(o_.runner.status()),
+                              o_.options.reconnect_timeout_s > 0 ? o_.options.reconnect_timeout_s : kServerLost);
     case ExitReason::kDeviceLost:
       return "device lost: it is unplugged or stopped answering; plug it in and join again";
     case ExitReason::kSeatGone:

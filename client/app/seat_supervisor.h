@@ -40,7 +40,7 @@ class SeatSupervisor {
   [[nodiscard]] ExitReason run();
   /// Returns one sentence for the user about the end of the seat.
   [[nodiscard]] std::string exit_message(ExitReason end) const;
-  /// Longest outage of the server that ended [s].
+  /// Longest outage of the server [s].
   [[nodiscard]] double outage_longest_s() const noexcept { return server_.longest_s(); }
 
  private:

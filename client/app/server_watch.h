@@ -48,8 +48,10 @@ class ServerWatch {
   }
   /// A new connection is in use.
   void on_connected(Time now) noexcept { connected_at_ = now; }
-  /// Longest outage that ended [s].
-  [[nodiscard]] double longest_s() const noexcept { return longest_s_; }
+  /// Longest outage, which may last still [s].
+  [[nodiscard]] double longest_s() const noexcept {
+    return in_outage_ ? std::max(longest_s_, absence(checked_at_)) : longest_s_;
+  }
 
  private:
   static constexpr Duration kStall = std::chrono::milliseconds(400);  ///< time between two updates that shows a stall

@@ -78,7 +78,9 @@ void Tutorial::on_key(const std::string& key) {
   for (Step& step : steps_) {
     if (step.pressed || !asks_for(step, key)) continue;
     step.pressed = true;
-    if (key == "S") step.happened = "capital S stopped all hands; press r to resume";
+    if (key == "S")
+      step.happened = std::string("capital S stopped all hands; ") +
+                      (may_resume(true) ? "press r to resume" : "an instructor or operator resumes, not this seat");
   }
 }
 
@@ -96,7 +98,9 @@ std::vector<std::string> Tutorial::messages(double now_s, const ClientStatus& st
   }
   // A requested key has its described effect only without a stop, so the text asks for a resume first.
   const bool all = status.session == wire::SessionState::kStopped || status.session == wire::SessionState::kPaused;
-  const std::string first = all                 ? "press r first, all hands are stopped; then "
+  const bool resumes = may_resume(status.session == wire::SessionState::kPaused);
+  const std::string first = all && !resumes     ? "once an instructor or operator has resumed: "
+                            : all               ? "press r first, all hands are stopped; then "
                             : status.local_stop ? "press r first, your hand is stopped; then "
                                                 : "";
   for (; next_ < steps_.size() && now_s - *began_ >= steps_[next_].at; ++next_)

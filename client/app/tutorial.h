@@ -37,6 +37,11 @@ class Tutorial {
   };
   void add_keys_of_hand();
   void add_keys_of_authority();
+  /// Whether key r of this seat ends a stop or pause of all hands. @param paused  by this seat, not stopped
+  [[nodiscard]] bool may_resume(bool paused) const noexcept {
+    return (setup_->seat.role == Role::kInstructor && setup_->seat.kind == SeatKind::kMaster) ||
+           (paused && setup_->may_end_pauses);
+  }
 
   const SeatSetup* setup_;
   std::string partner_;

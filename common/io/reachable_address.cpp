@@ -73,6 +73,13 @@ std::string reachable_address(const SocketAddress& at) {
   return found ? to_text(*found) : (v6 ? "[::1]:" : "127.0.0.1:") + std::to_string(at.port());
 }
 
+std::string only_here_note(const SocketAddress& at, const std::string& reachable) {
+  const auto address = parse_address(reachable, 0);
+  if (!at.any() || !address || !address->loopback()) return {};
+  return "this computer has no address in a network yet: commands with " + reachable +
+         " work here only; on other computers put its name or address in front of :" + std::to_string(at.port());
+}
+
 std::string reachable_address(const std::string& at) {
   const auto address = parse_address(at, 0);
   return address ? reachable_address(*address) : at;

@@ -13,4 +13,8 @@ namespace tandem::io {
 /// The same for an address as text; text that is no address stays as it is.
 [[nodiscard]] std::string reachable_address(const std::string& at);
 
+/// Returns a note for users if commands with `reachable` work on this machine only, although the listener at `at`
+/// accepts clients of other machines: it had no network. Else an empty text.
+[[nodiscard]] std::string only_here_note(const SocketAddress& at, const std::string& reachable);
+
 }  // namespace tandem::io

@@ -170,6 +170,9 @@ class ServiceMember {
   [[nodiscard]] std::map<std::string, directory::ServerRecord> members() const;
   /// Name of a session's owner, as far as known; empty: none.
   [[nodiscard]] std::string owner_of(std::string_view session) const;
+  /// Sessions of the service that this server does not serve, with the names of their servers. The name is empty while
+  /// no server serves the session: this one hands it over or opens it, or another one is about to.
+  [[nodiscard]] std::map<std::string, std::string> away() const;
   /// Workstations and codes of the service.
   [[nodiscard]] SharedRegistry& registry() noexcept { return registry_; }
   [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }

@@ -72,6 +72,21 @@ SessionPlace ServiceMember::locate(const rpc::SessionChoice& choice) {
   return place;
 }
 
+std::map<std::string, std::string> ServiceMember::away() const {
+  std::map<std::string, std::string> away;
+  for (const auto& [session, seen] : catalogue_.entries()) {
+    if (!seen.spec) continue;
+    const auto own = entries_.find(session);
+    if (own != entries_.end() && (own->second.phase == Phase::kOpen || own->second.phase == Phase::kEnding ||
+                                  own->second.phase == Phase::kReleasing))
+      continue;
+    std::string owner = owner_of(session);
+    if (owner == options_.server) owner.clear();
+    away.emplace(session, std::move(owner));
+  }
+  return away;
+}
+
 std::vector<directory::Candidate> ServiceMember::candidates() const {
   std::vector<directory::Candidate> candidates;
   for (const auto& [name, published] : members()) {

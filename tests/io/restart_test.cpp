@@ -182,6 +182,22 @@ TEST_F(Restart, ReportsAnIncompatibleSnapshotAndMovesItAside) {
   EXPECT_EQ(host.err().find("RESTORED"), std::string::npos) << "a participant had ended it\n" << host.err();
 }
 
+/// The session does not go on in the report of a client while no server serves it.
+TEST_F(Restart, ReportsTheTimeWithoutAServerThatDoesNotReturn) {
+  Process host = hosting("free_motion", {"--listen", address});
+  Process trainer = client(address, "trainer", {"--reconnect-timeout", "4"}),
+          trainee = client(address, "trainee", {"--reconnect-timeout", "4", "--json", folder.file("b.json")});
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  host.signal(SIGKILL);
+  ASSERT_EQ(host.wait(), -SIGKILL);
+  EXPECT_EQ(trainee.wait(), 1);
+  EXPECT_NE(trainee.err().find("server lost: no news for 4 s"), std::string::npos) << trainee.err();
+  const Json report = folder.json("b.json");
+  EXPECT_EQ(report["ended_by"], "server_lost");
+  EXPECT_GE(report["away_longest_s"].get<double>(), 4);
+  EXPECT_LE(report["session_s"].get<double>(), report["seconds"].get<double>() - 3) << report["seconds"];
+}
+
 /// The client was stopped for so long that another client got the seat.
 TEST_F(Restart, ReportsThatAnotherClientTookTheSeat) {
   Process host = hosting("free_motion", {"--listen", address});

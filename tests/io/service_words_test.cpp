@@ -98,6 +98,34 @@ TEST_F(ServiceWords, TicketsOfBeforeARevocationStayRefusedAtAllServersWhenTheOld
   EXPECT_TRUE(joined.wait_for("seat trainee at " + address_of(b))) << joined.err();
 }
 
+/// At each moment of a move, also at the server that gives the session up.
+TEST_F(ServiceWords, AClientJoinsByNameAndTicketWhileTheSessionMoves) {
+  LiveService service(
+      "session { name: \"lab\" scene: \"free_motion\" } session { name: \"other\" scene: \"free_motion\" }");
+  service.start("a");
+  service.wait_for_sessions("a", 2);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const std::string state = service.folder().file("b"), config = service.folder().file("b.textproto");
+  wait_for_output({"sessions", "--state", state}, "server a");
+  const std::string own = service.enrolled("desk");
+  wait_for_output({"sessions", "--json", "--state", state}, "\"trainee\"");
+  const Words made{"ticket", "--session", "lab", "--seat", "trainee", "--workstation", "desk", "--state", state};
+  for (int n = 0; n < 8; ++n) {
+    const std::string from = n % 2 == 0 ? "a" : "b", to = n % 2 == 0 ? "b" : "a";
+    const std::string ticket = service.folder().write("ticket", first_line(LiveService::run(made)));
+    Process move = server({"move", "lab", "--to", to, "--config", config});
+    std::this_thread::sleep_for(std::chrono::milliseconds(n == 0 ? 10 : 50 * n));
+    Process joined = client(address_of(service.of(from)), "trainee",
+                            {"--session", "lab", "--ticket-file", ticket, "--state", own, "--duration", "1"});
+    EXPECT_TRUE(joined.wait_for("left the seat")) << n << ": " << joined.err();
+    EXPECT_EQ(joined.err().find("no such session"), std::string::npos) << joined.err();
+    EXPECT_EQ(joined.err().find("the seat is gone"), std::string::npos) << joined.err();
+    EXPECT_EQ(move.wait(), 0) << move.err();
+    joined.wait();
+  }
+}
+
 TEST_F(ServiceWords, AServerWhoseConfigurationDiffersSaysSo) {
   LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
   service.start("a");

@@ -183,6 +183,18 @@ TEST(PrintedCommand, NamesALocalAddressForAWildcardServer) {
   }
 }
 
+/// Such as a server that starts before its network.
+TEST(PrintedCommand, SaysWhenItsAddressWorksOnThisComputerOnly) {
+  const auto note = [](const char* at, const char* reachable) {
+    return only_here_note(*parse_address(at, 0), reachable);
+  };
+  for (const auto& [all, here] : {std::pair{"0.0.0.0:7000", "127.0.0.1:7000"}, std::pair{"[::]:7000", "[::1]:7000"}})
+    EXPECT_EQ(note(all, here), std::string("this computer has no address in a network yet: commands with ") + here +
+                                   " work here only; on other computers put its name or address in front of :7000");
+  EXPECT_EQ(note("0.0.0.0:7000", "192.0.2.7:7000"), "");
+  EXPECT_EQ(note("127.0.0.1:7000", "127.0.0.1:7000"), "") << "no other computer reaches it";
+}
+
 TEST(PrintedCommand, IsOmittedWithoutRoom) {
   EXPECT_EQ(strip_commands("a (key r) or b (`x resume`), or c (`y`)"), "a (key r) or b, or c");
   EXPECT_EQ(strip_commands("a (`x"), "a (`x");

@@ -51,6 +51,28 @@ TEST(SeatScreen, FitsTheKeyValuesInTwoLinesOf80Columns) {
   EXPECT_EQ(lines[1], "tool 12 mm away, touching | with trainer | force on | rtt 4.1 ms, loss 0.0 %");
 }
 
+/// The authority of the last FORCE says nothing about now.
+TEST(SeatScreen, KnowsNoAuthorityWhileTheServerIsAway) {
+  ClientStatus s = running();
+  s.alpha = 1;
+  s.gate = wire::GateState::kZero;
+  EXPECT_NE(at(160, s)[0].find("you lead 100 %"), std::string::npos);
+  const auto expect_unknown = [](const ClientStatus& now, const char* state) {
+    const std::string text = at(160, now)[0] + at(160, now)[1];
+    EXPECT_NE(text.find(state), std::string::npos) << text;
+    EXPECT_NE(text.find("authority unknown"), std::string::npos) << text;
+    EXPECT_EQ(text.find("lead"), std::string::npos) << text;
+    EXPECT_NE(text.find("force off"), std::string::npos) << text;
+  };
+  s.silence_s = 19;
+  expect_unknown(s, "SERVER SILENT for 19 s");
+  s.reconnecting = true;
+  expect_unknown(s, "SERVER SILENT for 19 s: reconnecting");
+  s.silence_s = 0;
+  s.closed = true;
+  expect_unknown(s, "the server ended or gave the session away: reconnecting");
+}
+
 TEST(SeatScreen, ShowsTheDistanceToTheLeadersHandToFollowersOnly) {
   ClientStatus s = running();
   EXPECT_EQ(at(160, s)[1].find("leader's hand"), std::string::npos);

@@ -184,7 +184,7 @@ void add_watch_command(const io::Command& root) {
   add_session_option(command, arguments.connection,
                      "name, code or id of the session; default: the ticket's, or the only one there");
   add_ticket_options(command, arguments.connection.ticket,
-                     "ticket printed by `tandem-server ticket --role operator`; not needed with a loopback server with "
+                     "ticket printed by `tandem-server ticket --role observer`; not needed with a loopback server with "
                      "ephemeral keys");
   command
       .add_option("--role", arguments.role,

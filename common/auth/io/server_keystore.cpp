@@ -16,21 +16,34 @@ std::string init_hint(const std::string& folder) {
   return with_options("run `tandem-server init` first", "tandem-server init", server_state_option(folder));
 }
 
+/// Remedy for a directory that has lost a key: `init` would refuse it, or would make other keys.
+std::string restore_hint(const std::string& folder) {
+  return with_options(
+      "this folder was set up before: restore the file from a backup. New keys would shut out every enrolled "
+      "workstation; to start with new keys, delete the folder and run `tandem-server init`",
+      "tandem-server init", server_state_option(folder));
+}
+
+/// Returns whether workstations may know keys of this directory. False also if `init` ended before it had created
+/// everything: there is no key yet, and no workstation is enrolled.
+bool was_set_up(const StateDirectory& folder) {
+  for (const char* name : {ServerKeystore::kKeyFile, ServerKeystore::kAuditFile})
+    if (folder.has(name)) return true;
+  const auto book = folder.read(ServerRegistry::kWorkstationsFile);
+  if (!book) return true;
+  if (!*book) return false;
+  const auto rows = parse_workstations(text_of((*book)->bytes()), ServerRegistry::kWorkstationsFile);
+  return !rows || !rows->empty();
+}
+
 /// Reads a file that must exist.
 std::expected<SecretBuffer, std::string> needed(const StateDirectory& folder, const char* name) {
   auto bytes = folder.read(name);
   if (!bytes) return std::unexpected(bytes.error());
-  if (!*bytes) return std::unexpected(folder.path_of(name) + " is missing; " + init_hint(folder.path()));
+  if (!*bytes)
+    return std::unexpected(folder.path_of(name) + " is missing; " +
+                           (was_set_up(folder) ? restore_hint(folder.path()) : init_hint(folder.path())));
   return std::move(**bytes);
-}
-
-/// Returns whether `init` ended before it had created everything: there is no key yet, and no workstation is enrolled.
-bool half_made(const StateDirectory& folder, const char* key, const char* audit, const char* workstations) {
-  if (folder.has(key) || folder.has(audit)) return false;
-  const auto book = folder.read(workstations);
-  return book &&
-         (!*book ||
-          parse_workstations(text_of((*book)->bytes()), workstations).value_or(std::vector<WorkstationRow>(1)).empty());
 }
 
 TicketKey random_ticket_key() {
@@ -46,7 +59,7 @@ std::expected<KeyFingerprint, std::string> ServerKeystore::init(const std::strin
   if (!lock) return std::unexpected(lock.error());
   folder->remove_leftovers();
   for (const char* name : {kKeyFile, kCertificateFile, kTicketKeyFile})
-    if (folder->has(name) && !half_made(*folder, kKeyFile, kAuditFile, ServerRegistry::kWorkstationsFile))
+    if (folder->has(name) && was_set_up(*folder))
       return std::unexpected(
           folder->path_of(name) +
           " exists already: this folder was set up before. New keys would shut out every enrolled workstation; "

@@ -15,7 +15,10 @@ std::expected<std::pair<ServiceMembership, TicketKey>, std::string> read_members
                                                                                     const std::string& file,
                                                                                     const KeyFingerprint& server) {
   auto row = parse_member(text_of(text), file);
-  if (!row) return std::unexpected(to_text(row.error()) + "make a new member file: " + renewal({}, server));
+  // The content is not shown: it holds a key, or it is another file, perhaps with a secret.
+  if (!row)
+    return std::unexpected(
+        file + ": is no member file of a service, or a damaged one; make a new one: " + renewal({}, server));
   std::string line = row->ticket_key + "\n";
   auto ticket_key = TicketKey::from_text(bytes_of(line));
   wipe(line);

@@ -59,6 +59,11 @@ std::expected<Ticket, TicketRedeemer::Failure> TicketRedeemer::redeem(std::span<
   return std::move(*ticket);
 }
 
+bool TicketRedeemer::was_redeemed(std::span<const std::byte> bytes, const TicketUse& use) const {
+  const auto ticket = check_ticket(bytes, verifier_, use);
+  return ticket && used_.contains(ticket->ticket_id);
+}
+
 std::string TicketRedeemer::restore(const Id16& ticket) {
   used_.forget(ticket);
   return write(ticket, 0, 0);

@@ -34,6 +34,8 @@ class TicketRedeemer {
   [[nodiscard]] std::string begin(std::int64_t now);
   /// Checks and redeems a ticket.
   [[nodiscard]] std::expected<Ticket, Failure> redeem(std::span<const std::byte> bytes, const TicketUse& use);
+  /// Whether a ticket that may be used thus was redeemed already. A ticket that is wrong in any other way is not.
+  [[nodiscard]] bool was_redeemed(std::span<const std::byte> bytes, const TicketUse& use) const;
   /// Makes a redeemed ticket valid again if its use had no effect: the client got no seat, or none of its commands was
   /// executed. If the server ends in between, the ticket stays redeemed. @return the error
   [[nodiscard]] std::string restore(const Id16& ticket);

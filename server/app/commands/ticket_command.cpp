@@ -179,6 +179,9 @@ int ticket_command(const TicketArguments& arguments) {
                "valid once, for %s h, on %s only; write it to FILE there, then type\n  tandem-client %s --ticket-file "
                "FILE\n(every user of that computer can read --ticket TICKET)\n",
                hours.c_str(), workstation->name.c_str(), what.c_str());
+  const auto at = *serving ? io::parse_address((*serving)->address, 0) : std::unexpected(std::string());
+  if (const std::string note = at ? io::only_here_note(*at, io::reachable_address(*at)) : ""; !note.empty())
+    std::fprintf(stderr, "%s\n", note.c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 

@@ -9,6 +9,7 @@
 #include "common/io/clock.h"
 #include "common/io/log.h"
 #include "server/app/control/audit_writer.h"
+#include "server/app/control/join_replies.h"
 #include "server/app/control/setup_bytes.h"
 #include "server/app/control/slot_join.h"
 #include "server/policy/roles.h"
@@ -22,7 +23,6 @@ using rpc::ErrorCode;
 using rpc::ErrorReply;
 using ResumeMatch = SeatReservation::ResumeMatch;
 
-constexpr std::uint32_t kSlotRetryS = 3;   // a silent peer's slot is free by then
 constexpr std::uint8_t kConsolePlace = 0;  // no seat has it, so no datagram opens under a console's keys
 
 bool is_watcher(const rpc::Welcome& joined) noexcept { return WatcherSlots::has_place(place_of(joined.server_cid)); }
@@ -30,11 +30,6 @@ bool is_console(const rpc::Welcome& joined) noexcept {
   return place_of(joined.server_cid) == kConsolePlace || is_watcher(joined);
 }
 std::size_t seat_index(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) - std::size_t{1}; }
-
-std::string ticket_command(const SessionEntry& entry, const std::string& what, const std::string& workstation) {
-  return "`tandem-server ticket --session " + entry.registration.name + " " + what + " --workstation " + workstation +
-         "`";
-}
 
 /// A Welcome with fresh connection id and resume secret.
 rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes,
@@ -64,14 +59,6 @@ SeatReservation::Hash resume_binding(const auth::ServerKeystore& trust, const Wo
   return trust.on_disk() ? workstation.spki : SeatReservation::Hash{};
 }
 
-ErrorReply seat_taken(const std::string& seat) {
-  return {ErrorCode::kSeatTaken, "seat " + seat + " is taken already", 2};
-}
-ErrorReply nothing_to_resume() {
-  return {ErrorCode::kResume,
-          "nothing to resume: the seat was given to another client, or the resume secret has expired", 0};
-}
-
 }  // namespace
 
 SessionJoins::SessionJoins(SessionRegistry& registry, SessionCommands& commands, auth::ServerKeystore& trust,
@@ -92,6 +79,7 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
   if (const auto* refused = std::get_if<ErrorReply>(&found))
     return answer(redirect_.refusal(request.hello.session, *refused));
   SessionEntry& entry = *std::get<SessionEntry*>(found);
+  answer = unless_given_up(entry.registration.id, std::move(answer));
   if (!request.hello.link_test)
     answer = used_once(
         tickets_.uses(), request, std::move(answer), [this](const rpc::Welcome& w) { on_join_failed(w); },
@@ -102,6 +90,18 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
     return answer(*busy);
   if (request.hello.link_test) return join_link_test(entry, request, std::move(answer));
   join_seat(entry, request, std::move(answer));
+}
+
+/// The last snapshot of a session that is given up here has no client that is admitted from now on: its next owner
+/// would know neither the seat nor its secret, and the ticket would be used for nothing.
+std::function<void(JoinReply)> SessionJoins::unless_given_up(const rpc::Id& session,
+                                                             std::function<void(JoinReply)> answer) {
+  return [this, session, answer = std::move(answer)](JoinReply reply) {
+    const SessionEntry* const entry = registry_.find(session);
+    if (entry == nullptr || !entry->given_up) return answer(std::move(reply));
+    if (const auto* const welcome = std::get_if<rpc::Welcome>(&reply)) on_join_failed(*welcome);
+    answer(being_taken_over());
+  };
 }
 
 std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) {
@@ -131,7 +131,7 @@ void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, st
                                 ? ResumeMatch::kNone
                                 : reservation.match(resume->secret, resume_binding(trust_, request.workstation));
   if (resume != nullptr && match == ResumeMatch::kNone) return answer(nothing_to_resume());
-  if (reservation.joining()) return answer(seat_taken(catalogue.scene().seats[*seat].name));
+  if (reservation.joining()) return answer(taken_or_used(entry, request, *seat));
   if (resume == nullptr && reservation.reserved(io::monotonic_now()))
     return answer(ErrorReply{ErrorCode::kSeatTaken,
                              "seat " + catalogue.scene().seats[*seat].name +
@@ -148,11 +148,17 @@ void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, st
   registry_.post(entry, std::move(query));
 }
 
+ErrorReply SessionJoins::taken_or_used(const SessionEntry& entry, const JoinRequest& request, std::size_t seat) const {
+  const SeatSpec& spec = entry.scene().seats[seat];
+  if (const auto* const ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential))
+    if (auto used = tickets_.used(entry, request, *ticket, access_role(spec.role))) return std::move(*used);
+  return seat_taken(spec.name);
+}
+
 JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& request, ResumeMatch match,
                                     const ShardRequest& asked) {
   if (asked.result == JoinResult::kSessionOver) return session_ends(entry);
-  if (asked.result == JoinResult::kSeatTaken)
-    return seat_taken(entry.session().seat_catalogue().scene().seats[asked.seat].name);
+  if (asked.result == JoinResult::kSeatTaken) return taken_or_used(entry, request, asked.seat);
   SeatReservation& reservation = entry.seats[asked.seat];
   if (asked.same_owner && !reservation.may_resume(match, asked.silence, asked.ever_heard, io::monotonic_now()))
     return nothing_to_resume();
@@ -216,7 +222,8 @@ void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
   if (ticket == nullptr)
     return answer(ErrorReply{ErrorCode::kNoSeat,
                              "a join without a seat needs a ticket, such as from " +
-                                 ticket_command(entry, "--role operator", request.workstation.name) +
+                                 ticket_command(entry, request.hello.watch ? "--role observer" : "--role operator",
+                                                request.workstation.name) +
                                  "; seats: " + entry.session().seat_catalogue().seat_names(),
                              0});
   const auto role = auth::claimed_role(ticket->bytes);

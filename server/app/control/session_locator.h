@@ -35,7 +35,7 @@ class SessionLocator {
   virtual ~SessionLocator() = default;
   /// Finds a session by id, code or name. Begins to take it over if it has no owner.
   [[nodiscard]] virtual Found locate(const rpc::SessionChoice& choice) = 0;
-  /// Session of another server, for lists, with the name of its server.
+  /// Session that this server does not serve, for lists, with the name of its server; empty: a server is about to.
   struct Elsewhere {
     rpc::ListedSession session;
     std::string server;

@@ -137,8 +137,12 @@ ErrorReply SessionRedirect::draining() const {
 
 std::vector<SessionLocator::Elsewhere> SessionRedirect::others() const {
   auto all = locator_->elsewhere();
-  // A session that has just moved here may still stand in the copy of the directory.
-  std::erase_if(all, [&](const auto& other) { return std::as_const(registry_).find(other.session.id) != nullptr; });
+  // A session that has just moved here may still stand in the copy of the directory. One that was handed over stays
+  // here for a moment after its end.
+  std::erase_if(all, [&](const auto& other) {
+    const SessionEntry* const here = std::as_const(registry_).find(other.session.id);
+    return here != nullptr && (here->open() || !here->given_up);
+  });
   std::ranges::sort(all, {}, [](const auto& other) -> const std::string& { return other.session.name; });
   return all;
 }

@@ -16,17 +16,23 @@ std::optional<auth::Id16> claimed_id(const rpc::TicketCredential& ticket) {
   return content ? std::optional(content->ticket_id) : std::nullopt;
 }
 
+auth::TicketUse use_of(const SessionEntry& entry, const JoinRequest& request, std::optional<AccessRole> role) {
+  return {entry.registration.id,
+          entry.registration.epoch,
+          request.hello.seat,
+          role,
+          auth::KeyFingerprint{request.workstation.spki},
+          auth::wall_seconds(),
+          request.workstation.enrolled_at};
+}
+
 }  // namespace
 
 std::expected<auth::Ticket, rpc::ErrorReply> TicketRedemption::redeem(const SessionEntry& entry,
                                                                       const JoinRequest& request,
                                                                       const rpc::TicketCredential& ticket,
                                                                       std::optional<AccessRole> role, Time now) {
-  const auto attempt = [&] {
-    return trust_.tickets().redeem(ticket.bytes, {entry.registration.id, entry.registration.epoch, request.hello.seat,
-                                                  role, auth::KeyFingerprint{request.workstation.spki},
-                                                  auth::wall_seconds(), request.workstation.enrolled_at});
-  };
+  const auto attempt = [&] { return trust_.tickets().redeem(ticket.bytes, use_of(entry, request, role)); };
   auto redeemed = attempt();
   // This server has seen the ticket before, as an earlier owner of the session. All other rules hold for it.
   if (!redeemed && redeemed.error().fault && redeemed.error().fault->rule == auth::TicketCheck::kUsed)
@@ -40,6 +46,13 @@ std::expected<auth::Ticket, rpc::ErrorReply> TicketRedemption::redeem(const Sess
     io::log_event(io::Level::kError, {.event = "error", .text = redeemed.error().text});
   }
   return std::unexpected(ticket_error_reply(redeemed.error()));
+}
+
+std::optional<rpc::ErrorReply> TicketRedemption::used(const SessionEntry& entry, const JoinRequest& request,
+                                                      const rpc::TicketCredential& ticket, AccessRole role) const {
+  if (!trust_.tickets().was_redeemed(ticket.bytes, use_of(entry, request, role))) return std::nullopt;
+  const auth::TicketError fault{auth::TicketCheck::kUsed, 0, {}};
+  return ticket_error_reply({fault, auth::to_text(fault)});
 }
 
 void TicketRedemption::restore(const std::optional<auth::Id16>& ticket, const SessionEntry& entry,

@@ -32,6 +32,9 @@ class TicketRedemption {
                                                                     const JoinRequest& request,
                                                                     const rpc::TicketCredential& ticket,
                                                                     std::optional<AccessRole> role, Time now);
+  /// Error reply if the ticket is right in all else and was used before; nullopt if not. Uses nothing.
+  [[nodiscard]] std::optional<rpc::ErrorReply> used(const SessionEntry& entry, const JoinRequest& request,
+                                                    const rpc::TicketCredential& ticket, AccessRole role) const;
   /// @param person  name in the ticket, for the audit log  @param event  of the audit log
   void restore(const std::optional<auth::Id16>& ticket, const SessionEntry& entry, const std::string& person,
                const char* event = "ticket_unused");

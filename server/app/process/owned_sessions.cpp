@@ -1,10 +1,17 @@
 // Sessions that this server owns in a service of several servers.
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "server/app/process/session_table.h"
 
 namespace tandem::server {
+namespace {
+
+constexpr std::int64_t kSnapshotAgeMax = 86'400;  // [s] by two clocks: more is their difference
+
+}  // namespace
 
 std::string SessionTable::open_owned(OwnedSession owned) {
   if (draining_) return "this server is draining and takes no sessions";
@@ -15,9 +22,12 @@ std::string SessionTable::open_owned(OwnedSession owned) {
   if (!place) return place.error().text;
   if (!shards_.assign(place->slot, place->shard)) return "the kernel gives no memory for the distribution of datagrams";
   CheckpointStore::Found found;
+  std::optional<std::int64_t> age_s;
   if (owned.snapshot) {
     // Another machine wrote the time. Clocks may differ, so participants have the whole time to come back from now on.
-    owned.snapshot->written_s = auth::wall_seconds();
+    const std::int64_t now = auth::wall_seconds();
+    if (const std::int64_t age = now - owned.snapshot->written_s; age >= 0 && age <= kSnapshotAgeMax) age_s = age;
+    owned.snapshot->written_s = now;
     found.incompatibility = incompatibility(*owned.snapshot, name, owned.options->scene, owned.snapshot->written_s);
     if (found.incompatibility.empty()) found.snapshot = std::move(owned.snapshot);
   }
@@ -35,7 +45,7 @@ std::string SessionTable::open_owned(OwnedSession owned) {
   session.set_keeper(owned.keeper);
   session.set_owned(std::move(owned.on_over), std::move(owned.consoles));
   if (!serve_opened(std::move(*opened))) return "the thread of this tick rate takes no sessions at present";
-  report_restored(session, found);
+  report_restored(session, found, age_s);
   return {};
 }
 

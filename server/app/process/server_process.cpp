@@ -12,6 +12,7 @@
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/exit_code.h"
+#include "common/io/reachable_address.h"
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
 #include "common/io/systemd_notify.h"
@@ -98,6 +99,9 @@ class ServerProcess {
     if (service_) service_->start();
     // Scripts wait for this line.
     output_.print("listening on " + io::to_text(control_->address()) + "\n");
+    if (const std::string note = io::only_here_note(control_->address(), io::reachable_address(control_->address()));
+        !note.empty())
+      output_.print("note: " + note + "\n");
     if (options_.on_listening) options_.on_listening(io::to_text(control_->address()));
     if (const auto at = control_->metrics_address())
       output_.print("metrics on http://" + io::to_text(*at) + "/metrics\n");

@@ -34,7 +34,8 @@ int SessionTable::open() {
     auto made = open_session(session, slot, 1, found.snapshot ? &*found.snapshot : nullptr);
     if (!made) return made.error();
     sessions_.push_back(std::move(*made));
-    report_restored(*sessions_.back(), found);
+    report_restored(*sessions_.back(), found,
+                    found.snapshot ? std::optional(auth::wall_seconds() - found.snapshot->written_s) : std::nullopt);
   }
   return 0;
 }
@@ -65,7 +66,8 @@ std::expected<std::unique_ptr<SessionInstance>, int> SessionTable::open_session(
   return std::move(*made);
 }
 
-void SessionTable::report_restored(const SessionInstance& session, const CheckpointStore::Found& found) {
+void SessionTable::report_restored(const SessionInstance& session, const CheckpointStore::Found& found,
+                                   std::optional<std::int64_t> age_s) {
   const std::string& name = session.options().name;
   if (!found.incompatibility.empty()) {
     const std::string text =
@@ -75,8 +77,8 @@ void SessionTable::report_restored(const SessionInstance& session, const Checkpo
   if (!found.snapshot) return;
   const Checkpoint& from = found.snapshot->checkpoint;
   std::string text =
-      format("session %s RESTORED from its checkpoint, %lld s old: at %.1f s, epoch %llu", name.c_str(),
-             static_cast<long long>(std::max<std::int64_t>(0, auth::wall_seconds() - found.snapshot->written_s)),
+      format("session %s RESTORED from its checkpoint%s: at %.1f s, epoch %llu", name.c_str(),
+             age_s ? format(", %lld s old", static_cast<long long>(std::max<std::int64_t>(0, *age_s))).c_str() : "",
              from.session_tick / session.options().scene.tick_hz, static_cast<unsigned long long>(session.epoch()));
   if (from.begun)
     text +=

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -118,7 +119,9 @@ class SessionTable {
 
   [[nodiscard]] std::expected<std::unique_ptr<SessionInstance>, int> open_session(
       const SessionOptions& options, std::size_t slot, std::uint64_t epoch, const SessionSnapshot* snapshot = nullptr);
-  void report_restored(const SessionInstance& session, const CheckpointStore::Found& found);
+  /// @param age_s  of the checkpoint; nullopt: unknown
+  void report_restored(const SessionInstance& session, const CheckpointStore::Found& found,
+                       std::optional<std::int64_t> age_s);
   [[nodiscard]] SessionRegistration registration_of(SessionInstance& session);
   void announce(const SessionInstance& session) const;
   void service_session(SessionInstance& session, Time now);

@@ -53,10 +53,9 @@ SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
 std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
   return thread_.quietly([&](ServiceMember& member, Time) {
     std::vector<Elsewhere> list;
-    for (const auto& [name, entry] : member.catalogue().entries()) {
-      std::string owner = member.owner_of(name);
-      if (!entry.spec || owner == server_) continue;
-      Elsewhere there{{entry.spec->id, name, {}, {}}, std::move(owner)};
+    for (auto& [name, server] : member.away()) {
+      const ServiceCatalogue::Entry& entry = member.catalogue().entries().find(name)->second;
+      Elsewhere there{{entry.spec->id, name, {}, {}}, std::move(server)};
       static_cast<void>(read_listed(entry.listed_text, there.session));
       if (there.server.empty()) there.session.phase = rpc::SessionPhase::kWaiting;  // its last server left the text
       list.push_back(std::move(there));

@@ -44,6 +44,13 @@ struct ScreenTexts {
   std::optional<rpc::Status> words{rpc::Status{}};
 };
 
+TEST(ServerLost, TellsAnAnnouncedEndFromASilence) {
+  EXPECT_EQ(server_lost_text(true, 60),
+            "server lost: it ended or gave the session away, and no server has given the seat back for 60 s. Ask its "
+            "operator when it serves the session again, then join again");
+  EXPECT_NE(server_lost_text(false, 60).find("no news for 60 s"), std::string::npos);
+}
+
 TEST(AuthorityTransfer, ReportsGiverReceiverShareStartAndDuration) {
   ScreenTexts said;
   EXPECT_EQ(said({.by = wire::TransferParties::kScene, .to = 2, .percent = 100}),

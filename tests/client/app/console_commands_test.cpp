@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "client/app/console_sessions.h"
 #include "client/app/session_status_text.h"
 
 namespace tandem::client {
@@ -35,6 +36,21 @@ rpc::Status lesson() {
   s.tools = {{"drill", {0.25, 0.75}}};
   s.stop = {3, rpc::StopKind::kStop, "", "desk", AccessRole::kOperator, "fire drill", 2.5, "an operator", true};
   return s;
+}
+
+/// A console that needed no ticket is on the server's own computer, whose user needs none for a seat either.
+TEST(CreatedText, PrintsAJoinThatWorksForThisUser) {
+  rpc::SessionCreated created;
+  created.session = {{}, "exam", rpc::SessionPhase::kWaiting, {{"trainer", AccessRole::kInstructor, false, true}}};
+  JoinOptions asked;
+  EXPECT_EQ(created_text(created, asked).find("--ticket-file"), std::string::npos) << created_text(created, asked);
+  EXPECT_NE(created_text(created, asked).find("--session exam --seat trainer --device sim`"), std::string::npos);
+  asked.ticket = "tdt1-x";
+  EXPECT_NE(created_text(created, asked).find("--ticket-file FILE --device sim`"), std::string::npos);
+  asked.ticket.clear();
+  created.tickets = {{"trainer", "desk", {}}};
+  EXPECT_NE(created_text(created, asked).find("FILE has the ticket of the workstation"), std::string::npos)
+      << "of another workstation";
 }
 
 TEST(ConsoleCommands, ParseEveryCommand) {

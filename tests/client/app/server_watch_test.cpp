@@ -46,6 +46,15 @@ TEST(ServerWatch, WaitsLessForAServerThatAnnouncedItsEnd) {
   EXPECT_FALSE(w.reconnect_due(w.now)) << "the next reconnect waits as always";
 }
 
+TEST(ServerWatch, CountsAnOutageThatLastsUntilTheEnd) {
+  Watch w;
+  w.run(500ms, false);
+  EXPECT_EQ(w.longest_s(), 0) << "a short silence";
+  EXPECT_TRUE(w.on_reconnect(1s));
+  w.run(60s, false);
+  EXPECT_NEAR(w.longest_s(), 60.5, 1e-9);
+}
+
 TEST(ServerWatch, ReportsAnOutageOnlyAfterAReconnectBegan) {
   Watch w;
   w.run(500ms, false);

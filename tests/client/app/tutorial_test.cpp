@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace tandem::client {
 namespace {
 
@@ -72,6 +74,26 @@ TEST(Tutorial, DistinguishesTheSmallSFromTheCapitalS) {
   static_cast<void>(capital.until(17));
   capital.guidance->on_key("S");
   EXPECT_TRUE(has(capital.until(19), "capital S stopped all hands; press r to resume"));
+}
+
+/// Key r of a trainee ends no pause of a session with an instructor.
+TEST(Tutorial, PromisesAResumeOnlyToSeatsThatMayResume) {
+  for (const auto& [role, ends_pauses, may] :
+       {std::tuple{Role::kInstructor, false, true}, std::tuple{Role::kTrainee, false, false},
+        std::tuple{Role::kTrainee, true, true}, std::tuple{Role::kEvaluator, false, false}}) {
+    SCOPED_TRACE(static_cast<int>(role));
+    Lesson l;
+    l.setup.seat.role = role;
+    l.setup.may_end_pauses = ends_pauses;
+    static_cast<void>(l.until(6));
+    l.guidance->on_key("S");
+    l.status.session = wire::SessionState::kPaused;
+    const std::string text = l.until(13);
+    EXPECT_EQ(has(text, "capital S stopped all hands; press r to resume"), may) << text;
+    EXPECT_EQ(has(text, "press r first, all hands are stopped; then press 0"), may) << text;
+    EXPECT_EQ(has(text, "capital S stopped all hands; an instructor or operator resumes, not this seat"), !may) << text;
+    EXPECT_EQ(has(text, "once an instructor or operator has resumed: press 0"), !may) << text;
+  }
 }
 
 TEST(Tutorial, ReportsThatAKeyActsOnlyAfterAResume) {

@@ -157,6 +157,36 @@ TEST_F(ServiceTest, NoSessionActsByANewerLeaseWhileTheOrderToGiveItUpWaits) {
   EXPECT_EQ(a.member.served_until(), a.member.act_until());
 }
 
+/// Else a client could not find it by its name while it moves.
+TEST_F(ServiceTest, KnowsASessionAsServedHereOrElsewhereAtEachMomentOfAMove) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  std::size_t without_server = 0;
+  const auto check = [&] {
+    for (Server* const server : {&a, &b}) {
+      const auto away = server->member.away();
+      const auto lab = away.find("lab");
+      EXPECT_NE(server->open.contains("lab"), lab != away.end()) << "at " << seconds(now_);
+      without_server += lab != away.end() && lab->second.empty() ? 1 : 0;
+    }
+  };
+  on_hand_over = [&](Server&) { check(); };
+  order_move("lab", "b");
+  for (int n = 0; n < 50; ++n) {
+    pass(20ms);
+    check();
+  }
+  EXPECT_TRUE(b.open.contains("lab"));
+  EXPECT_EQ(a.member.away().at("lab"), "b");
+  EXPECT_GT(without_server, 0U) << "the server that gives it up serves it no more, and the next one not yet";
+  b.open.erase("lab");
+  b.member.end("lab");
+  EXPECT_FALSE(b.member.away().contains("lab")) << "it ends";
+  pass(2s);
+  EXPECT_TRUE(a.member.away().empty() && b.member.away().empty());
+}
+
 TEST_F(ServiceTest, CreatesASessionOnceInTheWholeService) {
   Server& a = start("a");
   Server& b = start("b");

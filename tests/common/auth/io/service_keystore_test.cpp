@@ -77,6 +77,20 @@ TEST(ServiceKeystore, GivesAServerOnlyItsOwnMemberFile) {
   EXPECT_NE(t.join("a", SecretBuffer(std::size_t{0})).find("file"), std::string::npos);
 }
 
+/// A file that was named by mistake may be a key.
+TEST(ServiceKeystore, ShowsNothingOfAFileThatIsNoMemberFile) {
+  TwoServers t;
+  const std::string key = t.folder.read("a/server_key.pem"), secret = key.substr(key.find('\n') + 1, 20);
+  for (const std::string& text : {key, "password: \"" + secret + "\"\n", secret + " " + secret + "\n",
+                                  "name: \"" + secret + "\" service_key: \"" + secret + "\"\n"}) {
+    const std::string why = t.join("a", SecretBuffer(std::as_bytes(std::span(text))));
+    EXPECT_EQ(why.find(secret.substr(0, 8)), std::string::npos) << why;
+    EXPECT_EQ(why.find("password"), std::string::npos) << why;
+    EXPECT_EQ(why.find("file: is no member file of a service"), 0U) << why;
+    EXPECT_NE(why.find("tandem-server service vouch"), std::string::npos) << why;
+  }
+}
+
 TEST(ServiceKeystore, NamesTheRemedyForAnExpiredVoucher) {
   TwoServers t;
   t.now -= 10 * kDay;

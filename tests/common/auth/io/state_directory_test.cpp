@@ -185,6 +185,27 @@ TEST(ServerKeystore, InitialisesOnceAndReopens) {
     EXPECT_EQ(mode_of(folder.path(std::string("s/") + name)), 0600u) << name;
 }
 
+/// New keys shut out the workstations, and `init` refuses such a folder.
+TEST(ServerKeystore, AsksForTheBackupOfAKeyThatAUsedFolderHasLost) {
+  for (const char* lost :
+       {ServerKeystore::kKeyFile, ServerKeystore::kCertificateFile, ServerKeystore::kTicketKeyFile}) {
+    const Folder folder;
+    ASSERT_TRUE(ServerKeystore::init(folder.path(), kNow));
+    ASSERT_EQ(ServerKeystore::open(folder.path())->audit(kNow, "init", ""), "");
+    std::filesystem::remove(folder.path(lost));
+    const std::string why = ServerKeystore::open(folder.path()).error();
+    EXPECT_NE(why.find(std::string(lost) + " is missing"), std::string::npos) << why;
+    EXPECT_NE(why.find("restore the file from a backup. New keys would shut out every enrolled workstation"),
+              std::string::npos)
+        << why;
+    EXPECT_EQ(why.find("init` first"), std::string::npos) << why;
+  }
+  const Folder unused;
+  ASSERT_TRUE(ServerKeystore::init(unused.path(), kNow));
+  std::filesystem::remove(unused.path(ServerKeystore::kKeyFile));
+  EXPECT_NE(ServerKeystore::open(unused.path()).error().find("run `tandem-server init"), std::string::npos);
+}
+
 TEST(ServerKeystore, KeepsCodesAsHashesOnly) {
   const Folder folder;
   ASSERT_TRUE(ServerKeystore::init(folder.path(), kNow));

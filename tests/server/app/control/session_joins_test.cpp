@@ -38,10 +38,15 @@ struct Joining : RegistryFixture {
 
   /// A ticket for a console of session 1 at workstation touch-07.
   [[nodiscard]] rpc::Credential operators_ticket(const auth::Id16& id) const {
+    return ticket_for(id, "", AccessRole::kOperator);
+  }
+  /// A ticket for session 1 at workstation touch-07. @param seat  empty: for a console
+  [[nodiscard]] rpc::Credential ticket_for(const auth::Id16& id, const std::string& seat, AccessRole role) const {
     auth::Ticket ticket;
     ticket.ticket_id = id;
     ticket.session_id = id_of(1);
-    ticket.role = AccessRole::kOperator;
+    ticket.seat = seat;
+    ticket.role = role;
     ticket.workstation.sha256 = {std::byte{7}};
     ticket.not_before = auth::wall_seconds() - 1;
     ticket.not_after = ticket.not_before + 3600;
@@ -104,6 +109,15 @@ TEST(SessionJoins, RejectSeatsWhileTheServerDrainsButCheckConsolesFurther) {
             "--workstation touch-07`; seats: trainer trainee");
 }
 
+TEST(SessionJoins, ProposeTheLeastTicketThatWatches) {
+  Joining j;
+  JoinRequest request = Joining::request("");
+  request.hello.watch = true;
+  EXPECT_EQ(error_of(j.join(request)).text,
+            "a join without a seat needs a ticket, such as from `tandem-server ticket --session lesson --role observer "
+            "--workstation touch-07`; seats: trainer trainee");
+}
+
 TEST(SessionJoins, RejectUnknownSeatsAndDevicesWithTooFewAxes) {
   Joining j;
   EXPECT_EQ(error_of(j.join(Joining::request("pilot", rpc::CodeCredential{kCode}))),
@@ -144,6 +158,34 @@ TEST(SessionJoins, AdmitASeatByTheSessionsCode) {
   ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(resumed)) << error_of(resumed).text;
   again.hello.credential = rpc::ResumeCredential{};
   EXPECT_EQ(error_of(j.join(again)).code, ErrorCode::kResume) << "a wrong secret";
+}
+
+/// Its owner would wait for the seat in vain. A ticket that is wrong tells nothing about its use.
+TEST(SessionJoins, SayThatATicketIsUsedBeforeThatItsSeatIsTaken) {
+  Joining j;
+  j.serve();
+  const rpc::Credential ticket = j.ticket_for({std::byte{4}}, "trainee", AccessRole::kTrainee);
+  const JoinRequest request = Joining::request("trainee", ticket);
+  const JoinReply first = j.join(request);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(first)) << error_of(first).text;
+  const auto expect_refused = [&] {
+    EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kTicket);
+    EXPECT_NE(error_of(j.join(request)).text.find("used"), std::string::npos) << error_of(j.join(request)).text;
+    JoinRequest other = request;
+    other.hello.credential = j.ticket_for({std::byte{5}}, "trainee", AccessRole::kTrainee);
+    EXPECT_EQ(error_of(j.join(other)).code, ErrorCode::kSeatTaken) << "its ticket is valid once the seat is free";
+    JoinRequest thief = request;
+    thief.workstation = {"touch-08", {std::byte{8}}, 0};
+    EXPECT_EQ(error_of(j.join(thief)).code, ErrorCode::kSeatTaken) << "a ticket of another workstation";
+    JoinRequest forger = request;
+    auto& bytes = std::get<rpc::TicketCredential>(forger.hello.credential).bytes;
+    bytes.back() ^= std::byte{1};
+    EXPECT_EQ(error_of(j.join(forger)).code, ErrorCode::kSeatTaken) << "a wrong signature";
+  };
+  expect_refused();
+  j.joins.on_joined(request, std::get<rpc::Welcome>(first), {});
+  j.wait_until([&] { return !j.lesson.seats[1].joining(); });
+  expect_refused();
 }
 
 TEST(SessionJoins, FreeASeatWhoseWelcomeCouldNotBeSent) {
@@ -228,6 +270,47 @@ TEST(SessionJoins, ReplyNotNowForASessionThatAnotherServerGoesOnWith) {
   request.hello.session = id_of(2);
   EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kNotNow);
   EXPECT_FALSE(moves.seats[1].joining());
+}
+
+/// The directory of a service, which answers when the test says so.
+struct LateUses final : TicketUses {
+  void use(const std::string&, const auth::Id16&, std::int64_t, bool, std::function<void(Outcome)> done) override {
+    answer = std::move(done);
+  }
+  void restore(const std::string&, const auth::Id16& ticket) override { restored.push_back(ticket); }
+  std::function<void(Outcome)> answer;
+  std::vector<auth::Id16> restored;
+};
+
+/// The next owner would not know the seat: the last snapshot is made before the client is admitted.
+TEST(SessionJoins, AdmitNoClientAndUseNoTicketOnceTheSessionIsHandedOver) {
+  for (const auto outcome :
+       {TicketUses::Outcome::kAccepted, TicketUses::Outcome::kUsed, TicketUses::Outcome::kNoAnswer}) {
+    Joining j;
+    LateUses uses;
+    j.joins.set_ticket_uses(&uses);
+    j.serve();
+    const JoinRequest request =
+        Joining::request("trainee", j.ticket_for({std::byte{3}}, "trainee", AccessRole::kTrainee));
+    std::optional<JoinReply> reply;
+    j.joins.admit(request, [&](JoinReply decided) { reply = std::move(decided); });
+    j.wait_until([&] { return static_cast<bool>(uses.answer); });
+    EXPECT_FALSE(reply) << "the Welcome waits for the use of its ticket";
+    j.registry.end(id_of(1), wire::CloseReason::kServerReturns);
+    uses.answer(outcome);
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(error_of(*reply), being_taken_over());
+    EXPECT_EQ(uses.restored.size(), 1U);
+    EXPECT_FALSE(j.lesson.seats[1].joining());
+    EXPECT_FALSE(j.lesson.seats[1].owner());
+    j.lesson.given_up = false;  // as at the next owner
+    uses.answer = nullptr;
+    j.joins.set_ticket_uses(nullptr);
+    const auto again = j.keys.tickets().redeem(
+        std::get<rpc::TicketCredential>(request.hello.credential).bytes,
+        {id_of(1), 3, "trainee", AccessRole::kTrainee, auth::KeyFingerprint{{std::byte{7}}}, auth::wall_seconds(), 0});
+    EXPECT_TRUE(again) << again.error().text;
+  }
 }
 
 TEST(SessionJoins, ServeNoMoreLinkTestsThanThereAreSlots) {

@@ -1,6 +1,8 @@
 // Requests for sessions of other servers of the service, with a locator that the test sets.
 #include "server/app/control/session_redirect.h"
 
+#include <poll.h>
+
 #include <algorithm>
 
 #include "server/app/control/session_joins.h"
@@ -159,6 +161,27 @@ TEST(SessionRedirect, ListsTheWholeServiceInPagesAndSaysWhenItIsOld) {
   EXPECT_EQ(names.front(), "lesson");
   EXPECT_TRUE(std::is_sorted(names.begin() + 1, names.end()));
   EXPECT_TRUE(r.redirect.list({0xffff'ffffU, true}).sessions.empty());
+}
+
+/// A client finds a session by its name in the list.
+TEST(SessionRedirect, ListsASessionThatIsHandedOverAtEachMomentOnce) {
+  Redirecting r;
+  r.serve();
+  r.locator.others = {other("lesson", 1)};
+  const auto names = [&] {
+    std::string all;
+    for (const auto& session : r.redirect.list({0, true}).sessions) all += session.name + " ";
+    return all;
+  };
+  EXPECT_EQ(names(), "lesson ");
+  r.registry.end(id_of(1), wire::CloseReason::kServerReturns);
+  EXPECT_EQ(names(), "lesson ");
+  pollfd over{r.lesson.session().over_fd(), POLLIN, 0};
+  ASSERT_EQ(poll(&over, 1, 30'000), 1);
+  ASSERT_TRUE(r.lesson.session().over());
+  EXPECT_EQ(names(), "lesson ") << "it is over here, and not removed yet";
+  r.registry.remove(id_of(1), [] {});
+  EXPECT_EQ(names(), "lesson ");
 }
 
 TEST(SessionRedirect, SendsAtMostSixteenUsableAddresses) {

@@ -42,6 +42,7 @@ ServerOptions member() {
 }
 
 struct Member {
+  explicit Member(bool notes = false) : rig(member(), notes) {}
   /// A session of scene `lesson` as `revision` of its ownership.
   OwnedSession owned(std::uint64_t revision) {
     return {.options = std::make_shared<const SessionOptions>(lesson("exam")),
@@ -68,7 +69,7 @@ struct Member {
   }
   KeptSnapshots kept;
   std::vector<bool> overs;
-  TableRig rig{member()};
+  TableRig rig;
 };
 
 TEST(OwnedSessions, AreServedUnderTheirIdCodeAndRevision) {
@@ -143,6 +144,30 @@ TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
   ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
   EXPECT_EQ(m.only().snapshot(), nullptr);
   EXPECT_EQ(m.only().epoch(), 600U);
+}
+
+/// Its own clock has written the time of a snapshot; another machine's clock may be wrong.
+TEST(OwnedSessions, SayTheAgeOfTheirSnapshotWhereItIsKnown) {
+  for (const auto& [age_s, said] : {std::pair{std::int64_t{22}, "from its checkpoint, 22 s old: at"},
+                                    std::pair{std::int64_t{-60}, "from its checkpoint: at"},
+                                    std::pair{std::int64_t{400} * 86'400, "from its checkpoint: at"}}) {
+    Member m(true);
+    m.rig.start();
+    ASSERT_EQ(m.rig.table->open_owned(m.owned(10)), "");
+    SessionSnapshot snapshot = m.kept.last;
+    snapshot.checkpoint = m.checkpoint();
+    m.rig.table->give_up("exam");
+    m.service_until_over();
+    snapshot.written_s = auth::wall_seconds() - age_s;
+    OwnedSession again = m.owned(500);
+    again.snapshot = snapshot;
+    testing::internal::CaptureStdout();
+    ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
+    const std::string text = testing::internal::GetCapturedStdout();
+    const bool exact = text.find(said) != std::string::npos;
+    // The second may change in between.
+    EXPECT_TRUE(exact || (age_s == 22 && text.find("checkpoint, 23 s old: at") != std::string::npos)) << text;
+  }
 }
 
 TEST(OwnedSessions, LetTheConsolesOfTheirFormerOwnerReturnHereAndAtTheNextOwner) {

@@ -38,7 +38,9 @@ inline ServerOptions options_with(std::vector<SessionOptions> sessions) {
 /// The table with all parts that a server process has around it.
 class TableRig {
  public:
-  explicit TableRig(ServerOptions given) : options(std::move(given)), shards(options) {
+  /// @param notes  the server's notes are printed
+  explicit TableRig(ServerOptions given, bool notes = false)
+      : options(std::move(given)), output("serve", notes, false), shards(options) {
     std::filesystem::create_directories(folder_);
     setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);  // keys for clients of this user
     control = *ControlServer::open(options.control, shards.steering(), {});
@@ -99,7 +101,7 @@ class TableRig {
   }
 
   ServerOptions options;
-  ServerOutput output{"serve", false, false};
+  ServerOutput output;
   ShardPool shards;
   std::unique_ptr<ControlServer> control;
   std::optional<SessionTable> table;
