@@ -19,8 +19,11 @@ namespace tandem::server {
 }
 
 [[nodiscard]] inline rpc::ErrorReply nothing_to_resume() {
-  return {rpc::ErrorCode::kResume,
-          "nothing to resume: the seat was given to another client, or the resume secret has expired", 0};
+  return {
+      rpc::ErrorCode::kResume,
+      "nothing to resume: the seat was given to another client, the resume secret has expired, or the former server "
+      "failed before it had stored this seat",
+      0};
 }
 
 }  // namespace tandem::server

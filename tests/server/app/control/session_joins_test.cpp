@@ -158,6 +158,7 @@ TEST(SessionJoins, AdmitASeatByTheSessionsCode) {
   ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(resumed)) << error_of(resumed).text;
   again.hello.credential = rpc::ResumeCredential{};
   EXPECT_EQ(error_of(j.join(again)).code, ErrorCode::kResume) << "a wrong secret";
+  EXPECT_NE(error_of(j.join(again)).text.find("failed before it had stored this seat"), std::string::npos);
 }
 
 /// Its owner would wait for the seat in vain. A ticket that is wrong tells nothing about its use.
