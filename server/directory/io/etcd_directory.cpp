@@ -20,8 +20,8 @@ namespace tandem::directory {
 namespace {
 
 constexpr std::size_t kRepliesMax = 65536;
-/// For this long the reply of a call is held back that has failed at once while no member answers. Callers try again on
-/// a reply, and would otherwise do nothing else.
+/// While no member answers, a failure is passed on only after this time. Callers try again at each failure, and would
+/// otherwise do nothing else.
 constexpr std::chrono::milliseconds kFailurePause{100};
 using std::chrono::steady_clock;
 
