@@ -224,6 +224,12 @@ void ModelStore::elect() {
   }
 }
 
+void ModelStore::resume(Time now, LeaseId leases_from) {
+  now_ = now;
+  newest_lease_ = std::max(newest_lease_, leases_from);
+  elect();
+}
+
 std::optional<Reply> ModelStore::execute_deposed(OperationId operation, const Request& request) const {
   const auto* renew = std::get_if<Renew>(&request);
   if (renew == nullptr) return std::nullopt;

@@ -35,6 +35,10 @@ class ModelStore {
 
   /// Elects a new leader. As in etcd, it gives every lease its whole time again.
   void elect();
+  /// Goes on at `now` from an older copy, as etcd does when it is restored: it elects a leader, and each lease of the
+  /// copy has its whole time.
+  /// @param leases_from  number after which new leases are numbered, as in the constructor
+  void resume(Time now, LeaseId leases_from);
   /// Answers a request as the leader before the newest election does until it learns of it. That leader knows the
   /// leases of its time and answers renewals by itself, without effect; it can complete no other request.
   [[nodiscard]] std::optional<Reply> execute_deposed(OperationId operation, const Request& request) const;

@@ -54,7 +54,7 @@ std::optional<Ownership::Operation> Ownership::poll_operation(Time now) {
   for (std::size_t n = waiting_.size(); n > 0; --n) {
     Work work = std::move(waiting_.front());
     waiting_.pop_front();
-    if (work.begin > now) {
+    if (work.begin > now || (claims_held_ && work.kind == Work::Kind::kClaim)) {
       waiting_.push_back(std::move(work));
       continue;
     }
@@ -169,6 +169,8 @@ void Ownership::on_claim(Time now, Work work, const Reply& reply) {
   }
   entries_.erase(found);
   notify(Notice::Kind::kElsewhere, work.session, owner.created != 0 ? owner.value : standby.value, owner.created);
+  // The view may have told meanwhile that the owner has gone, while this claim was under way.
+  if (view_.revision() > reply.revision && given_to_us(work.session)) claim(work.session);
 }
 
 void Ownership::on_standby(Time now, const Work& work, const Reply& reply) {
@@ -193,8 +195,9 @@ void Ownership::on_ticket(Time now, Work work, const Reply& reply) {
     return again(now, std::move(work));
   }
   --tickets_;
-  notify(accepted ? Notice::Kind::kTicketAccepted : Notice::Kind::kTicketRefused, work.session, work.other,
-         work.revision);
+  if (accepted)
+    return notify(Notice::Kind::kTicketAccepted, work.session, work.other, reply.held ? reply.revision : use.modified);
+  notify(Notice::Kind::kTicketRefused, work.session, work.other);
 }
 
 void Ownership::again(Time now, Work work) {
@@ -250,20 +253,26 @@ void Ownership::follow_view() {
     const auto found = entries_.find(*session);
     if (found != entries_.end() && found->second.phase != Phase::kClaiming && found->second.phase != Phase::kLost) {
       Entry& entry = found->second;
-      const bool other = seen && seen->owner && seen->owner->created > entry.revision;
-      const bool erased = !(seen && seen->owner) && view_.revision() >= entry.revision;
-      if (other || (erased && entry.phase != Phase::kReleasing)) lose(*session, entry);
+      // Older views do not have our key. One that should have it and has an older one is of a store that was put back.
+      const Revision created = seen && seen->owner ? seen->owner->created : 0;
+      const bool gone = created != entry.revision && view_.revision() >= entry.revision;
+      if (created > entry.revision || (gone && entry.phase != Phase::kReleasing)) lose(*session, entry);
       continue;
     }
     const auto released = released_.find(*session);
     if (released != released_.end() && (!seen || !seen->owner || seen->owner->created > released->second))
       released_.erase(released);
-    if (seen == nullptr || keeper_.lease() == 0) continue;
-    const bool takes_over = !seen->owner && seen->standby && seen->standby->lease == keeper_.lease();
-    // A late copy of an earlier claim has created the key. A claim finds it and makes the session ours.
-    const bool unknown_to_us = seen->owner && seen->owner->lease == keeper_.lease() && !released_.contains(*session);
-    if (takes_over || unknown_to_us) claim(*session);
+    if (given_to_us(*session)) claim(*session);
   }
+}
+
+bool Ownership::given_to_us(const std::string& session) const {
+  const DirectoryView::SessionEntry* seen = view_.session(session);
+  if (seen == nullptr || keeper_.lease() == 0) return false;
+  const bool takes_over = !seen->owner && seen->standby && seen->standby->lease == keeper_.lease();
+  // A late copy of an earlier claim has created the key. A claim finds it and makes the session ours.
+  const bool unknown_to_us = seen->owner && seen->owner->lease == keeper_.lease() && !released_.contains(session);
+  return takes_over || unknown_to_us;
 }
 
 void Ownership::lose(const std::string& session, Entry& entry) {

@@ -30,7 +30,7 @@ struct Notice {
     kReleased,        ///< the session may be another server's now
     kStandbySet,      ///< `other` takes over when this server is gone
     kStandbyRefused,  ///< `other` is not registered
-    kTicketAccepted,  ///< `other` is the ticket
+    kTicketAccepted,  ///< `other` is the ticket, `revision` that of its use
     kTicketRefused,   ///< `other` was used before, or this server owns the session no more
   };
   Kind kind{};
@@ -85,6 +85,8 @@ class Ownership {
   bool use_ticket(const std::string& session, const std::string& ticket, LeaseId lease = 0, bool again = false);
   /// The store has lost its data: every session is lost, claims are forgotten, and the view is read again.
   void begin_again();
+  /// Sends no claim, or sends them again. Claims of sessions that the view gives to this server wait too.
+  void hold_claims(bool held) noexcept { claims_held_ = held; }
   /// Removes a lost session.
   void forget(const std::string& session);
   void describe(std::string text) { keeper_.describe(std::move(text)); }
@@ -131,6 +133,8 @@ class Ownership {
   void ramp(Time now, Entry& entry);
   void take_keeper_events();
   void follow_view();
+  /// The view gives the session to this server, which does not own it as far as it knows.
+  [[nodiscard]] bool given_to_us(const std::string& session) const;
   void lose(const std::string& session, Entry& entry);
   void expire_requests(Time now);
   void begin_releases(Time now);
@@ -149,6 +153,7 @@ class Ownership {
   std::deque<Notice> notices_;
   OperationId newest_operation_ = 0;
   std::size_t ramping_ = 0, tickets_ = 0;
+  bool claims_held_ = false;
   std::uint64_t attempts_ = 0;
 };
 

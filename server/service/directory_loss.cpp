@@ -1,5 +1,7 @@
 #include "server/service/directory_loss.h"
 
+#include <utility>
+
 namespace tandem::server {
 
 using directory::Outcome;
@@ -23,29 +25,31 @@ bool DirectoryLoss::went_back(const directory::Reply& reply) {
 }
 
 std::optional<directory::Request> DirectoryLoss::poll_request(Time now, directory::OperationId operation,
-                                                              Duration retry_after) {
+                                                              Duration retry_after, const RegistryAgreement& agreed) {
   if (known_ || (asked_ && now - *asked_ < (operation_ != 0 ? retry_after : kAskAgain))) return std::nullopt;
   operation_ = operation;
   asked_ = now;
+  expected_ = agreed.mark;
+  expected_created_ = agreed.created;
   return directory::Transaction{{}, {directory::Read{mark_}}, {}};
 }
 
-DirectoryLoss::Found DirectoryLoss::on_reply(const directory::Reply& reply, const RegistryAgreement& agreed) {
+DirectoryLoss::Found DirectoryLoss::on_reply(Time now, const directory::Reply& reply) {
   if (operation_ == 0 || reply.operation != operation_) return Found::kNothing;
   operation_ = 0;
   if (reply.outcome != Outcome::kDone || reply.found.empty()) return Found::kSame;  // it is asked again
   known_ = true;
-  if (agreed.mark.empty()) return Found::kSame;
+  if (std::exchange(stranger_, false)) wait_until_ = now + ttl_;
+  if (expected_.empty()) return Found::kSame;
   const auto& mark = reply.found[0];
   const bool same =
-      !mark.empty() && mark[0].value == agreed.mark && (agreed.created == 0 || agreed.created == mark[0].created);
+      !mark.empty() && mark[0].value == expected_ && (expected_created_ == 0 || expected_created_ == mark[0].created);
   return same ? Found::kSame : Found::kOther;
 }
 
 void DirectoryLoss::on_loss(Time now) {
   ++losses_;
-  constexpr std::int64_t kBaseMax = std::int64_t{1} << 61;
-  base_ = std::min(std::max(base_, highest_base_) + std::min(newest_, kBaseMax), kBaseMax);
+  base_ = std::min(base_ + kEpochs, kBaseMax);
   newest_ = 0;
   sent_.clear();
   wait_until_ = now + ttl_;

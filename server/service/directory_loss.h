@@ -20,7 +20,8 @@ namespace tandem::server {
 ///
 /// The lost directory granted leases that no server can see now. A server that cannot reach the new one acts by its
 /// lease until that ends, so no session is claimed for the time of a lease. Then former owners claim the sessions that
-/// they have kept, and later the other servers those of their configuration.
+/// they have kept, and later the other servers those of their configuration. A server in its first start waits for the
+/// time of a lease, too.
 class DirectoryLoss {
  public:
   static constexpr Duration kOthersLater = std::chrono::seconds(5);  ///< than the former owners
@@ -33,7 +34,13 @@ class DirectoryLoss {
   using Sessions = std::map<std::string, Kept, std::less<>>;
 
   /// @param prefix  of the directory's keys
-  DirectoryLoss(const std::string& prefix, Duration ttl) : mark_(prefix + "registry/.mark"), ttl_(ttl) {}
+  /// @param agreed  from before a restart
+  DirectoryLoss(const std::string& prefix, Duration ttl, const RegistryAgreement& agreed)
+      : mark_(prefix + "registry/.mark"),
+        ttl_(ttl),
+        newest_(agreed.revision),
+        stranger_(agreed.mark.empty()),
+        base_(std::clamp(agreed.epoch_base, std::int64_t{0}, kBaseMax)) {}
 
   /// Notes that a request begins now.
   void on_begin(directory::OperationId operation, const directory::Request& request);
@@ -46,11 +53,12 @@ class DirectoryLoss {
     operation_ = 0;  // an answer of before does not count
     asked_.reset();
   }
+  /// @param agreed  at present: the answer counts against it
   [[nodiscard]] std::optional<directory::Request> poll_request(Time now, directory::OperationId operation,
-                                                               Duration retry_after);
+                                                               Duration retry_after, const RegistryAgreement& agreed);
   enum class Found : std::uint8_t { kNothing, kSame, kOther };
   /// Takes a reply, kNothing: it belongs to another object.
-  [[nodiscard]] Found on_reply(const directory::Reply& reply, const RegistryAgreement& agreed);
+  [[nodiscard]] Found on_reply(Time now, const directory::Reply& reply);
 
   /// The directory is another one.
   void on_loss(Time now);
@@ -63,7 +71,7 @@ class DirectoryLoss {
   /// Whether sessions may be claimed: those that this server has kept, and any.
   [[nodiscard]] bool kept_may_begin(Time now) const noexcept { return known_ && now >= wait_until_; }
   [[nodiscard]] bool all_may_begin(Time now) const noexcept {
-    return known_ && (losses_ == 0 || now >= wait_until_ + kOthersLater);
+    return known_ && now >= wait_until_ + (losses_ == 0 ? Duration::zero() : kOthersLater);
   }
   [[nodiscard]] bool waits(Time now) const noexcept { return losses_ > 0 && !all_may_begin(now); }
   [[nodiscard]] std::uint64_t losses() const noexcept { return losses_; }
@@ -71,10 +79,15 @@ class DirectoryLoss {
   /// ones.
   [[nodiscard]] std::int64_t epoch_base() const noexcept { return base_; }
   /// Takes the base of a session of the directory.
-  void on_base(std::int64_t base) noexcept { highest_base_ = std::max(highest_base_, base); }
+  void on_base(std::int64_t base) noexcept { base_ = std::clamp(base, base_, kBaseMax); }
+  /// Newest revision that this server knows; 0: none.
+  [[nodiscard]] directory::Revision newest() const noexcept { return newest_; }
 
  private:
   static constexpr std::size_t kSentMax = 4096;
+  /// Epochs of one directory: more revisions than any has, so that servers which know different ones agree on a base.
+  static constexpr std::int64_t kEpochs = std::int64_t{1} << 40;
+  static constexpr std::int64_t kBaseMax = std::int64_t{1} << 61;
   static constexpr Duration kAskAgain = std::chrono::milliseconds(100);  ///< after an error
 
   std::string mark_;
@@ -82,11 +95,14 @@ class DirectoryLoss {
   std::map<directory::OperationId, directory::Revision> sent_;  ///< transactions, with the newest revision at that time
   directory::Revision newest_ = 0;
   directory::OperationId operation_ = 0;  ///< asks for the mark; 0: none
+  std::string expected_;                  ///< mark, as it was agreed when it was asked for; empty: none was
+  directory::Revision expected_created_ = 0;
   std::optional<Time> asked_;
   Time wait_until_{};
   bool known_ = false;
+  bool stranger_;  ///< in its first start: it cannot know whether the directory is another one
   std::uint64_t losses_ = 0;
-  std::int64_t base_ = 0, highest_base_ = 0;
+  std::int64_t base_ = 0;
   Sessions kept_;
 };
 

@@ -16,9 +16,9 @@ constexpr const char* kLostText = "the directory of the service was begun from n
 void ServiceMember::on_directory_lost(Time now) {
   ownership_.begin_again();
   take_notices(now);
-  for (const auto& [session, entry] : catalogue_.entries())
-    if (entry.spec) loss_.on_base(entry.spec->epoch_base);
+  learn_bases();
   loss_.on_loss(now);
+  describe(record_);
   if (!registry_.agreed().mark.empty()) registry_.begin_again();
   registry_losses_ = registry_.losses();
   registry_.read_again();
@@ -35,7 +35,7 @@ void ServiceMember::on_directory_lost(Time now) {
     entry = entries_.erase(entry);
   }
   refused_until_.clear();
-  configured_claimed_ = false;
+  begin_configured();
 }
 
 void ServiceMember::follow_losses(Time now) {
@@ -52,13 +52,14 @@ void ServiceMember::follow_losses(Time now) {
     auto& [session, as] = kept;
     if (entries_.contains(session)) return false;  // its former run is not over
     const auto* const seen = ownership_.view().session(session);
-    const bool elsewhere =
-        (seen != nullptr && (seen->owner || seen->standby)) || catalogue_.entries().contains(session);
+    const bool owned = seen != nullptr && seen->owner, ours = owned && seen->owner->name == options_.server;
+    const bool elsewhere = seen != nullptr && !ours && (owned || seen->standby);
     if (elsewhere || leaving_ || record_.drains || !ownership_.claim(session)) return true;
     Entry entry;
     entry.spec = based(std::move(as.spec));
     entry.snapshot = std::move(as.snapshot);
     entry.consoles = std::move(as.consoles);
+    entry.kept = true;
     entries_[session] = std::move(entry);
     return true;
   });
@@ -71,7 +72,14 @@ void ServiceMember::keep(const std::string& session, Entry& entry) {
   loss_.doubt();
 }
 
-ServiceSession ServiceMember::based(ServiceSession spec) const {
+void ServiceMember::learn_bases() {
+  for (const auto& [session, entry] : catalogue_.entries())
+    if (entry.spec) loss_.on_base(entry.spec->epoch_base);
+  for (const auto& [name, server] : members()) loss_.on_base(server.epoch_base);
+}
+
+ServiceSession ServiceMember::based(ServiceSession spec) {
+  learn_bases();
   spec.epoch_base = std::max(spec.epoch_base, loss_.epoch_base());
   return spec;
 }

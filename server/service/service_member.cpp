@@ -30,13 +30,20 @@ ServiceMember::ServiceMember(ServiceMemberOptions options, directory::Directory&
       tickets_(ownership_, names_),
       writer_(names_, keys_.writes(options_.server), kWritePause),
       registry_(options_.prefix, options_.agreed, options_.registry_mark),
-      loss_(options_.prefix, options_.times.ttl),
+      loss_(options_.prefix, options_.times.ttl, options_.agreed),
       placement_(options_.key),
       planner_(options_.key),
-      newest_(kOwnOperations) {}
+      newest_(kOwnOperations) {
+  begin_configured();
+}
+
+void ServiceMember::begin_configured() {
+  for (const auto& [session, spec] : options_.configured) to_begin_.insert(session);
+}
 
 void ServiceMember::describe(const directory::ServerRecord& record) {
   record_ = record;
+  record_.epoch_base = loss_.epoch_base();
   ownership_.describe(directory::to_text(record_));
 }
 
@@ -60,7 +67,7 @@ void ServiceMember::step(Time now) {
   while (const auto reply = store_.poll()) {
     note(*reply, now);
     if (loss_.went_back(*reply)) on_directory_lost(now);
-    if (const auto found = loss_.on_reply(*reply, registry_.agreed()); found != DirectoryLoss::Found::kNothing) {
+    if (const auto found = loss_.on_reply(now, *reply); found != DirectoryLoss::Found::kNothing) {
       if (found == DirectoryLoss::Found::kOther) on_directory_lost(now);
       continue;
     }
@@ -81,16 +88,17 @@ void ServiceMember::step(Time now) {
   }
   take_notices(now);
   follow_losses(now);
-  if (!configured_claimed_) claim_configured(now);
+  if (!to_begin_.empty()) claim_configured(now);
   begin_moves();
   balance(now);
   advance_sessions(now);
   const Duration retry = 2 * options_.times.answer_limit;
-  if (const auto request = loss_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
+  if (const auto request = loss_.poll_request(now, newest_ + 1, retry, registry_.agreed())) begin(++newest_, *request);
   if (const auto request = catalogue_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = tickets_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = writer_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
   if (const auto request = registry_.poll_request(now, newest_ + 1, retry)) begin(++newest_, *request);
+  ownership_.hold_claims(!loss_.kept_may_begin(now));
   while (const auto operation = ownership_.poll_operation(now)) begin(operation->id, operation->request);
   take_notices(now);
 }
@@ -140,21 +148,23 @@ void ServiceMember::take_notices(Time now) {
   }
 }
 
-/// The server that runs first begins the sessions of the configuration. Later ones find them owned, or with a standby.
+/// The server that runs first begins the sessions of the configuration. The others wait until they have seen that, as
+/// it may end before a session has begun.
 void ServiceMember::claim_configured(Time now) {
   if (!loss_.all_may_begin(now) || !ownership_.keeper().registered() || !ownership_.view().follows() ||
       !catalogue_.follows())
     return;
-  configured_claimed_ = true;
-  for (const auto& [session, spec] : options_.configured) {
+  std::erase_if(to_begin_, [&](const std::string& session) {
+    if (entries_.contains(session)) return false;
     const auto* const seen = ownership_.view().session(session);
-    if (entries_.contains(session) || (seen != nullptr && (seen->owner || seen->standby))) continue;
-    if (!ownership_.claim(session)) continue;
+    if (seen != nullptr && (seen->owner || seen->standby)) return catalogue_.find(session) != nullptr;
+    if (!ownership_.claim(session)) return false;
     Entry entry;
-    entry.spec = based(spec);
+    entry.spec = based(options_.configured.at(session));
     entry.first = true;
     entries_[session] = std::move(entry);
-  }
+    return false;
+  });
 }
 
 void ServiceMember::on_owned(const std::string& session, directory::Revision revision) {

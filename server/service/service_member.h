@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -177,6 +178,9 @@ class ServiceMember {
   [[nodiscard]] SharedRegistry& registry() noexcept { return registry_; }
   [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }
   [[nodiscard]] ServiceStatus status(Time now) const;
+  /// By what the directory is known after a restart; nullopt: what was stored before stays, so that a server that
+  /// starts again while it waits for leases of another directory waits again.
+  [[nodiscard]] std::optional<RegistryAgreement> agreement(Time now) const;
   /// This server has no session, not even one that moves or ends.
   [[nodiscard]] bool empty() const noexcept { return entries_.empty(); }
   /// Time from which no hand of any session of this server may be engaged.
@@ -208,6 +212,7 @@ class ServiceMember {
     bool fresh = false;                      ///< the spec may not exist before
     bool abandoned = false;                  ///< its creation was refused while the spec was being written
     bool first = false;                      ///< claimed at start: a changed configuration replaces the spec
+    bool kept = false;                       ///< begins again from the state that this server has
     std::string target{};                    ///< kMoving
     int steps_until_move = -1;               ///< kMoving: after the hand-over; -1: not handed over, or moving
     std::uint64_t order = 0;
@@ -232,12 +237,14 @@ class ServiceMember {
   void release(Time now, const std::string& session);
   void refuse(Entry& entry, const std::string& session, std::string why);
   [[nodiscard]] std::optional<directory::Request> request_of(const std::string& session, const Entry& entry) const;
+  void begin_configured();
   void claim_configured(Time now);
   void on_directory_lost(Time now);
   void follow_losses(Time now);
   void keep(const std::string& session, Entry& entry);
+  void learn_bases();
   /// Returns the spec with an epoch that clients have not seen.
-  [[nodiscard]] ServiceSession based(ServiceSession spec) const;
+  [[nodiscard]] ServiceSession based(ServiceSession spec);
   /// Name of a session that begins here again after the loss of the directory; empty: none fits.
   [[nodiscard]] std::string kept_name(const rpc::SessionChoice& choice) const;
   void advance_sessions(Time now);
@@ -269,7 +276,8 @@ class ServiceMember {
   std::map<std::string, Time> refused_until_;  ///< sessions that this server could not open
   std::deque<ServiceEvent> events_;
   directory::OperationId newest_;
-  bool configured_claimed_ = false, leaving_ = false, left_ = false, name_taken_ = false;
+  std::set<std::string, std::less<>> to_begin_;  ///< of the configuration, not seen in the service yet
+  bool leaving_ = false, left_ = false, name_taken_ = false;
   directory::OperationId revoking_ = 0;
   Time now_{};  ///< of the newest step
   std::optional<Time> answered_;

@@ -119,14 +119,24 @@ void ServiceMember::on_loaded(Time now, const std::string& session, Entry& entry
     entry.phase = Phase::kEnding;
     return;
   }
+  if (entry.kept) {
+    entry.phase = Phase::kWriting;
+    return;
+  }
   const std::string *const snapshot = found_text(reply, 1), *const consoles = found_text(reply, 2);
   auto spec = spec_text != nullptr ? parse_service_session(*spec_text) : std::nullopt;
   const bool changed = entry.first && spec && entry.spec &&
                        (spec->scene != entry.spec->scene || spec->duration_s != entry.spec->duration_s ||
                         spec->tickets_only != entry.spec->tickets_only || spec->restart != entry.spec->restart);
-  if (spec && !changed)
-    return open(session, entry, std::move(*spec), snapshot != nullptr ? *snapshot : "",
-                consoles != nullptr ? *consoles : "");
+  if (spec && !changed) {
+    ServiceSession wanted = based(*spec);
+    entry.snapshot = snapshot != nullptr ? *snapshot : "";
+    entry.consoles = consoles != nullptr ? *consoles : "";
+    if (wanted == *spec) return open(session, entry, std::move(*spec), entry.snapshot, entry.consoles);
+    entry.spec = std::move(wanted);
+    entry.phase = Phase::kWriting;
+    return;
+  }
   if (spec && entry.spec) entry.spec->epoch_base = std::max(entry.spec->epoch_base, spec->epoch_base);
   // A configured session without owner begins; any other without a spec has ended.
   entry.phase = entry.spec ? Phase::kWriting : Phase::kEnding;
@@ -147,6 +157,7 @@ void ServiceMember::on_written(Time now, const std::string& session, Entry& entr
 void ServiceMember::open(const std::string& session, Entry& entry, ServiceSession spec, std::string snapshot,
                          std::string consoles) {
   entry.phase = Phase::kOpening;
+  to_begin_.erase(session);
   loss_.on_base(spec.epoch_base);
   entry.served = spec;
   entry.snapshot = snapshot;
@@ -159,7 +170,7 @@ void ServiceMember::open(const std::string& session, Entry& entry, ServiceSessio
                      .revision = entry.revision + entry.served->epoch_base,
                      .order = std::exchange(entry.order, 0)});
   entry.spec.reset();
-  entry.fresh = entry.first = false;
+  entry.fresh = entry.first = entry.kept = false;
 }
 
 }  // namespace tandem::server

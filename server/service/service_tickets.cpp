@@ -20,10 +20,11 @@ void ServiceTickets::use(Time now, const std::string& session, const std::string
 }
 
 void ServiceTickets::restore(const std::string& session, const std::string& ticket) {
-  if (accepted_.erase(ticket) == 0) return;
-  const directory::Revision revision = ownership_.revision(session);
-  if (revision == 0 || restores_.size() >= kWaitingMax) return;  // it stays used
-  restores_.push_back({session, ticket, revision});
+  const auto accepted = accepted_.extract(ticket);
+  if (!accepted) return;
+  const directory::Revision owner = ownership_.revision(session);
+  if (owner == 0 || restores_.size() >= kWaitingMax) return;  // it stays used
+  restores_.push_back({session, ticket, owner, accepted.mapped().revision});
 }
 
 bool ServiceTickets::restoring(std::string_view session) const noexcept {
@@ -37,7 +38,7 @@ void ServiceTickets::on_notice(const Notice& notice) {
   if (found == uses_.end()) return;
   const Use use = std::move(found->second);
   uses_.erase(found);
-  if (accepted && accepted_.size() < kAcceptedMax) accepted_[notice.other] = use.period;
+  if (accepted && accepted_.size() < kAcceptedMax) accepted_[notice.other] = {use.period, notice.revision};
   // The lease of a refused ticket may be gone, with a directory that was restored from an older copy.
   if (!accepted) leases_.erase(use.period);
   if (use.order != 0)
@@ -77,7 +78,7 @@ std::optional<directory::Request> ServiceTickets::poll_request(Time now, directo
   operation_ = 0;
   const auto past = [&](std::int64_t period) { return Time{period * kPeriod} < now; };
   if (std::erase_if(leases_, [&](const auto& lease) { return past(lease.first); }) > 0)
-    std::erase_if(accepted_, [&](const auto& ticket) { return past(ticket.second); });
+    std::erase_if(accepted_, [&](const auto& ticket) { return past(ticket.second.period); });
   const auto waits = [&](const auto& use) { return !use.second.asked && !leases_.contains(use.second.period); };
   if (const auto use = std::ranges::find_if(uses_, waits); use != uses_.end()) {
     operation_ = operation;
@@ -91,7 +92,9 @@ std::optional<directory::Request> ServiceTickets::poll_request(Time now, directo
   granting_.reset();
   sent_ = now;
   const Restore& next = restores_.front();
-  return directory::Transaction{{{keys_.owner(next.session), Condition::Of::kCreated, next.revision}},
+  // Of this use: a copy that is executed late must not erase a later one.
+  return directory::Transaction{{{keys_.owner(next.session), Condition::Of::kCreated, next.owner},
+                                 {keys_.ticket(next.ticket), Condition::Of::kModified, next.use}},
                                 {directory::Erase{keys_.ticket(next.ticket)}},
                                 {}};
 }

@@ -66,9 +66,13 @@ class ServiceTickets {
     bool asked = false, again = false;
     Time ends{};
   };
+  struct Accepted {
+    std::int64_t period = 0;
+    directory::Revision revision = 0;  ///< of the use
+  };
   struct Restore {
     std::string session, ticket;
-    directory::Revision revision = 0;
+    directory::Revision owner = 0, use = 0;
   };
 
   void pass_on(Time now);
@@ -76,7 +80,7 @@ class ServiceTickets {
   directory::Ownership& ownership_;
   directory::DirectoryKeys keys_;
   std::map<std::string, Use> uses_;                    ///< by ticket
-  std::map<std::string, std::int64_t> accepted_;       ///< tickets, with their periods
+  std::map<std::string, Accepted> accepted_;           ///< by ticket
   std::map<std::int64_t, directory::LeaseId> leases_;  ///< by period
   std::deque<Restore> restores_;
   std::deque<Result> results_;

@@ -24,7 +24,13 @@ bool valid_mark(std::string_view text) {
 }  // namespace
 
 std::string to_text(const RegistryAgreement& agreed) {
-  return nlohmann::json{{"mark", agreed.mark}, {"created", agreed.created}, {"entries", agreed.entries}}.dump(1) + "\n";
+  return nlohmann::json{{"mark", agreed.mark},
+                        {"created", agreed.created},
+                        {"revision", agreed.revision},
+                        {"epoch_base", agreed.epoch_base},
+                        {"entries", agreed.entries}}
+             .dump(1) +
+         "\n";
 }
 
 std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text) {
@@ -34,9 +40,13 @@ std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text)
     return std::nullopt;
   RegistryAgreement agreed{in["mark"].get<std::string>(), {}};
   if (!valid_mark(agreed.mark)) return std::nullopt;
-  if (const auto created = in.find("created"); created != in.end()) {
-    if (!created->is_number_integer()) return std::nullopt;
-    agreed.created = created->get<directory::Revision>();
+  const std::pair<const char*, std::int64_t&> numbers[] = {
+      {"created", agreed.created}, {"revision", agreed.revision}, {"epoch_base", agreed.epoch_base}};
+  for (const auto& [key, number] : numbers) {
+    const auto found = in.find(key);
+    if (found == in.end()) continue;
+    if (!found->is_number_integer()) return std::nullopt;
+    number = found->get<std::int64_t>();
   }
   for (const auto& [name, value] : in["entries"].items()) {
     if (!value.is_string() || !readable_entry(value.get<std::string>())) return std::nullopt;
@@ -86,7 +96,8 @@ directory::Request SharedRegistry::change(const std::string& name, std::string t
       {{prefix_ + name, directory::Condition::Of::kModified, known == stored_.end() ? 0 : known->second.modified}},
       {},
       {directory::Read{prefix_ + kMark}}};
-  if (name != kMark) change.conditions.push_back({prefix_ + kMark, directory::Condition::Of::kCreated, mark().created});
+  if (name != kMark)
+    change.conditions.push_back({prefix_ + kMark, directory::Condition::Of::kModified, mark().modified});
   if (change_.empty()) {
     change.then.push_back(directory::Erase{prefix_ + name});
   } else {
@@ -104,7 +115,7 @@ std::optional<directory::Request> SharedRegistry::poll_request(Time now, directo
     next_ = now + kPause;
   }
   if (!follower_.follows() || !local_known_ || operation_ != 0 || now < next_) return std::nullopt;
-  if (stored_text(kMark).empty()) {
+  if (stored_text(kMark).empty() || outdated()) {
     // Each attempt has a mark of its own: one that was written into a directory which is lost now is never seen again.
     std::string drawn = new_mark_ + (marks_ == 0 ? "" : "-" + std::to_string(marks_));
     ++marks_;
@@ -128,8 +139,8 @@ bool SharedRegistry::on_reply(const directory::Reply& reply) {
   refused_ = reply.outcome != directory::Outcome::kDone || !reply.held;
   if (refused_) {
     const bool told = reply.outcome == directory::Outcome::kDone && !reply.found.empty();
-    const directory::Revision created = told && !reply.found[0].empty() ? reply.found[0][0].created : 0;
-    if (told && mark().created != 0 && created != mark().created) read_again();
+    const directory::Revision modified = told && !reply.found[0].empty() ? reply.found[0][0].modified : 0;
+    if (told && mark().modified != 0 && modified != mark().modified) read_again();
     return true;
   }
   if (change_.empty()) {
@@ -151,8 +162,13 @@ bool SharedRegistry::as_agreed() const {
   return now.text == agreed_.mark && (agreed_.created == 0 || agreed_.created == now.created);
 }
 
+bool SharedRegistry::outdated() const { return !outdated_.empty() && stored_text(kMark) == outdated_; }
+
 void SharedRegistry::begin_again() {
-  if (!agreed_.mark.empty()) ++losses_;
+  if (!agreed_.mark.empty()) {
+    ++losses_;
+    outdated_ = agreed_.mark;
+  }
   for (auto& [name, text] : agreed_.entries)
     if (!local_known_ || !local_.contains(name)) lost_[name] = std::move(text);
   agreed_ = {};
@@ -164,7 +180,7 @@ void SharedRegistry::on_news(const directory::PrefixFollower::News& news) {
   for (const directory::Change& change : news.changes) apply(change);
   if (news.back || ((news.all || !before.text.empty()) && !as_agreed())) begin_again();
   // The changes of another directory do not fit to the copy of the one before.
-  const bool other = !before.text.empty() && (before.text != mark().text || before.created != mark().created);
+  const bool other = !before.text.empty() && (before.text != mark().text || before.modified != mark().modified);
   if (!news.all && other) read_again();
 }
 
@@ -188,7 +204,7 @@ void SharedRegistry::set_local(RegistryEntries local) {
 }
 
 void SharedRegistry::agree() {
-  if (!follower_.follows() || !local_known_ || stored_text(kMark).empty()) return;
+  if (!follower_.follows() || !local_known_ || stored_text(kMark).empty() || outdated()) return;
   if (!as_agreed()) begin_again();
   agreed_.mark = stored_text(kMark);
   agreed_.created = mark().created;

@@ -16,6 +16,9 @@ struct RegistryAgreement {
   std::string mark;  ///< of that directory
   RegistryEntries entries;
   directory::Revision created = 0;  ///< of the mark; 0: unknown, a server of an older version has stored this
+  /// A revision that the directory has reached; a lower one tells that it was put back while this server was stopped.
+  directory::Revision revision = 0;
+  std::int64_t epoch_base = 0;  ///< highest one of a session that the server knows
   friend bool operator==(const RegistryAgreement&, const RegistryAgreement&) = default;
 };
 /// As one text for a file, and back. Reads any bytes; nullopt: they are no such text.
@@ -31,8 +34,9 @@ struct RegistryAgreement {
 /// While the directory does not answer, the files hold as they are. A missing entry is a revocation only in the
 /// directory of the last agreement. Any other gets the content of the files: one that was begun from nothing, or was
 /// put back to an older state while this server ran. Three things tell it: a mark in it, drawn at random for each
-/// attempt to write one; the revision that created the mark; and revisions that go back. Each change has the condition
-/// that the mark is the known one. Pure: no clock, file, socket or thread.
+/// attempt to write one; the revision that created the mark; and revisions that go back. A server that notices the
+/// last one replaces the mark, so that all servers notice. Each change has the condition that the mark is the known
+/// one. Pure: no clock, file, socket or thread.
 class SharedRegistry {
  public:
   static constexpr Duration kPause = std::chrono::milliseconds(50);  ///< after a change that was not written
@@ -84,13 +88,15 @@ class SharedRegistry {
   void agree();
   /// The mark is the one of the last agreement, and the directory has lost nothing since.
   [[nodiscard]] bool as_agreed() const;
+  /// The mark is that of a directory which was lost since: the present one was put back to an older state.
+  [[nodiscard]] bool outdated() const;
   void on_news(const directory::PrefixFollower::News& news);
   [[nodiscard]] Stored mark() const;
 
   std::string prefix_;
   directory::PrefixFollower follower_;
   RegistryAgreement agreed_;
-  std::string new_mark_;
+  std::string new_mark_, outdated_;
   RegistryEntries local_;
   bool local_known_ = false;
   RegistryEntries lost_;  ///< as agreed in directories that are lost, without names that the files have

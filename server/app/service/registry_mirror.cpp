@@ -18,6 +18,13 @@ void RegistryMirror::start() {
   task_.start();
 }
 
+bool RegistryMirror::worth_storing(const RegistryAgreement& agreed) const {
+  RegistryAgreement known = agreed;
+  known.revision = stored_.revision;
+  const bool later = std::chrono::steady_clock::now() - stored_at_ >= kRevisionInterval;
+  return known != stored_ || (agreed.revision != stored_.revision && later);
+}
+
 std::string RegistryMirror::compare() {
   const bool fresh = keys_.registry().changed() || !lists_;
   if (fresh) {
@@ -29,11 +36,11 @@ std::string RegistryMirror::compare() {
     lists_ = std::move(*lists);
   }
   std::optional<RegistryEntries> wanted;
-  RegistryAgreement agreed;
-  service_.quietly([&](ServiceMember& member, Time) {
+  std::optional<RegistryAgreement> agreed;
+  service_.quietly([&](ServiceMember& member, Time now) {
     if (fresh) member.registry().set_local(entries_of(*lists_));
     wanted = member.registry().wanted();
-    agreed = member.registry().agreed();
+    agreed = member.agreement(now);
   });
   if (wanted) {
     const auto replaced = keys_.registry().replace(*lists_, lists_of(*wanted), auth::wall_seconds());
@@ -43,10 +50,11 @@ std::string RegistryMirror::compare() {
       service_.quietly([&](ServiceMember& member, Time) { member.registry().set_local(std::move(*wanted)); });
     return {};
   }
-  if (agreed == stored_ || agreed.mark.empty()) return {};
-  if (std::string problem = keys_.folder()->replace(kFile, std::string_view(to_text(agreed))); !problem.empty())
+  if (!agreed || !worth_storing(*agreed)) return {};
+  if (std::string problem = keys_.folder()->replace(kFile, std::string_view(to_text(*agreed))); !problem.empty())
     return problem;
-  stored_ = std::move(agreed);
+  stored_ = std::move(*agreed);
+  stored_at_ = std::chrono::steady_clock::now();
   return {};
 }
 

@@ -35,6 +35,11 @@ class RegistryMirror {
  private:
   static constexpr Duration kInterval = std::chrono::milliseconds(100);  ///< between two looks at the files
 
+  /// Between two writes that change nothing but the revision.
+  static constexpr Duration kRevisionInterval = std::chrono::seconds(10);
+
+  /// The agreement differs from the stored one, in more than a revision of the last seconds.
+  [[nodiscard]] bool worth_storing(const RegistryAgreement& agreed) const;
   /// Compares files and directory once. @return the error
   [[nodiscard]] std::string compare();
 
@@ -42,6 +47,7 @@ class RegistryMirror {
   ServiceThread& service_;
   std::optional<auth::RegistryLists> lists_;  ///< as last read; nullopt: not yet, or they could not be
   RegistryAgreement stored_;
+  std::chrono::steady_clock::time_point stored_at_{};
   RepeatedTask task_;
 };
 

@@ -17,7 +17,8 @@ struct ServerRecord {
   double used = 0;      ///< of it, by the sessions that run
   bool drains = false;  ///< takes no further sessions
   double expected = 0;  ///< processor time when all seats of its sessions are taken [cores]; of older versions: `used`
-  std::string voucher{};  ///< signed by the service's key, in hexadecimal digits; empty: none
+  std::string voucher{};        ///< signed by the service's key, in hexadecimal digits; empty: none
+  std::int64_t epoch_base = 0;  ///< highest one of a session that the server knows; of older versions: 0
   friend bool operator==(const ServerRecord&, const ServerRecord&) = default;
 };
 

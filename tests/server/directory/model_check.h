@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,10 +62,15 @@ struct Fault {
     kSlowDisk,    ///< the store answers up to 1 s late
     kCompact,     ///< the store forgets its history, and all watches break
     kMove,        ///< an operator moves a session
+    // Only in schedules with losses:
+    kEmptied,   ///< the store is gone for a while, and begins from nothing
+    kPutBack,   ///< the same, from a copy of some age
+    kDiskLost,  ///< a crash after which the server knows nothing of before
   };
   Kind kind{};
   std::size_t who = 0, to = 0;  ///< server or session, and target of a move
   Duration at{}, length{};
+  Duration age{};  ///< kPutBack: of the copy
 };
 
 /// A schedule as data: it can be shortened and run again.
@@ -83,16 +89,22 @@ struct Verdict {
   std::string violation;  ///< empty: passed
   Duration recovered{};   ///< from the begin of the calm phase until every session was served
   std::uint64_t events = 0, tickets = 0, owners = 0, elsewhere = 0, rejected = 0, doubtful = 0;
+  std::uint64_t losses = 0;       ///< of the store, that servers have noticed
   std::uint64_t fingerprint = 0;  ///< hash of the run: same schedule, same number
 };
 
 /// Time after which every session is served again when all faults have ended.
 inline constexpr Duration kCalmLimit = std::chrono::seconds(7);
+/// Longest age of a copy from which the store is put back, and shortest time that this takes: then no server acts by
+/// its lease any more.
+inline constexpr Duration kAgeMax = std::chrono::seconds(10), kRestoreMin = std::chrono::milliseconds(2500);
 
 [[nodiscard]] Schedule draw_schedule(std::uint64_t seed);
+/// The same, in which the store loses its data once or twice.
+[[nodiscard]] Schedule draw_schedule_with_losses(std::uint64_t seed);
 [[nodiscard]] Verdict run_schedule(const Schedule& schedule, Guard removed = Guard::kNone);
 /// Leaves out faults as long as the schedule still fails.
-[[nodiscard]] Schedule shrink(Schedule schedule, Guard removed);
+[[nodiscard]] Schedule shrink(Schedule schedule, const std::function<Verdict(const Schedule&)>& run);
 [[nodiscard]] std::string to_text(const Schedule& schedule);
 
 }  // namespace tandem::directory::test

@@ -24,7 +24,8 @@ TEST(OwnershipModel, HasOneOwnerUsesNoTicketTwiceAndRecoversInAllSchedules) {
     const Schedule schedule = draw_schedule(seed);
     const Verdict verdict = run_schedule(schedule);
     ASSERT_TRUE(verdict.violation.empty())
-        << verdict.violation << "\nshortened " << to_text(shrink(schedule, Guard::kNone))
+        << verdict.violation << "\nshortened "
+        << to_text(shrink(schedule, [](const Schedule& s) { return run_schedule(s); }))
         << "\nAgain: TANDEM_DIRECTORY_FIRST=" << seed
         << " build/release/bin/directory_model_test --gtest_filter=OwnershipModel.HasOne*";
     sum.recovered = std::max(sum.recovered, verdict.recovered);
@@ -67,7 +68,7 @@ TEST_P(WithoutGuard, AScheduleFails) {
     if (verdict.violation.empty()) continue;
     ASSERT_EQ(run_schedule(schedule).violation, "") << "seed " << seed << " fails with the guard, too";
     std::printf("[  found   ] without '%s': %s\nshortened %s\n", to_text(GetParam()), verdict.violation.c_str(),
-                to_text(shrink(schedule, GetParam())).c_str());
+                to_text(shrink(schedule, [](const Schedule& s) { return run_schedule(s, GetParam()); })).c_str());
     return;
   }
   FAIL() << "none of " << kMost << " schedules notices that this guard is missing: " << to_text(GetParam());

@@ -210,6 +210,64 @@ TEST_F(OwnershipTest, AnEndedSessionLeavesNoKey) {
   for (const auto& [key, entry] : store_.entries()) EXPECT_EQ(key.find("sessions"), std::string::npos) << key;
 }
 
+// The claim is answered "a owns it" after the view has told that a has handed the session over.
+TEST_F(OwnershipTest, TakesASessionThatIsHandedOverWhileItsClaimIsRefused) {
+  Server& a = start("a");
+  Server& b = start("b");
+  a.core.claim("s");
+  settle();
+  ASSERT_TRUE(b.core.claim("s"));
+  const auto claim = b.core.poll_operation(now_);
+  ASSERT_TRUE(claim);
+  const Reply refused = store_.execute(9999, claim->request);
+  ASSERT_FALSE(refused.held);
+  ASSERT_TRUE(a.core.move("s", "b"));
+  pass(500ms);
+  ASSERT_EQ(state(a), SessionState::kNone);
+  Reply late = refused;
+  late.operation = claim->id;
+  b.core.on_reply(now_, late);
+  pass(200ms);
+  EXPECT_EQ(state(b), SessionState::kServing);
+}
+
+TEST_F(OwnershipTest, SendsNoClaimWhileClaimsAreHeld) {
+  Server& a = start("a");
+  Server& b = start("b");
+  b.core.hold_claims(true);
+  a.core.claim("s");
+  ASSERT_TRUE(b.core.claim("t"));
+  settle();
+  ASSERT_TRUE(a.core.move("s", "b"));  // b takes it over by itself, not before it may
+  pass(1s);
+  EXPECT_EQ(b.core.state("t", now_), SessionState::kClaiming);
+  EXPECT_EQ(state(b), SessionState::kClaiming);
+  b.core.hold_claims(false);
+  pass(100ms);
+  EXPECT_EQ(b.core.state("t", now_), SessionState::kServing);
+  EXPECT_EQ(state(b), SessionState::kServing);
+}
+
+// The lease stands, and so does a key of an earlier ownership of another server.
+TEST_F(OwnershipTest, LosesASessionWhoseKeyIsAnOlderOneInAStoreThatWasPutBack) {
+  Server& a = start("a");
+  Server& b = start("b");
+  a.core.claim("s");
+  settle();
+  const ModelStore copy = store_;
+  ASSERT_TRUE(a.core.move("s", "b"));
+  pass(1s);
+  ASSERT_EQ(state(b), SessionState::kServing);
+  store_ = copy;
+  store_.resume(now_, 1000);
+  for (int n = 0; n < 100; ++n)  // revisions go on beyond those that b knows
+    (void)store_.execute(9999, Transaction{{}, {Put{"/other", "x", 0}}, {}});
+  (void)store_.execute(9999, Compact{store_.revision()});  // all read again
+  pass(200ms);
+  EXPECT_EQ(state(b), SessionState::kLost);
+  EXPECT_EQ(state(a), SessionState::kServing);
+}
+
 TEST_F(OwnershipTest, UsesATicketOnceInTheWholeServiceAndOnlyForItsOwnSession) {
   Server& a = start("a");
   Server& b = start("b");

@@ -2,14 +2,13 @@
 
 #include <functional>
 #include <map>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/format.h"
 #include "common/base/rng.h"
-#include "server/directory/ownership.h"
+#include "server/directory/directory.h"
+#include "server/directory/lease_times.h"
 #include "tests/server/directory/event_queue.h"
 #include "tests/server/directory/model_check.h"
 
@@ -24,23 +23,15 @@ inline std::string session_name(std::size_t n) { return format("session-%zu", n)
 
 /// A server's process and machine.
 struct Node {
-  std::unique_ptr<Ownership> core;  ///< null: the process has ended
+  bool up = false;  ///< its process runs, or is paused
   std::uint64_t incarnation = 0;
   double rate = 1;
   Duration offset{}, wall_offset{};
   Time paused_until{}, cut_store_until{}, cut_clients_until{}, deposed_until{};
   Time last_watch_delivery{};
-  std::map<OperationId, OperationId> watches;  ///< at the store -> at the core
+  std::map<OperationId, OperationId> watches;  ///< at the store -> at the server
   std::vector<Time> last_acted;
   std::vector<Revision> acted_as;  ///< revisions at the begin of a pause; 0: did not act
-};
-
-/// A client of a session: it obeys the server with the highest revision, and asks around when it gets no force.
-struct Client {
-  std::size_t session = 0;
-  std::optional<std::size_t> server;
-  Time last_force{};
-  Revision highest = 0, obeyed = 0;
 };
 
 /// Time, chance, servers and their clocks of one run.
@@ -77,15 +68,12 @@ class SimulatedWorld {
     if (verdict_.violation.empty()) verdict_.violation = format("%.3f s: %s", seconds(now()), what.c_str());
   }
 
-  bool runs(const Node& node) const { return node.core && now() >= node.paused_until; }
+  bool runs(const Node& node) const { return node.up && now() >= node.paused_until; }
   Time clock(const Node& node) const {
     const Time monotonic =
         Time{} + node.offset +
         Duration{static_cast<std::int64_t>(static_cast<double>(now().time_since_epoch().count()) * node.rate)};
     return removed_ == Guard::kMonotonicClock ? monotonic + node.wall_offset : monotonic;
-  }
-  bool acts(const Node& node, std::size_t s) const {
-    return runs(node) && node.core->may_act(session_name(s), clock(node));
   }
   bool clients_cut(std::size_t n) const { return now() < nodes_[n].cut_clients_until; }
   void mix(std::uint64_t a, std::uint64_t b, std::uint64_t c) {

@@ -68,6 +68,13 @@ class CuttableDirectory final : public directory::Directory {
 /// Servers of one service in virtual time. Each does what its member says: it opens and gives up sessions at once.
 class ServiceTest : public testing::Test {
  protected:
+  ServiceTest() { know_each_other(); }
+  /// All servers that are started from now on know the present directory from before.
+  void know_each_other() {
+    const directory::Reply written =
+        store_.execute(1, directory::Transaction{{}, {directory::Put{"/tandem/v1/registry/.mark", "known"}}, {}});
+    agreed_ = {.mark = "known", .entries = {}, .created = written.revision};
+  }
   struct Server {
     Server(directory::ModelStore& store, ServiceMemberOptions options)
         : directory(store), member(std::move(options), directory) {}
@@ -82,6 +89,7 @@ class ServiceTest : public testing::Test {
     servers_.push_back(std::make_unique<Server>(store_, ServiceMemberOptions{.server = name,
                                                                              .key = RandomKey{servers_.size()},
                                                                              .configured = std::move(configured),
+                                                                             .agreed = agreed_,
                                                                              .balance = balance}));
     servers_.back()->member.describe(
         {.address = name + ":7000", .key = "k", .version = "1", .zone = zone, .capacity = 4});
@@ -146,6 +154,7 @@ class ServiceTest : public testing::Test {
 
   std::function<void(Server&)> on_hand_over;
   directory::ModelStore store_;
+  RegistryAgreement agreed_;  ///< of servers that start
   std::vector<std::unique_ptr<Server>> servers_;
   Time now_{};
 };

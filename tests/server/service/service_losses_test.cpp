@@ -52,6 +52,7 @@ TEST_F(ServiceLosses, AllSessionsGoOnFromTheirStateWhenTheDirectoryIsBegunFromNo
     RandomStream draws{RandomKey{seed}};
     servers_.clear();
     store_ = empty(0, draws.below(100));
+    know_each_other();
     const std::map<std::string, ServiceSession> configured{{"lab", session_spec(1)}, {"two", session_spec(2)}};
     Server& a = begin("a", configured);
     begin("b", configured);
@@ -95,6 +96,7 @@ TEST_F(ServiceLosses, NoOtherServerActsBeforeTheLeaseOfTheLostDirectoryIsOver) {
     RandomStream draws{RandomKey{seed}};
     servers_.clear();
     store_ = empty(0);
+    know_each_other();
     const std::map<std::string, ServiceSession> configured{{"lab", session_spec(1)}};
     Server& a = begin("a", configured);
     Server& b = begin("b", configured);
@@ -136,6 +138,50 @@ TEST_F(ServiceLosses, ServerThatStartsAgainWaitsForTheLeasesOfTheLostDirectory) 
   pass(9s);
   EXPECT_TRUE(servers_.back()->open.contains("lab"));
   EXPECT_EQ(servers_.back()->member.status(now_).losses, 1u);
+}
+
+// It cannot know whether the directory was another one a moment ago.
+TEST_F(ServiceLosses, ServerInItsFirstStartWaitsForTheTimeOfALease) {
+  const std::map<std::string, ServiceSession> configured{{"lab", session_spec(1)}};
+  Server& a = begin("a", configured);
+  ASSERT_TRUE(a.open.contains("lab"));
+  a.directory.cut = true;
+  store_ = empty(1000);
+  agreed_ = {};
+  Server& b = start("b", configured);
+  b.member.registry().set_local({});
+  const Time began = now_;
+  while (!b.open.contains("lab") && now_ < began + 10s) pass(20ms);
+  EXPECT_GE(now_, began + 2s);
+  EXPECT_LE(now_, began + 3s);
+}
+
+// Servers stop, the directory is put back to an older copy, servers start: revisions are lower than those in the file.
+TEST_F(ServiceLosses, ServerThatStartsNoticesThatTheDirectoryWasPutBackMeanwhile) {
+  const std::map<std::string, ServiceSession> configured{{"lab", session_spec(1)}};
+  Server& a = begin("a", configured);
+  pass(1s);
+  const directory::ModelStore copy = store_;
+  a.member.set_snapshot("lab", "newer");
+  pass(1s);
+  agreed_ = a.member.agreement(now_).value();
+  EXPECT_GT(agreed_.revision, copy.revision());
+  const std::int64_t epoch = a.open.at("lab").revision;
+  servers_.clear();
+  pass(5s);
+  store_ = copy;
+  store_.resume(now_, 1000);
+  Server& b = begin("b", configured);
+  EXPECT_EQ(b.member.status(now_).losses, 1u);
+  const auto waiting = b.member.agreement(now_);
+  pass(9s);
+  ASSERT_TRUE(b.open.contains("lab"));
+  EXPECT_GT(b.open.at("lab").revision, epoch);
+  // While it waits, the file stays as it was.
+  EXPECT_FALSE(waiting);
+  // A server that starts later learns from the new mark and from the others' records.
+  Server& c = begin("c", configured);
+  EXPECT_EQ(c.member.locate(named("lab")).revision, b.open.at("lab").revision);
 }
 
 TEST_F(ServiceLosses, SessionsAreComingAndCreationsAreRefusedMeanwhile) {

@@ -30,9 +30,27 @@ TEST_F(ServiceTest, OneOfServersThatStartTogetherBeginsASession) {
         store_, ServiceMemberOptions{.server = name, .configured = {{"lab", session_spec(name[0] - 'a')}}}));
     servers_.back()->member.describe({.address = "x:1", .key = "k", .version = "1", .zone = "", .capacity = 1});
   }
-  pass(3s);
+  pass(6s);
   const auto open = std::ranges::count_if(servers_, [](const auto& s) { return s->open.contains("lab"); });
   EXPECT_EQ(open, 1);
+}
+
+// The first one dies between its claim and the write of the spec. The next one must not take the session for ended.
+TEST_F(ServiceTest, ConfiguredSessionThatItsFirstServerNeverBeganIsBegunByTheNextOne) {
+  const auto owner = store_.execute(2, directory::Grant{3s});
+  static_cast<void>(store_.execute(
+      3, directory::Transaction{{}, {directory::Put{"/tandem/v1/live/sessions/lab/owner", "x", owner.lease}}, {}}));
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  EXPECT_FALSE(a.open.contains("lab"));
+  pass(4s);
+  EXPECT_TRUE(a.open.contains("lab"));
+  // An ended one stays so.
+  Server& b = start("b", {{"lab", session_spec(1)}});
+  pass(1s);
+  a.member.end("lab");
+  pass(3s);
+  EXPECT_FALSE(has("catalogue/lab/spec"));
+  EXPECT_FALSE(b.open.contains("lab"));
 }
 
 TEST_F(ServiceTest, RestoresASessionFromItsNewestSnapshotWhenItsServerDies) {

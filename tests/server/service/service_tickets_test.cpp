@@ -113,6 +113,25 @@ TEST_F(ServiceTicketsTest, RestoreLeavesTheUseOfAnotherServer) {
   EXPECT_TRUE(has("tickets/t1"));
 }
 
+// The restore is executed twice, because its first answer is lost. Another server has used the ticket in between.
+TEST_F(ServiceTicketsTest, RestoreThatIsSentAgainLeavesALaterUse) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(1), Outcome::kAccepted);
+  a->directory.answers_lost = true;
+  a->member.tickets().restore("lab", "t1");
+  pass(100ms);
+  ASSERT_FALSE(has("tickets/t1"));
+  use(*b, "two", "t1", 2);
+  pass(200ms);
+  ASSERT_EQ(results(*b).at(2), Outcome::kAccepted);
+  a->directory.answers_lost = false;
+  pass(4s);
+  EXPECT_TRUE(a->member.all_written());  // it was sent again
+  EXPECT_TRUE(has("tickets/t1"));
+}
+
 TEST_F(ServiceTicketsTest, TicketWithoutAnAnswerIsReportedAndStaysValid) {
   start_two();
   a->directory.answers_lost = true;

@@ -1,0 +1,62 @@
+#include "tests/server/service/service_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/common/base/counts.h"
+
+namespace tandem::server::test {
+namespace {
+
+using directory::test::Schedule;
+using directory::test::Verdict;
+
+std::uint64_t first_seed() {
+  const char* text = std::getenv("TANDEM_DIRECTORY_FIRST");
+  return text == nullptr ? 1 : std::strtoull(text, nullptr, 10);
+}
+
+/// Runs schedules until one fails, and prints how hard they were.
+void expect_no_violation(Schedule (*draw)(std::uint64_t), std::uint64_t count) {
+  const std::uint64_t first = first_seed();
+  Verdict sum;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const Schedule schedule = draw(seed);
+    const Verdict verdict = run_service_schedule(schedule);
+    ASSERT_TRUE(verdict.violation.empty())
+        << verdict.violation << "\nshortened " << to_text(shrink(schedule, run_service_schedule))
+        << "\nAgain: TANDEM_DIRECTORY_FIRST=" << seed << " build/release/bin/service_model_test --gtest_filter="
+        << testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() << '.'
+        << testing::UnitTest::GetInstance()->current_test_info()->name();
+    sum.recovered = std::max(sum.recovered, verdict.recovered);
+    sum.events += verdict.events;
+    sum.tickets += verdict.tickets;
+    sum.owners += verdict.owners;
+    sum.losses += verdict.losses;
+    sum.rejected += verdict.rejected;
+  }
+  const auto per_schedule = [&](std::uint64_t n) { return static_cast<double>(n) / static_cast<double>(count); };
+  std::printf(
+      "[ schedules] %llu; per schedule %.0f events, %.1f openings, %.1f tickets; %llu losses noticed, %llu old "
+      "datagrams "
+      "rejected; longest recovery %.2f s\n",
+      static_cast<unsigned long long>(count), per_schedule(sum.events), per_schedule(sum.owners),
+      per_schedule(sum.tickets), static_cast<unsigned long long>(sum.losses),
+      static_cast<unsigned long long>(sum.rejected), seconds(sum.recovered));
+  EXPECT_GT(sum.owners, count);
+  EXPECT_GT(sum.tickets, count);
+}
+
+TEST(ServiceModel, HasOneActingServerAndRecoversInAllSchedules) {
+  expect_no_violation(directory::test::draw_schedule, tandem::test::seeds(1000));
+}
+
+TEST(ServiceModel, HasOneActingServerAndRecoversWhenTheStoreLosesItsData) {
+  expect_no_violation(directory::test::draw_schedule_with_losses, tandem::test::seeds(1000));
+}
+
+}  // namespace
+}  // namespace tandem::server::test
