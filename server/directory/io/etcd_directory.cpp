@@ -13,6 +13,7 @@
 #include <set>
 #include <thread>
 
+#include "server/directory/io/etcd_channel.h"
 #include "server/directory/io/etcd_codec.h"
 
 namespace tandem::directory {
