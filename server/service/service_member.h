@@ -94,6 +94,7 @@ struct ServiceStatus {
   std::uint64_t moves = 0;       ///< sessions that this server has begun to move to others
   std::uint64_t losses = 0;      ///< times at which the directory was begun from nothing, or put back
   bool recovers = false;         ///< after that: sessions are not claimed yet
+  bool stranger = false;         ///< it does not know the directory from before, and claims no session yet
   FencedWriter::Counters writes{};
   std::int64_t voucher_ends = 0;  ///< last second of this server's voucher, since 1970, UTC; 0: unknown
 

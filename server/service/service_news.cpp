@@ -62,6 +62,11 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
                            "; end it, or give this server a member file with another name (`tandem-server service "
                            "vouch --name NAME`, then `tandem-server service join`). This server goes on trying"});
   }
+  if (status.stranger && !std::exchange(stranger_, true))
+    lines.push_back({false, "service_first_start",
+                     format("this server has not been in this service before: it begins sessions in %g s, when all "
+                            "leases of a directory that may have been lost a moment ago are over",
+                            seconds(times_.ttl))});
   if (status.losses != std::exchange(losses_, status.losses))
     lines.push_back(
         {true, "service_directory_lost",

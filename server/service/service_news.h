@@ -39,6 +39,7 @@ class ServiceNews {
   directory::LeaseTimes times_;
   std::string tls_options_;
   State state_ = State::kStarting;
+  bool stranger_ = false;
   bool held_ = false, recovers_ = false;
   std::uint64_t losses_ = 0;
   std::optional<Time> began_, name_taken_since_;

@@ -172,6 +172,7 @@ ServiceStatus ServiceMember::status(Time now) const {
   status.moves = moves_;
   status.losses = loss_.losses();
   status.recovers = loss_.waits(now);
+  status.stranger = loss_.losses() == 0 && loss_.known() && !loss_.kept_may_begin(now);
   status.writes = writer_.counters();
   return status;
 }

@@ -60,6 +60,7 @@ TEST(GatewayService, PagesAndConsolesHearThatTheirSessionIsHeldAndGoesOn) {
   gateway.open_url();
   WebPage page = gateway.page();
   EXPECT_FALSE(page.next("scene").is_null());
+  ASSERT_TRUE(console.wait_for("lab: waiting")) << console.err();  // its ticket is used
   service.etcd().process().signal(SIGSTOP);
   const auto says = [](const char* text) {
     return [text](const Json& m) { return m["type"] == "notice" && m["text"].get<std::string>().find(text) == 0; };

@@ -26,7 +26,7 @@ void reserve_slot(SessionRegistry& registry, SessionEntry& entry, Slots& slots, 
                   const char* what, std::function<JoinReply(std::uint8_t place)> admit,
                   std::function<void(JoinReply)> answer) {
   const rpc::ErrorReply full{
-      ErrorCode::kFull,
+      rpc::ErrorCode::kFull,
       format("all %zu %s of this session are taken; try again in %u s", Slots::kMax, what, kSlotRetryS), kSlotRetryS};
   if (!slots.begin_join()) return answer(full);
   ShardRequest query{.what = ShardRequest::What::kQueryPeers, .peers = peers};

@@ -18,10 +18,16 @@ void RegistryMirror::start() {
   task_.start();
 }
 
+void RegistryMirror::stop() {
+  task_.stop();
+  stops_ = true;
+  if (const std::string problem = compare(); !problem.empty()) on_trouble_(problem);
+}
+
 bool RegistryMirror::worth_storing(const RegistryAgreement& agreed) const {
   RegistryAgreement known = agreed;
   known.revision = stored_.revision;
-  const bool later = std::chrono::steady_clock::now() - stored_at_ >= kRevisionInterval;
+  const bool later = stops_ || std::chrono::steady_clock::now() - stored_at_ >= kRevisionInterval;
   return known != stored_ || (agreed.revision != stored_.revision && later);
 }
 

@@ -25,12 +25,16 @@ class RegistryMirror {
 
   /// @param keys     of the state folder, for this object alone
   /// @param service  must outlive this
-  /// @param trouble  receives errors of the files, each once until it is over; on the thread
+  /// @param trouble  receives errors of the files, each once until it is over; on the thread, and in `stop`
   RegistryMirror(auth::ServerKeystore keys, ServiceThread& service, std::function<void(const std::string&)> trouble)
-      : keys_(std::move(keys)), service_(service), task_(kInterval, [this] { return compare(); }, std::move(trouble)) {}
+      : keys_(std::move(keys)),
+        service_(service),
+        on_trouble_(std::move(trouble)),
+        task_(kInterval, [this] { return compare(); }, on_trouble_) {}
 
   void start();
-  void stop() { task_.stop(); }
+  /// Compares once more, so that the newest revision is stored.
+  void stop();
 
  private:
   static constexpr Duration kInterval = std::chrono::milliseconds(100);  ///< between two looks at the files
@@ -48,6 +52,8 @@ class RegistryMirror {
   std::optional<auth::RegistryLists> lists_;  ///< as last read; nullopt: not yet, or they could not be
   RegistryAgreement stored_;
   std::chrono::steady_clock::time_point stored_at_{};
+  bool stops_ = false;
+  std::function<void(const std::string&)> on_trouble_;
   RepeatedTask task_;
 };
 

@@ -60,7 +60,8 @@ Schedule draw_schedule_with_losses(std::uint64_t seed) {
   // longer than a lease; if nothing else fails, it may be shorter.
   const bool alone = d.uniform() < 0.3;
   if (alone) {
-    out.faults.clear();
+    // A copy of before the move gives the session to its former owner.
+    out.faults = {{Fault::Kind::kMove, d.below(out.sessions), d.below(out.servers), between(d, 1s, 6s), {}, {}}};
     out.loss = 0;
     out.delay_max = std::min<Duration>(out.delay_max, 20ms);
   }

@@ -52,6 +52,13 @@ TEST_F(ServiceNewsTest, ReportsADirectoryThatHasLostItsDataWithTheRemedy) {
   EXPECT_NE(told_.find("--data-dir"), std::string::npos) << told_;
 }
 
+TEST_F(ServiceNewsTest, SaysWhyTheFirstStartTakesLongerAndOnce) {
+  agreed_ = {};
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  EXPECT_EQ(events(a, 10s), (Events{"service_joined", "service_first_start"}));
+  EXPECT_NE(told_.find("begins sessions in 3 s"), std::string::npos) << told_;
+}
+
 TEST_F(ServiceNewsTest, ReportsADirectoryThatCannotBeReachedAtTheStart) {
   servers_.push_back(std::make_unique<Server>(store_, ServiceMemberOptions{.server = "a"}));
   Server& a = *servers_.back();
@@ -60,7 +67,7 @@ TEST_F(ServiceNewsTest, ReportsADirectoryThatCannotBeReachedAtTheStart) {
   EXPECT_NE(told_.find("etcdctl"), std::string::npos) << told_;
   EXPECT_NE(told_.find("demands TLS"), std::string::npos) << told_;
   a.directory.cut = false;
-  EXPECT_EQ(events(a, 3s), Events{"service_joined"});
+  EXPECT_EQ(events(a, 3s), (Events{"service_joined", "service_first_start"}));
 }
 
 TEST_F(ServiceNewsTest, NamesTheCertificatesIfTheDirectoryIsReachedByTls) {
