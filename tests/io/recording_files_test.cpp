@@ -33,6 +33,7 @@ using test::lesson_of;
 using test::read;
 using test::record_at;
 using test::Recording;
+using test::scene_named;
 
 TEST(RecordingFiles, HoldEveryTick) {
   const Folder folder;
@@ -66,6 +67,20 @@ TEST(RecordingFiles, GoOnInAnotherFileAtTheirLimits) {
   }
   EXPECT_EQ(next, 2501u);
   EXPECT_EQ(folder.read("a-2.mcap"), "of another recording");
+}
+
+// The replay of several files refuses one that begins before the end of the file before.
+TEST(RecordingFiles, HaveNoTickOfAFileBefore) {
+  const Folder folder;
+  Recording recording(folder, {.file_s = 1});
+  recording.run(4);
+  // The first file is full, so that the next tick that is recorded begins another one.
+  for (std::uint32_t tick = 901; tick <= 1000; ++tick) recording.files().add(record_at(scene_named("contact"), tick));
+  EXPECT_EQ(recording.files().recorded(), 1000u);
+  recording.run(4);
+  EXPECT_EQ(recording.close().size(), 2u);
+  EXPECT_EQ(read(folder, "a.mcap").tick.back(), 1000u);
+  EXPECT_EQ(read(folder, "a-2.mcap").tick.front(), 1001u);
 }
 
 /// Value of a key of the metadata record `session`.

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,10 +58,7 @@ class LateRecorder {
       end_file(false);
       begin_file();
     }
-    if (session.recorded()) {
-      writer_->add(session.record());
-      rows_ = rows_ || writer_->has_content();
-    }
+    if (session.recorded()) add_row(session.record());
     if (rows_ && ticks_ % 20 == 0) add_inputs();
     files_.back() += writer_->take();
   }
@@ -72,6 +71,7 @@ class LateRecorder {
   [[nodiscard]] bool late() const { return late_; }
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
   [[nodiscard]] std::size_t blocks() const { return read_; }
+  [[nodiscard]] std::uint64_t repeated() const { return repeated_; }
 
  private:
   void begin_file() {
@@ -82,6 +82,16 @@ class LateRecorder {
   void end_file(bool last) {
     writer_->finish(last);
     files_.back() += writer_->take();
+  }
+  /// As RecordingFiles: no file has a tick that is in a file before. A restarted server repeats ticks.
+  void add_row(const server::TickRecord& record) {
+    if (last_row_ && record.tick <= *last_row_) {
+      repeated_ += record.tick < *last_row_ ? 1 : 0;
+      return;
+    }
+    writer_->add(record);
+    rows_ = rows_ || writer_->has_content();
+    if (rows_) last_row_ = record.tick;
   }
   bool add_inputs() {
     const KeptInputs::Reader::Item item = reader_->next();
@@ -104,7 +114,8 @@ class LateRecorder {
   std::unique_ptr<KeptInputs::Reader> reader_;
   std::unique_ptr<server::RecordingWriter> writer_;
   std::vector<std::string> files_;
-  std::uint64_t ticks_ = 0;
+  std::optional<std::uint32_t> last_row_;  ///< session tick
+  std::uint64_t ticks_ = 0, repeated_ = 0;
   std::size_t read_ = 0;
   bool rows_ = false, fed_ = false, late_ = false;
 };
@@ -136,8 +147,10 @@ TEST(LateRecording, ReplaysRandomSessionsBitForBitFromAnyTickOn) {
     RandomStream random{RandomKey{seed}};
     // A restart repeats ticks of the checkpoint; the digest of their chunk is then of another choice of rows.
     const auto second = static_cast<std::uint64_t>(which.setup.scene.tick_hz);
-    LateRecorder recorder{which.setup.scene, second / 5 + random.below(3 * second / 2), seed % 3 == 0 ? 1500 : 0U,
-                          !restarts};
+    // A session whose hands make no ordinary motion ends soon after its fault phase, which lasts at least a second.
+    const auto faulty = static_cast<std::uint64_t>(seconds(which.recovery_start) * static_cast<double>(second));
+    const std::uint64_t begin = std::min(second / 5 + random.below(3 * second / 2), faulty - second / 4);
+    LateRecorder recorder{which.setup.scene, begin, seed % 3 == 0 ? 1500 : 0U, !restarts};
     which.setup.journal = &recorder.journal();
     static_cast<void>(run_swarm_case(which, [&](Simulation& simulation) { recorder.take(simulation.session()); }));
     EXPECT_EQ(recorder.journal().dropped(), 0u);
@@ -162,6 +175,25 @@ TEST(LateRecording, ReplaysRandomSessionsBitForBitFromAnyTickOn) {
   EXPECT_EQ(recorded, count);
   EXPECT_GT(blocks, count);
   EXPECT_GT(unseen, 200 * count);
+}
+
+// A file has 20 ticks, so that several of them begin while a restarted server repeats ticks of its checkpoint.
+TEST(LateRecording, ReplaysFilesThatBeginAtRepeatedTicks) {
+  const SceneSpec scene = *parse_scene(find_shipped_scene("contact")->text, "contact.textproto");
+  LateRecorder recorder{scene, 1000, 20, false};
+  SimulationConfig setup{
+      .scene = scene,
+      .faults = {{Fault::Kind::kServerRestart, "", std::chrono::milliseconds(2190), std::chrono::milliseconds(300)}},
+      .journal = &recorder.journal()};
+  const auto simulation = *Simulation::make(setup);
+  for (int k = 0; k < 5000 && simulation->step(); ++k) recorder.take(simulation->session());
+  const auto files = recorder.finish();
+  EXPECT_GT(recorder.repeated(), 40u);
+  EXPECT_GT(files.size(), 100u);
+  const RecordingReplay replay = replay_all(files);
+  EXPECT_EQ(problem_of(replay), "");
+  EXPECT_TRUE(replay.equal() && replay.complete);
+  EXPECT_GT(replay.rows, 2000u);
 }
 
 // The rows before the first one cannot predict inputs, so they take more bytes; the recorded rows are the same.
