@@ -54,8 +54,8 @@ TEST(GatewayService, PagesAndConsolesHearThatTheirSessionIsHeldAndGoesOn) {
                                         "--state", service.folder().file("a")}));
   };
   Process console({"/bin/sh", "-c",
-                   "sleep 300 | exec '" + std::string(TANDEM_CLIENT) + "' control --server " + address_of(a) +
-                       " --state " + own + " --ticket " + ticket()});
+                   "(echo status; sleep 300) | exec '" + std::string(TANDEM_CLIENT) + "' control --server " +
+                       address_of(a) + " --state " + own + " --ticket " + ticket()});
   WebGateway gateway(address_of(a), {"--state", own, "--ticket", ticket()});
   gateway.open_url();
   WebPage page = gateway.page();

@@ -96,7 +96,8 @@ TEST_F(ServiceRestore, BringsBackWhatTheBackupHasAndNamesWhatCameAfterIt) {
   const std::string table = listed();
   EXPECT_NE(table.find("before: waiting"), std::string::npos) << table;
   EXPECT_EQ(table.find("after: "), std::string::npos) << table;
-  // The servers notice it, so their lists are joined with that of the backup: what was revoked since is back.
+  // The servers notice it, so their lists are joined with that of the backup: a workstation that was revoked since is
+  // back.
   std::this_thread::sleep_for(milliseconds(1500));  // until the lists are compared
   EXPECT_NE(a.err().find("has lost its data"), std::string::npos) << a.err();
   EXPECT_TRUE(enrolled("a", "new"));

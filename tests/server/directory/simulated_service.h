@@ -9,7 +9,7 @@
 namespace tandem::directory::test {
 
 /// A service with its clients, and what must hold for it: no two servers act for one session, no ticket is accepted
-/// twice, no client obeys an older owner after a newer one, and in the calm phase everybody is served.
+/// twice, no client obeys an older owner after a newer one, and in the calm phase every client is served.
 class SimulatedService : protected SimulatedStore {
  public:
   [[nodiscard]] Verdict run();

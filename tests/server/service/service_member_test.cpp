@@ -44,13 +44,10 @@ TEST_F(ServiceTest, ConfiguredSessionThatItsFirstServerNeverBeganIsBegunByTheNex
   EXPECT_FALSE(a.open.contains("lab"));
   pass(4s);
   EXPECT_TRUE(a.open.contains("lab"));
-  // An ended one stays so.
   Server& b = start("b", {{"lab", session_spec(1)}});
-  pass(1s);
   a.member.end("lab");
   pass(3s);
-  EXPECT_FALSE(has("catalogue/lab/spec"));
-  EXPECT_FALSE(b.open.contains("lab"));
+  EXPECT_FALSE(has("catalogue/lab/spec") || b.open.contains("lab"));  // an ended one stays so
 }
 
 TEST_F(ServiceTest, RestoresASessionFromItsNewestSnapshotWhenItsServerDies) {
