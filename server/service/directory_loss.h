@@ -39,7 +39,7 @@ class DirectoryLoss {
       : mark_(prefix + "registry/.mark"),
         ttl_(ttl),
         newest_(agreed.revision),
-        stranger_(agreed.mark.empty()),
+        stranger_(agreed.mark.empty() || agreed.waits),
         base_(std::clamp(agreed.epoch_base, std::int64_t{0}, kBaseMax)) {}
 
   /// Notes that a request begins now.
@@ -73,6 +73,7 @@ class DirectoryLoss {
   [[nodiscard]] bool all_may_begin(Time now) const noexcept {
     return known_ && now >= wait_until_ + (losses_ == 0 ? Duration::zero() : kOthersLater);
   }
+  [[nodiscard]] bool waits_for_leases(Time now) const noexcept { return stranger_ || now < wait_until_; }
   [[nodiscard]] bool waits(Time now) const noexcept { return losses_ > 0 && !all_may_begin(now); }
   [[nodiscard]] std::uint64_t losses() const noexcept { return losses_; }
   /// To be added to revisions of ownerships of the present directory, so that they are higher than all of the lost
@@ -100,7 +101,7 @@ class DirectoryLoss {
   std::optional<Time> asked_;
   Time wait_until_{};
   bool known_ = false;
-  bool stranger_;  ///< in its first start: it cannot know whether the directory is another one
+  bool stranger_;  ///< in its first start, or after a restart within a wait: it waits once it knows the directory
   std::uint64_t losses_ = 0;
   std::int64_t base_ = 0;
   Sessions kept_;

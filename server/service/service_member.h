@@ -179,9 +179,8 @@ class ServiceMember {
   [[nodiscard]] SharedRegistry& registry() noexcept { return registry_; }
   [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }
   [[nodiscard]] ServiceStatus status(Time now) const;
-  /// By what the directory is known after a restart; nullopt: the text that was stored before stays, so that a server
-  /// that starts again while it waits for leases of another directory waits again.
-  [[nodiscard]] std::optional<RegistryAgreement> agreement(Time now) const;
+  /// By what the directory is known after a restart.
+  [[nodiscard]] RegistryAgreement agreement(Time now) const;
   /// This server has no session, not even one that moves or ends.
   [[nodiscard]] bool empty() const noexcept { return entries_.empty(); }
   /// Time from which no hand of any session of this server may be engaged.

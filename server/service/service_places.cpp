@@ -144,11 +144,11 @@ bool ServiceMember::all_written() const {
          std::ranges::none_of(entries_, [&](const auto& entry) { return writer_.pending(entry.first); });
 }
 
-std::optional<RegistryAgreement> ServiceMember::agreement(Time now) const {
-  if (!loss_.kept_may_begin(now) || registry_.agreed().mark.empty()) return std::nullopt;
+RegistryAgreement ServiceMember::agreement(Time now) const {
   RegistryAgreement agreed = registry_.agreed();
   agreed.revision = loss_.newest();
   agreed.epoch_base = loss_.epoch_base();
+  agreed.waits = loss_.waits_for_leases(now);
   return agreed;
 }
 

@@ -24,11 +24,9 @@ bool valid_mark(std::string_view text) {
 }  // namespace
 
 std::string to_text(const RegistryAgreement& agreed) {
-  return nlohmann::json{{"mark", agreed.mark},
-                        {"created", agreed.created},
-                        {"revision", agreed.revision},
-                        {"epoch_base", agreed.epoch_base},
-                        {"entries", agreed.entries}}
+  return nlohmann::json{{"mark", agreed.mark},         {"created", agreed.created},
+                        {"revision", agreed.revision}, {"epoch_base", agreed.epoch_base},
+                        {"waits", agreed.waits},       {"entries", agreed.entries}}
              .dump(1) +
          "\n";
 }
@@ -47,6 +45,10 @@ std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text)
     if (found == in.end()) continue;
     if (!found->is_number_integer()) return std::nullopt;
     number = found->get<std::int64_t>();
+  }
+  if (const auto waits = in.find("waits"); waits != in.end()) {
+    if (!waits->is_boolean()) return std::nullopt;
+    agreed.waits = waits->get<bool>();
   }
   for (const auto& [name, value] : in["entries"].items()) {
     if (!value.is_string() || !readable_entry(value.get<std::string>())) return std::nullopt;

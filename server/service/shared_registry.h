@@ -19,6 +19,7 @@ struct RegistryAgreement {
   /// A revision that the directory has reached; a lower one tells that it was put back while this server was stopped.
   directory::Revision revision = 0;
   std::int64_t epoch_base = 0;  ///< highest one of a session that the server knows
+  bool waits = false;           ///< it waited for leases of another directory, and waits again after a restart
   friend bool operator==(const RegistryAgreement&, const RegistryAgreement&) = default;
 };
 /// As one text for a file, and back. Reads any bytes; nullopt: they are no such text.

@@ -42,7 +42,7 @@ std::string RegistryMirror::compare() {
     lists_ = std::move(*lists);
   }
   std::optional<RegistryEntries> wanted;
-  std::optional<RegistryAgreement> agreed;
+  RegistryAgreement agreed;
   service_.quietly([&](ServiceMember& member, Time now) {
     if (fresh) member.registry().set_local(entries_of(*lists_));
     wanted = member.registry().wanted();
@@ -56,10 +56,10 @@ std::string RegistryMirror::compare() {
       service_.quietly([&](ServiceMember& member, Time) { member.registry().set_local(std::move(*wanted)); });
     return {};
   }
-  if (!agreed || !worth_storing(*agreed)) return {};
-  if (std::string problem = keys_.folder()->replace(kFile, std::string_view(to_text(*agreed))); !problem.empty())
+  if (agreed.mark.empty() || !worth_storing(agreed)) return {};
+  if (std::string problem = keys_.folder()->replace(kFile, std::string_view(to_text(agreed))); !problem.empty())
     return problem;
-  stored_ = std::move(*agreed);
+  stored_ = std::move(agreed);
   stored_at_ = std::chrono::steady_clock::now();
   return {};
 }

@@ -78,6 +78,7 @@ void SimulatedStore::execute(std::size_t n, std::uint64_t incarnation, Operation
   }
   store_.advance(store_clock());
   if (std::holds_alternative<Watch>(request)) {
+    if (node.incarnation != incarnation) return;  // its connection has ended with the process
     const OperationId at_store = ++watch_ids_;
     Reply answer = store_.execute(at_store, request);
     answer.operation = id;

@@ -164,7 +164,7 @@ TEST_F(ServiceLosses, ServerThatStartsNoticesThatTheDirectoryWasPutBackMeanwhile
   const directory::ModelStore copy = store_;
   a.member.set_snapshot("lab", "newer");
   pass(1s);
-  agreed_ = a.member.agreement(now_).value();
+  agreed_ = a.member.agreement(now_);
   EXPECT_GT(agreed_.revision, copy.revision());
   const std::int64_t epoch = a.open.at("lab").revision;
   servers_.clear();
@@ -177,8 +177,8 @@ TEST_F(ServiceLosses, ServerThatStartsNoticesThatTheDirectoryWasPutBackMeanwhile
   pass(9s);
   ASSERT_TRUE(b.open.contains("lab"));
   EXPECT_GT(b.open.at("lab").revision, epoch);
-  // While it waits, the file stays as it was.
-  EXPECT_FALSE(waiting);
+  EXPECT_FALSE(agreed_.waits);
+  EXPECT_TRUE(waiting.waits);
   // A server that starts later learns from the new mark and from the others' records.
   Server& c = begin("c", configured);
   EXPECT_EQ(c.member.locate(named("lab")).revision, b.open.at("lab").revision);

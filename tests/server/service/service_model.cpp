@@ -50,7 +50,7 @@ class ServiceRun final : public directory::test::SimulatedService {
     // The service has run before, so that its servers know the directory.
     const Reply marked =
         store_.execute(0, directory::Transaction{{}, {directory::Put{"/tandem/v1/registry/.mark", "mark", 0}}, {}});
-    for (RegistryAgreement& stored : stored_) stored = {"mark", {}, marked.revision, marked.revision, 0};
+    for (RegistryAgreement& stored : stored_) stored = {"mark", {}, marked.revision, marked.revision, 0, false};
     begin();
   }
   /// Losses of data that servers have noticed.
@@ -98,7 +98,8 @@ class ServiceRun final : public directory::test::SimulatedService {
         const auto& [session, ticket] = presented_.at(result->order);
         accept(session, ticket);
       }
-    if (const auto agreed = member.agreement(clock(nodes_[n]))) stored_[n] = *agreed;
+    if (RegistryAgreement agreed = member.agreement(clock(nodes_[n])); !agreed.mark.empty())
+      stored_[n] = std::move(agreed);
   }
   void on_event(std::size_t n, const ServiceEvent& event) {
     Process& process = *processes_[n];
