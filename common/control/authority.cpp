@@ -11,6 +11,12 @@ namespace {
 /// invariant 38 in ARCHITECTURE.md. A ramp from the first missing tick at half the slew would remove authority at every
 /// gap of a wireless network.
 constexpr double kLossSlew = 10.0;
+/// Largest change of force that a change of authority causes [N/s]. Invariant 13 in ARCHITECTURE.md has 0.2 N/ms; the
+/// springs and the tool move within the tick.
+constexpr double kFeltMax = 180.0;
+/// Slew of authority [1/s] that is allowed for any force: a lost seat must not keep its authority because springs are
+/// strong.
+constexpr double kSlowest = 2.5;
 }  // namespace
 
 double AuthorityTank::pay(double joule) noexcept {
@@ -82,6 +88,7 @@ void ToolAuthority::step(const Input& in) noexcept {
   if (settled_) return;
   const double slew = somebody_lost ? std::max(slew_, kLossSlew) : slew_;
   double share = std::min(1.0, slew * in.dt / farthest);
+  if (slew <= kLossSlew) share = std::min(share, unfelt_share(in, goal, farthest));
   double cost = 0;
   for (std::size_t i = 0; i < masters_; ++i) cost += share * (goal[i] - now_[i]) * in.stored[i];
   if (!std::isfinite(cost)) return;
@@ -101,6 +108,17 @@ void ToolAuthority::step(const Input& in) noexcept {
     total += now_[i];
   }
   for (std::size_t i = 0; i < masters_; ++i) now_[i] /= total;
+}
+
+double ToolAuthority::unfelt_share(const Input& in, const MasterArray& goal, double farthest) const noexcept {
+  double squared = 0;
+  for (std::size_t a = 0; a < kAxesMax; ++a) {
+    double change = 0;
+    for (std::size_t i = 0; i < masters_; ++i) change += (goal[i] - now_[i]) * in.pull[i][a];
+    squared += change * change;
+  }
+  const double felt = std::sqrt(squared), slowest = kSlowest * in.dt / farthest;
+  return felt > 0 ? std::max(kFeltMax * in.dt / felt, slowest) : 1;  // a force that is no number: as fast as ever
 }
 
 }  // namespace tandem::control

@@ -55,8 +55,12 @@ class ToolAuthority {
         present{};          ///< engaged, with recent datagrams; the authority of absent masters ramps to those present
     MasterArray stored{};   ///< V_i: energy in each seat's spring at this tool [J]
     double dissipated = 0;  ///< heat of the tool that is not spent elsewhere [J]
+    /// Force of each seat's spring at this tool as the most sensitive hand would feel all of it [N], per axis.
+    std::array<AxisArray, kMastersMax> pull{};
   };
   /// Moves all authorities towards the requested ones, renormalised over the masters present; called once per tick.
+  /// The forces at the tool then change by at most 180 N/s for any hand, unless that takes longer than 0.4 s or the
+  /// scene demands a slew above 10/s.
   void step(const Input& in) noexcept TANDEM_REALTIME;
 
   /// Whether `step` would move no authority with these masters present: then only `fill` has an effect.
@@ -79,6 +83,9 @@ class ToolAuthority {
   [[nodiscard]] double tank() const noexcept { return tank_.level(); }
 
  private:
+  /// Returns the largest share of the way to `goal` that no hand feels as a step.
+  [[nodiscard]] double unfelt_share(const Input& in, const MasterArray& goal, double farthest) const noexcept;
+
   std::size_t masters_;
   double slew_;
   AuthorityTank tank_;

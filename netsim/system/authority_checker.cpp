@@ -12,7 +12,7 @@ namespace {
 // follow the server's errors.
 constexpr double kLossSlew = 10;      // [1/s] when a seat with authority is lost
 constexpr double kStoppedMax = 0.22;  // [s] for which a stopped hand may keep authority
-constexpr double kFeltMax = 0.2;      // [N/ms] that a step of authority may cause
+constexpr double kFeltMax = 0.2;      // [N/ms] that a step of authority may cause at a hand
 constexpr double kFeltSlewMax = 10;   // [1/s] of authority; above it, users feel the shares of the stiffest springs
 
 }  // namespace
@@ -31,7 +31,7 @@ void AuthorityChecker::check(std::uint32_t lived, const server::Session& session
       violations.add("stop_holds_tools", name, session.clock().time(), false);
     check_seats(j, lived, session, violations);
     if (lived == 1 && !authority.held() &&
-        tip_norm(force_step(j, session), scale, scene_->dof) > kFeltMax * 1e3 / scene_->tick_hz)
+        felt_share(session) * tip_norm(force_step(j, session), scale, scene_->dof) > kFeltMax * 1e3 / scene_->tick_hz)
       violations.add("authority_felt", name, session.clock().time(), false);
     for (std::size_t i = 0; i < scene_->masters(); ++i) tools_[j].alpha[i] = authority.alpha(i);
     tools_[j].braked = authority.held();
@@ -65,6 +65,14 @@ bool AuthorityChecker::pulls_elsewhere(std::size_t seat, std::size_t tool,
   for (std::size_t j = 0; j < tools_.size(); ++j)
     if (j != tool && (session.tool(j).authority.alpha(seat) > 0 || scene_->follow[seat][j] > 0)) return true;
   return false;
+}
+
+/// Returns the force that the most sensitive hand feels, as a share of the tool's force.
+double AuthorityChecker::felt_share(const server::Session& session) const noexcept {
+  double most = 0;
+  for (std::size_t i = 0; i < scene_->masters(); ++i)
+    if (session.participants().present()[i]) most = std::max(most, scene_->seats[i].motion_scale);
+  return most;
 }
 
 /// Returns the force step [N at the port] of a change of authority: every spring at the tool then pulls with another

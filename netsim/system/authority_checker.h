@@ -28,6 +28,7 @@ class AuthorityChecker {
   void check_seats(std::size_t tool, std::uint32_t lived, const server::Session& session,
                    server::Violations& violations) const;
   [[nodiscard]] bool pulls_elsewhere(std::size_t seat, std::size_t tool, const server::Session& session) const noexcept;
+  [[nodiscard]] double felt_share(const server::Session& session) const noexcept;
   [[nodiscard]] AxisArray force_step(std::size_t tool, const server::Session& session) const noexcept;
 
   const SceneSpec* scene_;

@@ -90,8 +90,15 @@ void SeatEndsChecker::check_client(const ObservedSeat& seat) {
   const AxisArray offset = offset_of(seat);
   for (std::size_t k = 0; k < core.tools().size(); ++k) {
     AxisArray x = core.sent(k).x;
-    if (const control::VirtualTool* const copy = core.coupling().tool_copy(k))
-      for (std::size_t a = 0; a < seat.scene.dof; ++a) x[a] = copy->x(a);
+    const control::VirtualTool* const copy = core.coupling().tool_copy(k);
+    const control::EndState& state = core.tools().end(k).state();
+    for (std::size_t a = 0; a < seat.scene.dof; ++a) {
+      if (copy != nullptr) {
+        x[a] = copy->x(a);
+      } else if (core.gate().active() && state.k[a] > 0) {
+        x[a] += core.separation().force()[a] / state.k[a];  // force separation shifts the sample, not the end
+      }
+    }
     client_[k].check(seat, {.end = core.tools().end(k),
                             .scale = core.setup().axis_scale,
                             .received = core.tools().received(k).port,

@@ -47,6 +47,7 @@ SharedControl::SharedControl(const SceneSpec& scene, std::vector<std::unique_ptr
                        .v_app = scene.channel.v_app,
                        .dt = 1.0 / scene.tick_hz},
       hub_(hub_params(scene)) {
+  for (std::size_t a = 0; a < kAxesMax; ++a) tip_gain_[a] = 1 / std::sqrt(scale[a]);
   offsets_.fill(offset_of(scene, scale));
   tools_.reserve(scene.tools.size());
   for (std::size_t j = 0; j < scene.tools.size(); ++j) {
@@ -97,9 +98,17 @@ void SharedControl::step_authority(bool released) noexcept {
       tool.authority.fill(dissipated);
       continue;
     }
-    control::ToolAuthority::Input in{.dt = dt_, .present = present, .dissipated = dissipated};
+    control::ToolAuthority::Input in{.dt = dt_, .present = present, .dissipated = dissipated, .pull = {}};
+    double felt = 0;  // force of the most sensitive hand per force of the tool
     for (std::size_t i = 0; i < masters_; ++i)
-      in.stored[i] = seats_[i].end(j).state().stored(tool.port().x, scene_->dof);
+      if (present[i]) felt = std::max(felt, scene_->seats[i].motion_scale);
+    for (std::size_t i = 0; i < masters_; ++i) {
+      const control::EndState& spring = seats_[i].end(j).state();
+      in.stored[i] = spring.stored(tool.port().x, scene_->dof);
+      each_axis(scene_->dof, [&](std::size_t a) {
+        in.pull[i][a] = felt * tip_gain_[a] * spring.k[a] * (spring.ref[a] - tool.x(a));
+      });
+    }
     tool.authority.step(in);
     hub_.set_authority(j, tool.authority.weights(), tool.authority.held());
   }

@@ -71,6 +71,7 @@ class SharedControl {
   const std::array<bool, kSeatsMax>& present_;
   std::size_t masters_;
   bool replica_;
+  AxisArray tip_gain_{};  ///< force at the tip per force at the port
   control::HandCoupling coupling_;
   control::HandCouplingParams coupling_params_;
   control::EscHub hub_;

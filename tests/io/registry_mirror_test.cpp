@@ -136,5 +136,17 @@ TEST(RegistryMirror, ReportsAListThatCannotBeReadAndChangesNothing) {
   EXPECT_EQ(a.troubles.size(), 1U) << "each error once";
 }
 
+/// The revision of a directory rises many times a second; a file that followed it would wear out the disk.
+TEST(RegistryMirror, StoresANewRevisionAloneEveryTenSecondsOnly) {
+  RegistryAgreement stored{.mark = "m", .entries = {}, .created = 1, .revision = 5};
+  RegistryAgreement agreed = stored;
+  EXPECT_FALSE(RegistryMirror::worth_storing(agreed, stored, 1h)) << "nothing differs";
+  agreed.revision = 6;
+  EXPECT_FALSE(RegistryMirror::worth_storing(agreed, stored, 9999ms));
+  EXPECT_TRUE(RegistryMirror::worth_storing(agreed, stored, 10s));
+  agreed.epoch_base = 1;
+  EXPECT_TRUE(RegistryMirror::worth_storing(agreed, stored, 0s)) << "else a restart would use an epoch twice";
+}
+
 }  // namespace
 }  // namespace tandem::server

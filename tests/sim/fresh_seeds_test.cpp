@@ -258,20 +258,32 @@ TEST(FreshSeeds, DrawValidScenesDespiteRoundedNumbers) {
   EXPECT_NO_THROW(static_cast<void>(netsim::generate_swarm_case(9007199254741413)));
 }
 
-class FreshSeed : public testing::TestWithParam<std::uint64_t> {};
-
-TEST_P(FreshSeed, BreaksNoInvariantAndRecovers) {
-  const auto result = netsim::run_swarm_case(netsim::generate_swarm_case(GetParam()));
+void expect_nothing_broken(const netsim::SwarmCase& drawn) {
+  const auto result = netsim::run_swarm_case(drawn);
   EXPECT_EQ(result.trouble, "");
   for (const auto& v : result.violations)
     ADD_FAILURE() << v.invariant << " at " << v.seat << ", first at " << v.at_s << " s, " << v.count << " times";
 }
 
+class FreshSeed : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(FreshSeed, BreaksNoInvariantAndRecovers) { expect_nothing_broken(netsim::generate_swarm_case(GetParam())); }
+
 TEST(FreshSeeds, AShortSessionOfAnIrregularProgramKeepsTheTank) {
-  const auto result = netsim::run_swarm_case(netsim::generate_swarm_case(5000016, 8));
-  EXPECT_EQ(result.trouble, "");
-  for (const auto& v : result.violations)
-    ADD_FAILURE() << v.invariant << " at " << v.seat << ", first at " << v.at_s << " s, " << v.count << " times";
+  expect_nothing_broken(netsim::generate_swarm_case(5000016, 8));
+}
+
+// Checker `approach` took the samples of a client with force separation for the position of its spring.
+TEST(FreshSeeds, ForceSeparationMovesNoReferenceAsTheCheckerExpects) {
+  for (const std::uint64_t seed : {88000001082, 88000002637}) {
+    SCOPED_TRACE(seed);
+    expect_nothing_broken(netsim::generate_swarm_case(seed, 20));
+  }
+}
+
+// Checker `authority_felt` compared forces of the tool, 13.7 N with a motion scale of 0.413, with the limit for hands.
+TEST(FreshSeeds, ScaledHandsFeelTheirShareOfAToolsForceAsTheCheckerExpects) {
+  expect_nothing_broken(netsim::generate_swarm_case(631830069519, 40, LawKind::kReplica));
 }
 
 INSTANTIATE_TEST_SUITE_P(EffortSlew, FreshSeed, testing::Values(700212, 701712, 800062, 910004937));

@@ -24,11 +24,10 @@ void RegistryMirror::stop() {
   if (const std::string problem = compare(); !problem.empty()) on_trouble_(problem);
 }
 
-bool RegistryMirror::worth_storing(const RegistryAgreement& agreed) const {
+bool RegistryMirror::worth_storing(const RegistryAgreement& agreed, const RegistryAgreement& stored, Duration age) {
   RegistryAgreement known = agreed;
-  known.revision = stored_.revision;
-  const bool later = stops_ || std::chrono::steady_clock::now() - stored_at_ >= kRevisionInterval;
-  return known != stored_ || (agreed.revision != stored_.revision && later);
+  known.revision = stored.revision;
+  return known != stored || (agreed.revision != stored.revision && age >= kRevisionInterval);
 }
 
 std::string RegistryMirror::compare() {
@@ -56,11 +55,13 @@ std::string RegistryMirror::compare() {
       service_.quietly([&](ServiceMember& member, Time) { member.registry().set_local(std::move(*wanted)); });
     return {};
   }
-  if (agreed.mark.empty() || !worth_storing(agreed)) return {};
+  const auto now = std::chrono::steady_clock::now();
+  const Duration age = stops_ ? Duration::max() : now - stored_at_;
+  if (agreed.mark.empty() || !worth_storing(agreed, stored_, age)) return {};
   if (std::string problem = keys_.folder()->replace(kFile, std::string_view(to_text(agreed))); !problem.empty())
     return problem;
   stored_ = std::move(agreed);
-  stored_at_ = std::chrono::steady_clock::now();
+  stored_at_ = now;
   return {};
 }
 

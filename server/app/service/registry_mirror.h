@@ -32,18 +32,19 @@ class RegistryMirror {
         on_trouble_(std::move(trouble)),
         task_(kInterval, [this] { return compare(); }, on_trouble_) {}
 
+  /// Between two writes that change nothing but the revision.
+  static constexpr Duration kRevisionInterval = std::chrono::seconds(10);
+  /// Whether the stored agreement has to be replaced: always, unless only the revision differs and it is recent.
+  /// @param age  since it was stored
+  [[nodiscard]] static bool worth_storing(const RegistryAgreement& agreed, const RegistryAgreement& stored,
+                                          Duration age);
+
   void start();
   /// Compares once more, so that the newest revision is stored.
   void stop();
 
  private:
   static constexpr Duration kInterval = std::chrono::milliseconds(100);  ///< between two looks at the files
-
-  /// Between two writes that change nothing but the revision.
-  static constexpr Duration kRevisionInterval = std::chrono::seconds(10);
-
-  /// The agreement differs from the stored one, in more than a revision of the last seconds.
-  [[nodiscard]] bool worth_storing(const RegistryAgreement& agreed) const;
   /// Compares files and directory once. @return the error
   [[nodiscard]] std::string compare();
 

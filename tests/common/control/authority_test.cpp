@@ -239,5 +239,55 @@ TEST(Authority, IsSettledOnlyIfAStepWouldMoveNothing) {
   EXPECT_GT(moved, ticks / 10);
 }
 
+/// Two springs that pull apart with 14 and 12 N: 10/s would change the force by 0.26 N per ms.
+ToolAuthority::Input strong_springs() {
+  ToolAuthority::Input in = everybody(2);
+  in.pull[0][0] = 14;
+  in.pull[1][0] = -12;
+  return in;
+}
+
+TEST(Authority, MovesStrongForcesNoFasterThanHandsMayFeel) {
+  ToolAuthority row(2, 2, 0.05);
+  ASSERT_TRUE(row.request({0.75, 0.25}));
+  ToolAuthority::Input in = strong_springs();
+  row.step(in);
+  in.present[0] = false;
+  int ticks = 0;
+  for (; row.alpha(0) > 0 && ticks < 1000; ++ticks) {
+    const double before = row.alpha(0);
+    row.step(in);
+    ASSERT_LE((before - row.alpha(0)) * 26, 0.18 + 1e-9) << "N per ms, at tick " << ticks;
+  }
+  EXPECT_EQ(ticks, 109) << "0.75 * 26 N at 0.18 N per ms";
+}
+
+TEST(Authority, OfALostHandGoesWithinHalfASecondWhateverItsSpringPulls) {
+  for (const double pull : {1e3, 1e9, kInf, -kInf, kNan}) {
+    ToolAuthority row(2, 1, 0.05);
+    ASSERT_TRUE(row.request({1, 0}));
+    ToolAuthority::Input in = everybody(2);
+    row.step(in);
+    ASSERT_TRUE(row.request({0.5, 0.5}));
+    for (int i = 0; i < 1000; ++i) row.step(in);
+    in.present[0] = false;
+    in.pull[0][0] = pull;
+    for (int i = 0; i < 201; ++i) row.step(in);
+    EXPECT_EQ(row.alpha(0), 0) << pull;
+  }
+}
+
+TEST(Authority, ChangesAtOnceWhereTheSceneDemandsItForAnyForce) {
+  for (const double slew : {kInf, 50.0}) {
+    ToolAuthority row(2, slew, 100);
+    ASSERT_TRUE(row.request({1, 0}));
+    ToolAuthority::Input in = strong_springs();
+    row.step(in);
+    ASSERT_TRUE(row.request({0, 1}));
+    row.step(in);
+    EXPECT_NEAR(row.alpha(0), slew == kInf ? 0 : 0.95, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace tandem::control
