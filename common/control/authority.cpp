@@ -6,10 +6,10 @@
 namespace tandem::control {
 
 namespace {
-/// Slew of authority after a loss [1/s]. For any slew of the scene, the authority of a lost seat is 0 within 100 ms
-/// after the server declares the loss. The server declares it 100 ms after the last datagram, which meets the 220 ms of
-/// invariant 38 in ARCHITECTURE.md. A ramp from the first missing tick at half the slew would remove authority at every
-/// gap of a wireless network.
+/// Slew of authority after a loss [1/s], for any slew of the scene. The authority of a lost seat is 0 within 100 ms
+/// after the server declares the loss, unless hands would feel that (`kFeltMax`). The server declares it 100 ms after
+/// the last datagram, which meets the 220 ms of invariant 38 in ARCHITECTURE.md. A ramp from the first missing tick at
+/// half the slew would remove authority at every gap of a wireless network.
 constexpr double kLossSlew = 10.0;
 /// Largest change of force that a change of authority causes [N/s]. Invariant 13 in ARCHITECTURE.md has 0.2 N/ms; the
 /// springs and the tool move within the tick.
