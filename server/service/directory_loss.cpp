@@ -1,5 +1,6 @@
 #include "server/service/directory_loss.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tandem::server {
@@ -49,7 +50,6 @@ DirectoryLoss::Found DirectoryLoss::on_reply(Time now, const directory::Reply& r
 
 void DirectoryLoss::on_loss(Time now) {
   ++losses_;
-  base_ = std::min(base_ + kEpochs, kBaseMax);
   newest_ = 0;
   sent_.clear();
   wait_until_ = now + ttl_;

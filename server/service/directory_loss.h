@@ -1,19 +1,16 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "server/directory/directory.h"
-#include "server/service/service_session.h"
 #include "server/service/shared_registry.h"
 
 namespace tandem::server {
 
-/// Notices that the directory is not the one of before: it was begun from nothing, or put back to an older state. Keeps
-/// what this server needs to serve its sessions again there.
+/// Notices that the directory is not the one of before: it was begun from nothing, or put back to an older state.
 ///
 /// Two signs: an answer of a lower revision than a former one, and another mark than the agreed one (SharedRegistry).
 /// The mark is asked for at the start and after each loss of a lease or session; no session is claimed before.
@@ -26,21 +23,13 @@ class DirectoryLoss {
  public:
   static constexpr Duration kOthersLater = std::chrono::seconds(5);  ///< than the former owners
 
-  /// A session that this server served until now.
-  struct Kept {
-    ServiceSession spec;
-    std::string snapshot, consoles;
-  };
-  using Sessions = std::map<std::string, Kept, std::less<>>;
-
   /// @param prefix  of the directory's keys
   /// @param agreed  from before a restart
   DirectoryLoss(const std::string& prefix, Duration ttl, const RegistryAgreement& agreed)
       : mark_(prefix + "registry/.mark"),
         ttl_(ttl),
         newest_(agreed.revision),
-        stranger_(agreed.mark.empty() || agreed.waits),
-        base_(std::clamp(agreed.epoch_base, std::int64_t{0}, kBaseMax)) {}
+        stranger_(agreed.mark.empty() || agreed.waits) {}
 
   /// Notes that a request begins now.
   void on_begin(directory::OperationId operation, const directory::Request& request);
@@ -62,9 +51,6 @@ class DirectoryLoss {
 
   /// The directory is another one.
   void on_loss(Time now);
-  void keep(const std::string& session, Kept kept) { kept_[session] = std::move(kept); }
-  [[nodiscard]] Sessions& kept() noexcept { return kept_; }
-  [[nodiscard]] const Sessions& kept() const noexcept { return kept_; }
 
   /// The directory is the one that this server knows.
   [[nodiscard]] bool known() const noexcept { return known_; }
@@ -76,19 +62,11 @@ class DirectoryLoss {
   [[nodiscard]] bool waits_for_leases(Time now) const noexcept { return stranger_ || now < wait_until_; }
   [[nodiscard]] bool waits(Time now) const noexcept { return losses_ > 0 && !all_may_begin(now); }
   [[nodiscard]] std::uint64_t losses() const noexcept { return losses_; }
-  /// To be added to revisions of ownerships of the present directory, so that they are higher than all of the lost
-  /// ones.
-  [[nodiscard]] std::int64_t epoch_base() const noexcept { return base_; }
-  /// Takes the base of a session of the directory.
-  void on_base(std::int64_t base) noexcept { base_ = std::clamp(base, base_, kBaseMax); }
   /// Newest revision that this server knows; 0: none.
   [[nodiscard]] directory::Revision newest() const noexcept { return newest_; }
 
  private:
   static constexpr std::size_t kSentMax = 4096;
-  /// Epochs of one directory: more revisions than any has, so that servers which know different ones agree on a base.
-  static constexpr std::int64_t kEpochs = std::int64_t{1} << 40;
-  static constexpr std::int64_t kBaseMax = std::int64_t{1} << 61;
   static constexpr Duration kAskAgain = std::chrono::milliseconds(100);  ///< after an error
 
   std::string mark_;
@@ -103,8 +81,6 @@ class DirectoryLoss {
   bool known_ = false;
   bool stranger_;  ///< in its first start, or after a restart within a wait: it waits once it knows the directory
   std::uint64_t losses_ = 0;
-  std::int64_t base_ = 0;
-  Sessions kept_;
 };
 
 }  // namespace tandem::server
