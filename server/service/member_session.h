@@ -67,7 +67,7 @@ class MemberSession {
 
   /// This server owns it.
   void on_owned(directory::Revision revision);
-  /// Its creation was refused while the spec was being written: what was written is erased.
+  /// Its creation was refused while the spec was being written: the spec is erased again.
   void abandon();
   /// Another run replaces the open one.
   void replace(ServiceSession spec);
