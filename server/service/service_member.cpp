@@ -5,6 +5,7 @@
 
 namespace tandem::server {
 
+using directory::DirectoryMark;
 using directory::Notice;
 using directory::OperationId;
 using directory::Outcome;
@@ -22,8 +23,10 @@ ServiceMember::ServiceMember(ServiceMemberOptions options, directory::Directory&
     : times_(options.times),
       store_(store),
       directory_(std::move(options.server), options.prefix, times_),
-      registry_(options.prefix, options.agreed, options.registry_mark),
-      loss_(options.prefix, times_.ttl, options.agreed),
+      mark_(SharedRegistry::mark_key(options.prefix), {options.agreed.mark, options.agreed.created},
+            options.registry_mark),
+      registry_(options.prefix, options.agreed.entries, mark_),
+      loss_(mark_, times_.ttl, options.agreed.revision, options.agreed.mark.empty() || options.agreed.waits),
       base_(directory_, options.agreed.epoch_base),
       sessions_(directory_, base_),
       beginnings_(std::move(options.configured), directory_, sessions_, loss_),
@@ -57,7 +60,7 @@ void ServiceMember::step(Time now) {
   take_replies(now);
   if (leaving_) return revoke_lease();
   take_notices(now);
-  if (registry_losses_ != registry_.losses()) on_directory_lost(now);
+  if (marks_lost_ != mark_.losses()) on_directory_lost(now);
   beginnings_.step(now, record_.drains);
   moves_.step(now, record_);
   begin_requests(now);
@@ -68,8 +71,8 @@ void ServiceMember::take_replies(Time now) {
   while (const auto reply = store_.poll()) {
     note(*reply, now);
     if (loss_.went_back(*reply)) on_directory_lost(now);
-    if (const auto found = loss_.on_reply(now, *reply); found != DirectoryLoss::Found::kNothing) {
-      if (found == DirectoryLoss::Found::kOther) on_directory_lost(now);
+    if (const auto found = loss_.on_reply(now, *reply); found != DirectoryMark::Found::kNothing) {
+      if (found == DirectoryMark::Found::kOther) on_directory_lost(now);
       continue;
     }
     if (reply->operation < kOwnOperations) {
@@ -99,7 +102,7 @@ void ServiceMember::begin_requests(Time now) {
   const auto begin_own = [this](const std::optional<Request>& request) {
     if (request) begin(++newest_, *request);
   };
-  begin_own(loss_.poll_request(now, newest_ + 1, retry, registry_.agreed()));
+  begin_own(mark_.poll_request(now, newest_ + 1, retry));
   begin_own(directory_.catalogue.poll_request(now, newest_ + 1, retry));
   begin_own(directory_.tickets.poll_request(now, newest_ + 1, retry));
   begin_own(directory_.writer.poll_request(now, newest_ + 1, retry));
@@ -123,7 +126,7 @@ void ServiceMember::take_notices(Time now) {
         sessions_.on_elsewhere(session, notice->other);
         break;
       case Notice::Kind::kLost:
-        if (sessions_.contains(session)) loss_.doubt();
+        if (sessions_.contains(session)) mark_.doubt();
         if (auto run = sessions_.on_lost(session)) beginnings_.keep(session, std::move(*run));
         break;
       case Notice::Kind::kReleased:
@@ -139,7 +142,7 @@ void ServiceMember::take_notices(Time now) {
         moves_.on_standby_refused(now, session);
         break;
       case Notice::Kind::kLeaseLost:  // a kLost of each session follows
-        loss_.doubt();
+        mark_.doubt();
         break;
       case Notice::Kind::kStandbySet:
         break;
@@ -159,8 +162,8 @@ void ServiceMember::on_directory_lost(Time now) {
   base_.raise();
   loss_.on_loss(now);
   describe(record_);
-  if (!registry_.agreed().mark.empty()) registry_.begin_again();
-  registry_losses_ = registry_.losses();
+  if (!mark_.known().text.empty()) registry_.begin_again();
+  marks_lost_ = mark_.losses();
   registry_.read_again();
   directory_.catalogue.read_again();
   directory_.tickets.forget_leases();

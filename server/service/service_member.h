@@ -5,8 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "server/directory/directory_loss.h"
+#include "server/directory/directory_mark.h"
 #include "server/directory/placement/server_record.h"
-#include "server/service/directory_loss.h"
 #include "server/service/epoch_base.h"
 #include "server/service/member_sessions.h"
 #include "server/service/service_directory.h"
@@ -105,15 +106,16 @@ class ServiceMember {
   directory::LeaseTimes times_;
   directory::Directory& store_;
   ServiceDirectory directory_;
+  directory::DirectoryMark mark_;
   SharedRegistry registry_;
-  DirectoryLoss loss_;
+  directory::DirectoryLoss loss_;
   EpochBase base_;
   MemberSessions sessions_;
   SessionBeginnings beginnings_;
   SessionMoves moves_;
   SessionPlaces places_;
   directory::ServerRecord record_;
-  std::uint64_t registry_losses_ = 0;
+  std::uint64_t marks_lost_ = 0;  ///< of which this class knows
   directory::OperationId newest_;
   bool leaving_ = false, left_ = false, name_taken_ = false;
   directory::OperationId revoking_ = 0;

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "server/service/directory_loss.h"
+#include "server/directory/directory_loss.h"
 #include "server/service/member_sessions.h"
 #include "server/service/service_directory.h"
 
@@ -20,7 +20,7 @@ class SessionBeginnings {
   /// @param configured  with the id and code that they get if this server begins them
   /// @param directory, sessions, loss  must outlive this
   SessionBeginnings(Configured configured, ServiceDirectory& directory, MemberSessions& sessions,
-                    const DirectoryLoss& loss)
+                    const directory::DirectoryLoss& loss)
       : configured_(std::move(configured)), directory_(directory), sessions_(sessions), loss_(loss) {
     begin_configured();
   }
@@ -43,7 +43,7 @@ class SessionBeginnings {
   Configured configured_;
   ServiceDirectory& directory_;
   MemberSessions& sessions_;
-  const DirectoryLoss& loss_;
+  const directory::DirectoryLoss& loss_;
   std::set<std::string, std::less<>> to_begin_;  ///< of the configuration, not seen in the service yet
   std::map<std::string, MemberSession::Run, std::less<>> kept_;
   std::uint64_t losses_before_ = 0;  ///< when the first one was kept

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "server/service/directory_loss.h"
+#include "server/directory/directory_loss.h"
 #include "server/service/member_sessions.h"
 #include "server/service/service_directory.h"
 #include "server/service/session_beginnings.h"
@@ -32,7 +32,7 @@ class SessionPlaces {
  public:
   /// @param directory, sessions, beginnings, loss  must outlive this
   SessionPlaces(const ServiceDirectory& directory, const MemberSessions& sessions, const SessionBeginnings& beginnings,
-                const DirectoryLoss& loss)
+                const directory::DirectoryLoss& loss)
       : directory_(directory), sessions_(sessions), beginnings_(beginnings), loss_(loss) {}
 
   /// Finds a session by id, code or name; without any, the only one.
@@ -52,7 +52,7 @@ class SessionPlaces {
   const ServiceDirectory& directory_;
   const MemberSessions& sessions_;
   const SessionBeginnings& beginnings_;
-  const DirectoryLoss& loss_;
+  const directory::DirectoryLoss& loss_;
 };
 
 }  // namespace tandem::server

@@ -22,7 +22,9 @@ inline CodeRow code(const std::string& name, int hash) { return {{std::byte(hash
 /// A server with its two lists, as its files have them.
 struct Desk {
   Desk(directory::ModelStore& store, std::string drawn, RegistryAgreement agreed = {})
-      : directory(store), registry("/t/", std::move(agreed), std::move(drawn)) {}
+      : directory(store),
+        mark(SharedRegistry::mark_key("/t/"), {agreed.mark, agreed.created}, std::move(drawn)),
+        registry("/t/", std::move(agreed.entries), mark) {}
 
   void step(Time now) {
     registry.set_local(entries_of(lists));
@@ -72,6 +74,7 @@ struct Desk {
 
   auth::RegistryLists lists;
   test::CuttableDirectory directory;
+  directory::DirectoryMark mark;
   SharedRegistry registry;
   directory::OperationId operation = 0;
 };

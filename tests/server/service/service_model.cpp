@@ -160,7 +160,8 @@ class ServiceRun final : public directory::test::SimulatedService {
     const bool loses = std::ranges::any_of(schedule_.faults, [](const directory::test::Fault& fault) {
       return fault.kind >= directory::test::Fault::Kind::kEmptied;
     });
-    return directory::test::kCalmLimit + (loses ? times_.ttl + DirectoryLoss::kOthersLater : Duration::zero());
+    return directory::test::kCalmLimit +
+           (loses ? times_.ttl + directory::DirectoryLoss::kOthersLater : Duration::zero());
   }
 
   std::vector<std::unique_ptr<Process>> processes_;
