@@ -99,6 +99,11 @@ struct Desks {
 /// reaches it again at a moment of its own.
 struct LostDesks : Desks {
   using Desks::Desks;
+  /// One name at each of the first servers, on which all have agreed then.
+  void enroll(const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) (*this)[i].enroll(names[i], static_cast<int>(i) + 1);
+    pass(1s);
+  }
   void lose(RandomStream& draws, directory::ModelStore next = directory::ModelStore{}) {
     for (const auto& d : desk) d->directory.cut = true;
     pass(100ms);
