@@ -64,8 +64,8 @@ std::vector<ServiceDifferences::Difference> ServiceDifferences::update(const Ser
   std::vector<Difference> found;
   std::erase_if(waiting_, [&](const auto& configured) {
     const auto& [name, spec] = configured;
-    const std::string owner = member.owner_of(name);
-    const ServiceSession* const running = member.catalogue().find(name);
+    const std::string owner = member.directory().owner_of(name);
+    const ServiceSession* const running = member.directory().catalogue.find(name);
     if (owner.empty() || owner == server_ || running == nullptr) return false;
     if (const std::string what = difference_text(spec, *running); !what.empty())
       found.push_back(

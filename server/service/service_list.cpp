@@ -156,9 +156,9 @@ std::optional<ServiceList> parse_service_list(std::string_view text) {
 
 bool ServiceListReader::look_at_directory(const ServiceMember& member, Time now) {
   const ServiceStatus status = member.status(now);
-  const auto known = status.current                      ? ServiceList::Known::kNow
-                     : member.catalogue().readings() > 0 ? ServiceList::Known::kOld
-                                                         : ServiceList::Known::kNothing;
+  const auto known = status.current                                ? ServiceList::Known::kNow
+                     : member.directory().catalogue.readings() > 0 ? ServiceList::Known::kOld
+                                                                   : ServiceList::Known::kNothing;
   // In whole seconds, and only while it is old: the file of a list that is current does not change.
   std::optional<Time> answered;
   if (known == ServiceList::Known::kOld && status.answered)
@@ -172,13 +172,13 @@ bool ServiceListReader::look_at_directory(const ServiceMember& member, Time now)
 bool ServiceListReader::look(const ServiceMember& member, Time now) {
   bool changed = look_at_directory(member, now);
   std::erase_if(seen_, [&](const auto& session) {
-    const bool gone = member.catalogue().find(session.first) == nullptr;
+    const bool gone = member.directory().catalogue.find(session.first) == nullptr;
     changed = changed || gone;
     return gone;
   });
-  for (const auto& [name, entry] : member.catalogue().entries()) {
+  for (const auto& [name, entry] : member.directory().catalogue.entries()) {
     if (!entry.spec) continue;
-    std::string server = member.owner_of(name);
+    std::string server = member.directory().owner_of(name);
     Seen& seen = seen_[name];
     if (seen.id == entry.spec->id && seen.server == server && seen.listed_text == entry.listed_text &&
         seen.code == entry.spec->code)

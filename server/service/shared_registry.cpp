@@ -15,12 +15,6 @@ const std::string& text_in(const RegistryEntries& entries, const std::string& na
   return found == entries.end() ? kNone : found->second;
 }
 
-/// Whether a text can be the mark of a directory: printable ASCII, so that the file of the agreement holds it.
-bool valid_mark(std::string_view text) {
-  constexpr std::size_t kMarkMax = 64;
-  return text.size() <= kMarkMax && std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
-}
-
 }  // namespace
 
 std::string to_text(const RegistryAgreement& agreed) {
@@ -37,7 +31,7 @@ std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text)
       !in["entries"].is_object())
     return std::nullopt;
   RegistryAgreement agreed{in["mark"].get<std::string>(), {}};
-  if (!valid_mark(agreed.mark)) return std::nullopt;
+  if (!directory::DirectoryMark::valid(agreed.mark)) return std::nullopt;
   const std::pair<const char*, std::int64_t&> numbers[] = {
       {"created", agreed.created}, {"revision", agreed.revision}, {"epoch_base", agreed.epoch_base}};
   for (const auto& [key, number] : numbers) {
@@ -68,8 +62,7 @@ bool SharedRegistry::unreadable(const std::string& name) const {
 }
 
 std::string SharedRegistry::merged(const std::string& name) const {
-  const std::string &before = text_in(agreed_.entries, name), &local = text_in(local_, name),
-                    &stored = stored_text(name);
+  const std::string &before = text_in(agreed_, name), &local = text_in(local_, name), &stored = stored_text(name);
   if (unreadable(name)) return local;
   // Revoked here while the lost directory did not answer; another server has brought the row into the new one.
   if (local.empty() && before.empty() && !stored.empty() && stored == text_in(lost_, name)) return kNone;
@@ -80,7 +73,7 @@ std::string SharedRegistry::merged(const std::string& name) const {
 
 std::vector<std::string> SharedRegistry::names() const {
   std::set<std::string> all;
-  for (const auto& [name, text] : agreed_.entries) all.insert(name);
+  for (const auto& [name, text] : agreed_) all.insert(name);
   for (const auto& [name, text] : local_) all.insert(name);
   for (const auto& [name, entry] : stored_) all.insert(name);
   all.erase(kMark);
@@ -97,9 +90,8 @@ directory::Request SharedRegistry::change(const std::string& name, std::string t
   directory::Transaction change{
       {{prefix_ + name, directory::Condition::Of::kModified, known == stored_.end() ? 0 : known->second.modified}},
       {},
-      {directory::Read{prefix_ + kMark}}};
-  if (name != kMark)
-    change.conditions.push_back({prefix_ + kMark, directory::Condition::Of::kModified, mark().modified});
+      {directory::Read{mark_.key()}}};
+  if (name != kMark) change.conditions.push_back({mark_.key(), directory::Condition::Of::kModified, mark().modified});
   if (change_.empty()) {
     change.then.push_back(directory::Erase{prefix_ + name});
   } else {
@@ -117,12 +109,7 @@ std::optional<directory::Request> SharedRegistry::poll_request(Time now, directo
     next_ = now + kPause;
   }
   if (!follower_.follows() || !local_known_ || operation_ != 0 || now < next_) return std::nullopt;
-  if (stored_text(kMark).empty() || outdated()) {
-    // Each attempt has a mark of its own: one that was written into a directory which is lost now is never seen again.
-    std::string drawn = new_mark_ + (marks_ == 0 ? "" : "-" + std::to_string(marks_));
-    ++marks_;
-    return change(kMark, std::move(drawn), now, operation);
-  }
+  if (unmarked()) return change(kMark, mark_.draw(), now, operation);
   agree();
   for (const std::string& name : names())
     if (std::string wanted = merged(name); !unreadable(name) && wanted != stored_text(name))
@@ -161,19 +148,19 @@ SharedRegistry::Stored SharedRegistry::mark() const {
 
 bool SharedRegistry::as_agreed() const {
   const Stored now = mark();
-  return now.text == agreed_.mark && (agreed_.created == 0 || agreed_.created == now.created);
+  return mark_.is_known({now.text, now.created});
 }
 
-bool SharedRegistry::outdated() const { return !outdated_.empty() && stored_text(kMark) == outdated_; }
+bool SharedRegistry::unmarked() const {
+  const std::string& text = stored_text(kMark);
+  return text.empty() || mark_.is_outdated(text);
+}
 
 void SharedRegistry::begin_again() {
-  if (!agreed_.mark.empty()) {
-    ++losses_;
-    outdated_ = agreed_.mark;
-  }
-  for (auto& [name, text] : agreed_.entries)
+  mark_.lose();
+  for (auto& [name, text] : agreed_)
     if (!local_known_ || !local_.contains(name)) lost_[name] = std::move(text);
-  agreed_ = {};
+  agreed_.clear();
 }
 
 void SharedRegistry::on_news(const directory::PrefixFollower::News& news) {
@@ -192,8 +179,8 @@ void SharedRegistry::apply(const directory::Change& change) {
     stored_.erase(name);
     return;
   }
-  const bool readable =
-      name == kMark ? valid_mark(change.entry.value) : auth::is_valid_name(name) && readable_entry(change.entry.value);
+  const bool readable = name == kMark ? directory::DirectoryMark::valid(change.entry.value)
+                                      : auth::is_valid_name(name) && readable_entry(change.entry.value);
   if (!readable) ++rejected_;
   stored_[name] = {readable ? change.entry.value : "", change.entry.modified, change.entry.created};
 }
@@ -206,23 +193,22 @@ void SharedRegistry::set_local(RegistryEntries local) {
 }
 
 void SharedRegistry::agree() {
-  if (!follower_.follows() || !local_known_ || stored_text(kMark).empty() || outdated()) return;
+  if (!follower_.follows() || !local_known_ || unmarked()) return;
   if (!as_agreed()) begin_again();
-  agreed_.mark = stored_text(kMark);
-  agreed_.created = mark().created;
+  mark_.set_known({mark().text, mark().created});
   for (const std::string& name : names()) {
     const std::string& local = text_in(local_, name);
     if (unreadable(name) || local != stored_text(name)) continue;
     if (local.empty()) {
-      agreed_.entries.erase(name);
+      agreed_.erase(name);
     } else {
-      agreed_.entries[name] = local;
+      agreed_[name] = local;
     }
   }
 }
 
 std::optional<RegistryEntries> SharedRegistry::wanted() const {
-  if (!follower_.follows() || !local_known_ || agreed_.mark.empty() || !as_agreed()) return std::nullopt;
+  if (!follower_.follows() || !local_known_ || mark_.known().text.empty() || !as_agreed()) return std::nullopt;
   RegistryEntries all;
   for (const std::string& name : names())
     if (std::string text = merged(name); !text.empty()) all[name] = std::move(text);

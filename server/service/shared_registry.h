@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "server/directory/directory_mark.h"
 #include "server/directory/prefix_follower.h"
 #include "server/service/registry_entries.h"
 
@@ -34,19 +35,20 @@ struct RegistryAgreement {
 ///
 /// While the directory does not answer, the files hold as they are. A missing entry is a revocation only in the
 /// directory of the last agreement. Any other gets the content of the files: one that was begun from nothing, or was
-/// put back to an older state while this server ran. Three things tell it: a mark in it, drawn at random for each
-/// attempt to write one; the revision that created the mark; and revisions that go back. A server that notices the
-/// last one replaces the mark, so that all servers notice. Each change has the condition that the mark is the known
-/// one. Pure: no clock, file, socket or thread.
+/// put back to an older state while this server ran. Its mark tells it (DirectoryMark), and revisions that go back. A
+/// server that notices the latter replaces the mark, so that all servers notice. Each change has the condition that the
+/// mark is the known one. Pure: no clock, file, socket or thread.
 class SharedRegistry {
  public:
   static constexpr Duration kPause = std::chrono::milliseconds(50);  ///< after a change that was not written
 
   /// @param prefix  of the directory's keys, begins and ends with "/"
-  /// @param agreed  `agreed()` from the time before a restart; empty: there was none
-  /// @param mark    random text, the beginning of marks for directories without one
-  SharedRegistry(const std::string& prefix, RegistryAgreement agreed, std::string mark)
-      : prefix_(prefix + "registry/"), follower_(prefix_), agreed_(std::move(agreed)), new_mark_(std::move(mark)) {}
+  /// @param agreed  entries of `agreed()` from the time before a restart, of the directory of the mark
+  /// @param mark    of the directory, with the key `mark_key(prefix)`; must outlive this
+  SharedRegistry(const std::string& prefix, RegistryEntries agreed, directory::DirectoryMark& mark)
+      : prefix_(prefix + "registry/"), follower_(prefix_), mark_(mark), agreed_(std::move(agreed)) {}
+
+  [[nodiscard]] static std::string mark_key(const std::string& prefix) { return prefix + "registry/.mark"; }
 
   /// Sets the entries of the files as they are now. Nothing changes on either side before the first call.
   void set_local(RegistryEntries local);
@@ -61,13 +63,13 @@ class SharedRegistry {
   /// changed meanwhile, and calls `set_local`.
   [[nodiscard]] std::optional<RegistryEntries> wanted() const;
   /// Entries on which files and directory agree; the caller stores them for the next start.
-  [[nodiscard]] const RegistryAgreement& agreed() const noexcept { return agreed_; }
+  [[nodiscard]] RegistryAgreement agreed() const {
+    return {.mark = mark_.known().text, .entries = agreed_, .created = mark_.known().created};
+  }
   /// The copy of the directory is complete and follows it.
   [[nodiscard]] bool follows() const noexcept { return follower_.follows(); }
   /// Has the directory read again: it may be another one than before.
   void read_again() noexcept { follower_.restart(); }
-  /// Times at which the directory was not the one of the last agreement.
-  [[nodiscard]] std::uint64_t losses() const noexcept { return losses_; }
   /// Takes the directory for another one than that of the last agreement.
   void begin_again();
   /// Keys of the directory that cannot be read; they change nothing here.
@@ -87,17 +89,17 @@ class SharedRegistry {
   [[nodiscard]] directory::Request change(const std::string& key, std::string text, Time now,
                                           directory::OperationId operation);
   void agree();
-  /// The mark is the one of the last agreement, and the directory has lost nothing since.
+  /// The mark in the directory is the one of the last agreement.
   [[nodiscard]] bool as_agreed() const;
-  /// The mark is that of a directory which was lost since: the present one was put back to an older state.
-  [[nodiscard]] bool outdated() const;
+  /// The directory needs another mark.
+  [[nodiscard]] bool unmarked() const;
   void on_news(const directory::PrefixFollower::News& news);
   [[nodiscard]] Stored mark() const;
 
   std::string prefix_;
   directory::PrefixFollower follower_;
-  RegistryAgreement agreed_;
-  std::string new_mark_, outdated_;
+  directory::DirectoryMark& mark_;
+  RegistryEntries agreed_;
   RegistryEntries local_;
   bool local_known_ = false;
   RegistryEntries lost_;  ///< as agreed in directories that are lost, without names that the files have
@@ -106,7 +108,7 @@ class SharedRegistry {
   std::string changing_, change_;         ///< its name and text
   Time sent_{}, next_{};
   bool refused_ = false;
-  std::uint64_t rejected_ = 0, losses_ = 0, marks_ = 0;
+  std::uint64_t rejected_ = 0;
 };
 
 }  // namespace tandem::server

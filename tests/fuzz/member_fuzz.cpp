@@ -149,19 +149,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (int i = 0; i < 400 && (draws.any() || i < 20); ++i) {
     now += draws.byte() % 8 == 0 ? Duration{500ms} : Duration{20ms};
     member.step(now);
-    while (const auto event = member.poll_event()) {
+    while (const auto event = member.sessions().poll_event()) {
       switch (event->kind) {
         case server::ServiceEvent::Kind::kOpen:
           if (draws.byte() % 4 == 0)
-            member.on_open_failed(now, event->session);
+            member.sessions().on_open_failed(now, event->session);
           else
-            member.on_opened(event->session);
+            member.sessions().on_opened(event->session);
           break;
         case server::ServiceEvent::Kind::kGiveUp:
-          member.on_given_up(event->session);
+          member.sessions().on_given_up(event->session);
           break;
         case server::ServiceEvent::Kind::kHandOver:
-          member.on_handed_over(event->session);
+          member.moves().on_handed_over(event->session);
           break;
         case server::ServiceEvent::Kind::kRefused:
           break;
@@ -175,16 +175,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         static_cast<void>(member.create(now, "new", session_spec(), 1));
         break;
       case 2:
-        member.end("lab");
+        member.sessions().end("lab");
         break;
       case 3:
-        member.replace("lab", session_spec());
+        member.sessions().replace("lab", session_spec());
         break;
       case 4:
-        member.set_snapshot("lab", draws.text());
+        member.sessions().set_snapshot("lab", draws.text());
         break;
       case 5:
-        member.set_listed("lab", draws.text());
+        member.sessions().set_listed("lab", draws.text());
         break;
       case 6:
         member.tickets().use(now, "lab", "0123", 60s, ++order, draws.byte() % 2 == 0);
@@ -202,14 +202,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (draws.byte() == 0) member.leave();
         break;
       case 11:
-        member.set_consoles("lab", draws.text());
+        member.sessions().set_consoles("lab", draws.text());
         break;
       default:
         break;
     }
     while (const auto result = member.tickets().poll_result()) results += result->order != 0 ? 1 : 0;
     static_cast<void>(member.status(now));
-    static_cast<void>(member.members());
+    static_cast<void>(member.directory().members());
     static_cast<void>(member.registry().wanted());
     FUZZ_EXPECT(server::parse_registry_agreement(server::to_text(member.registry().agreed())));
   }

@@ -78,14 +78,14 @@ std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(c
   std::string problem;
   for (int attempt = 0; attempt < kPortsTried; ++attempt) {
     auto sockets = io::bind_udp_steered(options.listen, steering);
-    if (!sockets) return std::unexpected("--listen: " + sockets.error());
+    if (!sockets) return std::unexpected(sockets.error());
     auto listening = server->plane_.listen(sockets->front().local);
     if (listening) {
       server->address_ = *listening;
       server->sockets_ = std::move(*sockets);
       break;
     }
-    problem = "--listen: " + listening.error();
+    problem = listening.error();
     if (options.listen.port() != 0) break;  // a chosen port may be in use for TCP: try the next one
   }
   if (server->sockets_.empty()) return std::unexpected(problem);

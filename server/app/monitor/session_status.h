@@ -41,6 +41,7 @@ struct MachineStatus {
   std::uint64_t late_ticks = 0;    ///< ticks that began more than 1 ms late
   std::uint64_t missed_ticks = 0;  ///< ticks whose whole period passed; they are run later
   bool late = false;               ///< the current tick began more than 1 ms late
+  bool started = false;            ///< the thread of the ticks runs, so that `realtime` is known
   bool realtime = false;           ///< the kernel granted real-time priority
   LoadState load_state;            ///< shed level and overload
 };

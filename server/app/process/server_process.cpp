@@ -185,9 +185,12 @@ class ServerProcess {
                     {.event = event.more ? "shed" : "shed_less", .text = event.text});
       if (!io::logs_json()) output_.note(event.text);
     }
-    if (sessions_->all().empty() || std::exchange(realtime_reported_, true)) return;
-    const bool realtime = sessions_->all().front()->live_session().status().machine.realtime;
-    if (const std::string notice = io::realtime_warning(realtime, memory_locked_, awake_.granted()); !notice.empty())
+    if (realtime_reported_ || sessions_->all().empty()) return;
+    const MachineStatus machine = sessions_->all().front()->live_session().status().machine;
+    if (!machine.started) return;
+    realtime_reported_ = true;
+    if (const std::string notice = io::realtime_warning(machine.realtime, memory_locked_, awake_.granted());
+        !notice.empty())
       output_.note(notice);
   }
 

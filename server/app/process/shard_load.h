@@ -18,7 +18,10 @@ class ShardLoad {
 
   // ---- The shard's thread ----
   /// @param granted  the kernel granted real-time priority
-  void set_realtime(bool granted) noexcept { machine_.realtime = granted; }
+  void set_realtime(bool granted) noexcept {
+    machine_.started = true;
+    machine_.realtime = granted;
+  }
   /// A tick begins.
   /// @param late     time since it was due
   /// @param serving  the shard serves a session: late ticks count

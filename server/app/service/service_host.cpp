@@ -134,7 +134,7 @@ void ServiceHost::execute(ServiceEvent event, Time now) {
       std::erase_if(waiting_, [&](const Waiting& w) { return w.event.session == event.session; });
       snapshots_.remove(event.session);
       parts_.sessions.give_up(event.session);
-      thread_->with([&](ServiceMember& member, Time) { member.on_given_up(event.session); });
+      thread_->with([&](ServiceMember& member, Time) { member.sessions().on_given_up(event.session); });
       return;
     case ServiceEvent::Kind::kHandOver:
       handing_over_.insert(event.session);
@@ -180,7 +180,7 @@ void ServiceHost::open_session(const ServiceEvent& event) {
   if (const std::string why = parts_.sessions.open_owned(std::move(owned)); !why.empty())
     return open_failed(event, why);
   set_act_until();
-  thread_->with([&](ServiceMember& member, Time) { member.on_opened(event.session); });
+  thread_->with([&](ServiceMember& member, Time) { member.sessions().on_opened(event.session); });
   published_.reset();
   if (event.order == 0) return;
   rpc::SessionCreated created{.session = {}, .code = event.spec.code, .tickets = {}};
@@ -197,9 +197,9 @@ void ServiceHost::open_failed(const ServiceEvent& event, const std::string& why)
   parts_.output.report(io::Level::kWarn, {.event = "service_open_failed", .session = event.session, .text = text},
                        text);
   thread_->with([&](ServiceMember& member, Time now) {
-    if (event.order == 0) return member.on_open_failed(now, event.session);
-    member.on_opened(event.session);  // a session that was never open has to leave nothing
-    member.end(event.session);
+    if (event.order == 0) return member.sessions().on_open_failed(now, event.session);
+    member.sessions().on_opened(event.session);  // a session that was never open has to leave nothing
+    member.sessions().end(event.session);
   });
   reply(event.order, rpc::ErrorReply{rpc::ErrorCode::kNotNow, why, 1});
 }
@@ -207,14 +207,14 @@ void ServiceHost::open_failed(const ServiceEvent& event, const std::string& why)
 void ServiceHost::on_over(const std::string& session, const ServiceSession& spec, bool given_up) {
   listed_.erase(session);
   if (handing_over_.erase(session) > 0)
-    return thread_->with([&](ServiceMember& member, Time) { member.on_handed_over(session); });
+    return thread_->with([&](ServiceMember& member, Time) { member.moves().on_handed_over(session); });
   if (leaving_ || given_up) return;
   thread_->with([&](ServiceMember& member, Time) {
-    if (!spec.restart) return member.end(session);
+    if (!spec.restart) return member.sessions().end(session);
     ServiceSession next = spec;
     next.id = auth::random_bytes<auth::Id16>();
     if (!next.code.empty()) next.code = make_session_code();
-    member.replace(session, std::move(next));
+    member.sessions().replace(session, std::move(next));
   });
 }
 
@@ -288,7 +288,7 @@ void ServiceHost::publish_load() {
   record_.drains = parts_.control.registry().drain().due().has_value();
   thread_->quietly([&](ServiceMember& member, Time) {
     member.describe(record_);
-    member.set_loads(loads);
+    member.moves().set_loads(loads);
   });
 }
 
@@ -305,7 +305,8 @@ void ServiceHost::publish_lists() {
   });
   thread_->quietly([&](ServiceMember& member, Time) {
     for (auto& [session, text] : lists)
-      if (std::string& before = listed_[session]; before != text) member.set_listed(session, before = std::move(text));
+      if (std::string& before = listed_[session]; before != text)
+        member.sessions().set_listed(session, before = std::move(text));
   });
 }
 
@@ -321,7 +322,7 @@ void ServiceHost::release_consoles() {
 
 bool ServiceHost::left_by_all() const {
   return record_.drains && parts_.sessions.all().empty() &&
-         thread_->quietly([](const ServiceMember& member, Time) { return member.empty(); });
+         thread_->quietly([](const ServiceMember& member, Time) { return member.sessions().empty(); });
 }
 
 void ServiceHost::report_differences() {

@@ -53,8 +53,8 @@ SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
 std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
   return thread_.quietly([&](ServiceMember& member, Time) {
     std::vector<Elsewhere> list;
-    for (auto& [name, server] : member.away()) {
-      const ServiceCatalogue::Entry& entry = member.catalogue().entries().find(name)->second;
+    for (auto& [name, server] : member.places().away()) {
+      const ServiceCatalogue::Entry& entry = member.directory().catalogue.entries().find(name)->second;
       Elsewhere there{{entry.spec->id, name, {}, {}}, std::move(server)};
       static_cast<void>(read_listed(entry.listed_text, there.session));
       if (there.server.empty()) there.session.phase = rpc::SessionPhase::kWaiting;  // its last server left the text
@@ -65,14 +65,14 @@ std::vector<SessionLocator::Elsewhere> ServiceLocator::elsewhere() const {
 }
 
 void ServiceLocator::remember_members() {
-  const auto records = thread_.quietly([](const ServiceMember& member, Time) { return member.members(); });
+  const auto records = thread_.quietly([](const ServiceMember& member, Time) { return member.directory().members(); });
   const std::lock_guard lock(lock_);
   for (const auto& [name, record] : records)
     if (addresses_.size() < kMembersMax || addresses_.contains(name)) addresses_[name] = record.address;
 }
 
 std::vector<std::string> ServiceLocator::members() const {
-  const auto records = thread_.quietly([](const ServiceMember& member, Time) { return member.members(); });
+  const auto records = thread_.quietly([](const ServiceMember& member, Time) { return member.directory().members(); });
   std::vector<std::string> addresses;
   const auto add = [&](const std::string& address) {
     if (addresses.size() < kMembersMax && std::ranges::find(addresses, address) == addresses.end())

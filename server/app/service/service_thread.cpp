@@ -53,14 +53,15 @@ void ServiceThread::run() {
     {
       const std::lock_guard lock(mutex_);
       for (auto& news : newest) {
-        if (!news.snapshot.empty()) member_.set_snapshot(news.session, std::move(news.snapshot), news.mark, news.order);
-        if (news.consoles) member_.set_consoles(news.session, std::move(*news.consoles));
+        if (!news.snapshot.empty())
+          member_.sessions().set_snapshot(news.session, std::move(news.snapshot), news.mark, news.order);
+        if (news.consoles) member_.sessions().set_consoles(news.session, std::move(*news.consoles));
       }
       member_.step(now());
       while (const auto result = member_.tickets().poll_result()) results.push_back(*result);
       while (const auto mark = member_.poll_stored()) snapshots_.set_stored(*mark);
       snapshots_.set_problem(member_.storage_problem());
-      if (member_.has_event() || std::exchange(acted_until_, member_.act_until()) != member_.act_until())
+      if (member_.sessions().has_event() || std::exchange(acted_until_, member_.act_until()) != member_.act_until())
         changed_.signal();
       if (member_.calm()) pause = kCalmPause;
     }
@@ -71,7 +72,7 @@ void ServiceThread::run() {
 
 std::optional<ServiceEvent> ServiceThread::take_event() {
   const std::lock_guard lock(mutex_);
-  return member_.poll_event();
+  return member_.sessions().poll_event();
 }
 
 bool ServiceThread::wait_for(Duration limit, const std::function<bool(const ServiceMember&)>& done) {

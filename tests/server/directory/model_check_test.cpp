@@ -6,16 +6,12 @@
 
 #include "common/base/format.h"
 #include "tests/common/base/counts.h"
+#include "tests/server/directory/model_seeds.h"
 
 namespace tandem::directory::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::uint64_t first_seed() {
-  const char* text = std::getenv("TANDEM_DIRECTORY_FIRST");
-  return text == nullptr ? 1 : std::strtoull(text, nullptr, 10);
-}
 
 TEST(OwnershipModel, HasOneOwnerUsesNoTicketTwiceAndRecoversInAllSchedules) {
   const std::uint64_t first = first_seed(), count = tandem::test::seeds(1000);
@@ -26,8 +22,7 @@ TEST(OwnershipModel, HasOneOwnerUsesNoTicketTwiceAndRecoversInAllSchedules) {
     ASSERT_TRUE(verdict.violation.empty())
         << verdict.violation << "\nshortened "
         << to_text(shrink(schedule, [](const Schedule& s) { return run_schedule(s); }))
-        << "\nAgain: TANDEM_DIRECTORY_FIRST=" << seed
-        << " build/release/bin/directory_model_test --gtest_filter=OwnershipModel.HasOne*";
+        << again(seed, "directory_model_test");
     sum.recovered = std::max(sum.recovered, verdict.recovered);
     sum.events += verdict.events;
     sum.tickets += verdict.tickets;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/directory/model_store.h"
@@ -28,6 +29,14 @@ class OwnershipTest : public testing::Test {
     servers_.push_back(std::make_unique<Server>(store_, name));
     settle();
     return *servers_.back();
+  }
+  /// Servers "a", which owns session "s", and "b".
+  std::pair<Server&, Server&> start_owner_and_other() {
+    Server& owner = start("a");
+    Server& other = start("b");
+    owner.core.claim("s");
+    settle();
+    return {owner, other};
   }
   void settle() {
     store_.advance(now_);
@@ -97,10 +106,7 @@ TEST_F(OwnershipTest, HoldsAfterTwoThirdsAndServesAgainWhenTheLeaseStood) {
 }
 
 TEST_F(OwnershipTest, LosesItsSessionsWithTheLeaseAndAnyServerTakesOverOnRequestOnly) {
-  Server& a = start("a");
-  Server& b = start("b");
-  a.core.claim("s");
-  settle();
+  const auto [a, b] = start_owner_and_other();
   const Revision first = a.core.revision("s");
   a.reaches_store = false;
   pass(5s);
@@ -158,10 +164,7 @@ TEST_F(OwnershipTest, ADeadStandbyDelaysNoClaim) {
 }
 
 TEST_F(OwnershipTest, AnOldViewDelaysNoClaim) {
-  Server& a = start("a");
-  Server& b = start("b");
-  a.core.claim("s");
-  settle();
+  const auto [a, b] = start_owner_and_other();
   a.core.set_standby("s", "b");
   settle();
   b.sees_changes = false;
@@ -175,10 +178,7 @@ TEST_F(OwnershipTest, AnOldViewDelaysNoClaim) {
 }
 
 TEST_F(OwnershipTest, AMoveRampsOutBeforeTheTargetBegins) {
-  Server& a = start("a");
-  Server& b = start("b");
-  a.core.claim("s");
-  settle();
+  const auto [a, b] = start_owner_and_other();
   ASSERT_TRUE(a.core.move("s", "b"));
   settle();
   EXPECT_EQ(state(a), SessionState::kHolding);
@@ -197,10 +197,7 @@ TEST_F(OwnershipTest, AMoveRampsOutBeforeTheTargetBegins) {
 }
 
 TEST_F(OwnershipTest, AnEndedSessionLeavesNoKey) {
-  Server& a = start("a");
-  Server& b = start("b");
-  a.core.claim("s");
-  settle();
+  const auto [a, b] = start_owner_and_other();
   a.core.set_standby("s", "b");
   settle();
   ASSERT_TRUE(a.core.release(now_, "s"));
@@ -212,10 +209,7 @@ TEST_F(OwnershipTest, AnEndedSessionLeavesNoKey) {
 
 // The claim is answered "a owns it" after the view has told that a has handed the session over.
 TEST_F(OwnershipTest, TakesASessionThatIsHandedOverWhileItsClaimIsRefused) {
-  Server& a = start("a");
-  Server& b = start("b");
-  a.core.claim("s");
-  settle();
+  const auto [a, b] = start_owner_and_other();
   ASSERT_TRUE(b.core.claim("s"));
   const auto claim = b.core.poll_operation(now_);
   ASSERT_TRUE(claim);
@@ -250,10 +244,7 @@ TEST_F(OwnershipTest, SendsNoClaimWhileClaimsAreHeld) {
 
 // The lease stands, and so does a key of an earlier ownership of another server.
 TEST_F(OwnershipTest, LosesASessionWhoseKeyIsAnOlderOneInAStoreThatWasPutBack) {
-  Server& a = start("a");
-  Server& b = start("b");
-  a.core.claim("s");
-  settle();
+  const auto [a, b] = start_owner_and_other();
   const ModelStore copy = store_;
   ASSERT_TRUE(a.core.move("s", "b"));
   pass(1s);

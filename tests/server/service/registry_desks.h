@@ -22,7 +22,9 @@ inline CodeRow code(const std::string& name, int hash) { return {{std::byte(hash
 /// A server with its two lists, as its files have them.
 struct Desk {
   Desk(directory::ModelStore& store, std::string drawn, RegistryAgreement agreed = {})
-      : directory(store), registry("/t/", std::move(agreed), std::move(drawn)) {}
+      : directory(store),
+        mark(SharedRegistry::mark_key("/t/"), {agreed.mark, agreed.created}, std::move(drawn)),
+        registry("/t/", std::move(agreed.entries), mark) {}
 
   void step(Time now) {
     registry.set_local(entries_of(lists));
@@ -72,6 +74,7 @@ struct Desk {
 
   auth::RegistryLists lists;
   test::CuttableDirectory directory;
+  directory::DirectoryMark mark;
   SharedRegistry registry;
   directory::OperationId operation = 0;
 };
@@ -96,6 +99,11 @@ struct Desks {
 /// reaches it again at a moment of its own.
 struct LostDesks : Desks {
   using Desks::Desks;
+  /// One name at each of the first servers, on which all have agreed then.
+  void enroll(const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) (*this)[i].enroll(names[i], static_cast<int>(i) + 1);
+    pass(1s);
+  }
   void lose(RandomStream& draws, directory::ModelStore next = directory::ModelStore{}) {
     for (const auto& d : desk) d->directory.cut = true;
     pass(100ms);

@@ -17,7 +17,7 @@ class ServiceBalance : public ServiceTest {
         for (const auto& [session, event] : server->open)
           loads.push_back({session, cost, 0.1, !people.contains(session)});
         const auto sum = static_cast<double>(loads.size());
-        server->member.set_loads(loads);
+        server->member.moves().set_loads(loads);
         server->member.describe({.address = "s:7000",
                                  .key = "k",
                                  .version = "1",
@@ -108,7 +108,7 @@ TEST_F(ServiceBalance, SessionsStayWhereAnOperatorMovedThem) {
   pass(1s);
   EXPECT_EQ(value("catalogue/s1/move"), "");
   EXPECT_EQ(value("catalogue/s1/home"), "b");
-  servers_[1]->member.end("s1");
+  servers_[1]->member.sessions().end("s1");
   pass(1s);
   EXPECT_FALSE(has("catalogue/s1/home"));
 }
@@ -137,11 +137,11 @@ TEST_F(ServiceBalance, NothingMovesWithoutBalanceButADrainMovesAll) {
   people = {"s2"};
   pass_with_loads(60s);
   EXPECT_EQ(counts(), (std::vector<std::size_t>{3, 0}));
-  EXPECT_FALSE(servers_[0]->member.empty());
+  EXPECT_FALSE(servers_[0]->member.sessions().empty());
   draining.insert(servers_[0].get());
   pass_with_loads(10s);
   EXPECT_EQ(counts(), (std::vector<std::size_t>{0, 3}));
-  EXPECT_TRUE(servers_[0]->member.empty());
+  EXPECT_TRUE(servers_[0]->member.sessions().empty());
   std::string last;
   for (const ServiceEvent& event : servers_[0]->events)
     if (event.kind == ServiceEvent::Kind::kHandOver) last = event.session + " " + event.text;

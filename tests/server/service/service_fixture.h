@@ -97,21 +97,21 @@ class ServiceTest : public testing::Test {
     return *servers_.back();
   }
   void act(Server& server) {
-    while (auto event = server.member.poll_event()) {
+    while (auto event = server.member.sessions().poll_event()) {
       server.events.push_back(*event);
       if (event->kind == ServiceEvent::Kind::kGiveUp) {
         server.open.erase(event->session);
-        server.member.on_given_up(event->session);
+        server.member.sessions().on_given_up(event->session);
       } else if (event->kind == ServiceEvent::Kind::kHandOver) {
         server.open.erase(event->session);
         if (on_hand_over) on_hand_over(server);
-        server.member.set_snapshot(event->session, "state at the hand-over");
-        server.member.on_handed_over(event->session);
+        server.member.sessions().set_snapshot(event->session, "state at the hand-over");
+        server.member.moves().on_handed_over(event->session);
       } else if (event->kind == ServiceEvent::Kind::kOpen && !server.opens) {
-        server.member.on_open_failed(now_, event->session);
+        server.member.sessions().on_open_failed(now_, event->session);
       } else if (event->kind == ServiceEvent::Kind::kOpen) {
         server.open[event->session] = *event;
-        server.member.on_opened(event->session);
+        server.member.sessions().on_opened(event->session);
       }
     }
   }

@@ -21,7 +21,7 @@ struct ServiceListTest : ServiceTest {
     rpc::ListedSession listed;
     listed.phase = phase;
     listed.seats = {{"trainee", AccessRole::kTrainee, taken, true}};
-    server.member.set_listed(session, listed_text(listed));
+    server.member.sessions().set_listed(session, listed_text(listed));
     pass(1s);
   }
 };
@@ -50,7 +50,7 @@ TEST_F(ServiceListTest, FollowsEndsOfSessionsAndTheLossOfTheirServer) {
   Server& b = start("b");
   ServiceListReader reader;
   EXPECT_EQ(listed_of(reader, b.member, now_).sessions.size(), 2U);
-  a.member.end("two");
+  a.member.sessions().end("two");
   pass(1s);
   EXPECT_TRUE(reader.look(b.member, now_));
   ASSERT_EQ(reader.list().sessions.size(), 1U);

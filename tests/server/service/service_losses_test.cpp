@@ -62,7 +62,7 @@ TEST_F(ServiceLosses, AllSessionsGoOnFromTheirStateWhenTheDirectoryIsBegunFromNo
     for (int loss = 1; loss <= 3; ++loss) {
       for (const char* name : {"lab", "two", "made"}) {
         ASSERT_NE(owner(name), nullptr) << name;
-        owner(name)->member.set_snapshot(name, "state " + std::to_string(loss));
+        owner(name)->member.sessions().set_snapshot(name, "state " + std::to_string(loss));
         epochs[name] = owner(name)->open.at(name).revision;
       }
       pass(500ms);
@@ -162,7 +162,7 @@ TEST_F(ServiceLosses, ServerThatStartsNoticesThatTheDirectoryWasPutBackMeanwhile
   Server& a = begin("a", configured);
   pass(1s);
   const directory::ModelStore copy = store_;
-  a.member.set_snapshot("lab", "newer");
+  a.member.sessions().set_snapshot("lab", "newer");
   pass(1s);
   agreed_ = a.member.agreement(now_);
   EXPECT_GT(agreed_.revision, copy.revision());
@@ -208,12 +208,12 @@ TEST_F(ServiceLosses, LostLeaseAloneBringsNoSessionBack) {
   Server& a = begin("a", {{"lab", session_spec(1)}});
   Server& b = begin("b");
   pass(3s);
-  a.member.set_snapshot("lab", "old");
+  a.member.sessions().set_snapshot("lab", "old");
   pass(1s);
   a.directory.cut = true;
   pass(6s);
   ASSERT_TRUE(b.open.contains("lab"));
-  b.member.end("lab");
+  b.member.sessions().end("lab");
   pass(1s);
   a.directory.cut = false;
   pass(10s);

@@ -45,7 +45,7 @@ TEST_F(ServiceTest, ConfiguredSessionThatItsFirstServerNeverBeganIsBegunByTheNex
   pass(4s);
   EXPECT_TRUE(a.open.contains("lab"));
   Server& b = start("b", {{"lab", session_spec(1)}});
-  a.member.end("lab");
+  a.member.sessions().end("lab");
   pass(3s);
   EXPECT_FALSE(has("catalogue/lab/spec") || b.open.contains("lab"));  // an ended one stays so
 }
@@ -53,8 +53,8 @@ TEST_F(ServiceTest, ConfiguredSessionThatItsFirstServerNeverBeganIsBegunByTheNex
 TEST_F(ServiceTest, RestoresASessionFromItsNewestSnapshotWhenItsServerDies) {
   Server& a = start("a", {{"lab", session_spec(1)}});
   Server& b = start("b");
-  a.member.set_snapshot("lab", "state 1");
-  a.member.set_snapshot("lab", "state 2");
+  a.member.sessions().set_snapshot("lab", "state 1");
+  a.member.sessions().set_snapshot("lab", "state 2");
   pass(3s);
   EXPECT_EQ(value("snapshots/lab"), "state 2");
   EXPECT_EQ(value("live/sessions/lab/standby"), "b");
@@ -90,8 +90,8 @@ TEST_F(ServiceTest, GivesTheConsolesOfADeadOwnerToTheNextOneAndErasesThemWithThe
   Server& b = start("b");
   ASSERT_TRUE(a.open.contains("lab"));
   EXPECT_EQ(a.open["lab"].consoles, "");
-  a.member.set_consoles("lab", "consoles 1");
-  a.member.set_consoles("lab", "consoles 2");
+  a.member.sessions().set_consoles("lab", "consoles 1");
+  a.member.sessions().set_consoles("lab", "consoles 2");
   pass(3s);
   EXPECT_EQ(value("consoles/lab"), "consoles 2");
   EXPECT_FALSE(has("consoles/two"));
@@ -101,18 +101,18 @@ TEST_F(ServiceTest, GivesTheConsolesOfADeadOwnerToTheNextOneAndErasesThemWithThe
   ASSERT_TRUE(b.open.contains("lab") && b.open.contains("two"));
   EXPECT_EQ(b.open["lab"].consoles, "consoles 2");
   EXPECT_EQ(b.open["two"].consoles, "");
-  a.member.set_consoles("lab", "of the old owner");
+  a.member.sessions().set_consoles("lab", "of the old owner");
   a.runs = true;
   pass(3s);
   EXPECT_EQ(value("consoles/lab"), "consoles 2") << "written only while its writer owns the session";
   b.open.clear();
-  b.member.replace("lab", session_spec(5));
+  b.member.sessions().replace("lab", session_spec(5));
   pass(1s);
   EXPECT_EQ(b.open["lab"].consoles, "") << "another run";
   EXPECT_FALSE(has("consoles/lab"));
-  b.member.set_consoles("lab", "consoles 3");
+  b.member.sessions().set_consoles("lab", "consoles 3");
   pass(500ms);
-  b.member.end("lab");
+  b.member.sessions().end("lab");
   pass(1s);
   EXPECT_FALSE(has("consoles/lab"));
 }
@@ -142,7 +142,7 @@ TEST_F(ServiceTest, GivesASessionUpWhenAnotherServerMayOwnIt) {
   EXPECT_TRUE(b.open.contains("lab"));
   EXPECT_TRUE(a.open.contains("lab"));  // it cannot know; it holds
   EXPECT_LE(a.member.act_until(), now_);
-  a.member.set_snapshot("lab", "old owner");
+  a.member.sessions().set_snapshot("lab", "old owner");
   a.directory.cut = false;
   pass(3s);
   EXPECT_FALSE(a.open.contains("lab"));
@@ -164,7 +164,7 @@ TEST_F(ServiceTest, NoSessionActsByANewerLeaseWhileTheOrderToGiveItUpWaits) {
     pass(20ms);
     a.member.step(now_);
   }
-  ASSERT_TRUE(a.member.has_event());
+  ASSERT_TRUE(a.member.sessions().has_event());
   EXPECT_GT(a.member.act_until(), now_) << "it has a lease again";
   EXPECT_FALSE(a.member.served_until());
   act(a);
@@ -180,7 +180,7 @@ TEST_F(ServiceTest, KnowsASessionAsServedHereOrElsewhereAtEachMomentOfAMove) {
   std::size_t without_server = 0;
   const auto check = [&] {
     for (Server* const server : {&a, &b}) {
-      const auto away = server->member.away();
+      const auto away = server->member.places().away();
       const auto lab = away.find("lab");
       EXPECT_NE(server->open.contains("lab"), lab != away.end()) << "at " << seconds(now_);
       without_server += lab != away.end() && lab->second.empty() ? 1 : 0;
@@ -193,13 +193,13 @@ TEST_F(ServiceTest, KnowsASessionAsServedHereOrElsewhereAtEachMomentOfAMove) {
     check();
   }
   EXPECT_TRUE(b.open.contains("lab"));
-  EXPECT_EQ(a.member.away().at("lab"), "b");
+  EXPECT_EQ(a.member.places().away().at("lab"), "b");
   EXPECT_GT(without_server, 0U) << "the server that gives it up serves it no more, and the next one not yet";
   b.open.erase("lab");
-  b.member.end("lab");
-  EXPECT_FALSE(b.member.away().contains("lab")) << "it ends";
+  b.member.sessions().end("lab");
+  EXPECT_FALSE(b.member.places().away().contains("lab")) << "it ends";
   pass(2s);
-  EXPECT_TRUE(a.member.away().empty() && b.member.away().empty());
+  EXPECT_TRUE(a.member.places().away().empty() && b.member.places().away().empty());
 }
 
 TEST_F(ServiceTest, CreatesASessionOnceInTheWholeService) {
@@ -248,12 +248,12 @@ TEST_F(ServiceTest, RefusesACreationThatTheDirectoryDoesNotAnswerAndLeavesNothin
 TEST_F(ServiceTest, ErasesEverythingOfASessionThatEnded) {
   Server& a = start("a", {{"lab", session_spec(1)}});
   start("b");
-  a.member.set_snapshot("lab", "state");
-  a.member.set_listed("lab", "listed");
+  a.member.sessions().set_snapshot("lab", "state");
+  a.member.sessions().set_listed("lab", "listed");
   pass(3s);
   EXPECT_TRUE(has("snapshots/lab") && has("catalogue/lab/listed") && has("live/sessions/lab/standby"));
   a.open.erase("lab");
-  a.member.end("lab");
+  a.member.sessions().end("lab");
   pass(2s);
   for (const char* key : {"snapshots/lab", "catalogue/lab/listed", "catalogue/lab/spec", "live/sessions/lab/owner",
                           "live/sessions/lab/standby"})
@@ -263,11 +263,11 @@ TEST_F(ServiceTest, ErasesEverythingOfASessionThatEnded) {
 
 TEST_F(ServiceTest, AnotherRunReplacesSpecAndSnapshot) {
   Server& a = start("a", {{"lab", session_spec(1)}});
-  a.member.set_snapshot("lab", "state");
+  a.member.sessions().set_snapshot("lab", "state");
   pass(1s);
   const auto revision = a.open["lab"].revision;
   a.open.erase("lab");
-  a.member.replace("lab", session_spec(5));
+  a.member.sessions().replace("lab", session_spec(5));
   pass(1s);
   ASSERT_TRUE(a.open.contains("lab"));
   EXPECT_EQ(a.open["lab"].spec, session_spec(5));
@@ -278,8 +278,8 @@ TEST_F(ServiceTest, AnotherRunReplacesSpecAndSnapshot) {
 
 TEST_F(ServiceTest, ChangedConfigurationBeginsTheSessionAgainAtTheStartOfTheService) {
   Server& a = start("a", {{"lab", session_spec(1, "old")}, {"same", session_spec(2, "same")}});
-  a.member.set_snapshot("lab", "state");
-  a.member.set_snapshot("same", "state");
+  a.member.sessions().set_snapshot("lab", "state");
+  a.member.sessions().set_snapshot("same", "state");
   pass(1s);
   a.runs = false;
   a.open.clear();
@@ -297,7 +297,7 @@ TEST_F(ServiceTest, LeavesAtOnceSoThatTheStandbyTakesOverWithoutWaitingForTheLea
   Server& b = start("b");
   pass(3s);
   a.open.clear();
-  a.member.set_snapshot("lab", "last");
+  a.member.sessions().set_snapshot("lab", "last");
   while (!a.member.all_written()) pass(20ms);
   a.member.leave();
   pass(200ms);

@@ -92,7 +92,7 @@ class ServiceRun final : public directory::test::SimulatedService {
     Process& process = *processes_[n];
     ServiceMember& member = *process.member;
     member.step(clock(nodes_[n]));
-    while (auto event = member.poll_event()) on_event(n, *event);
+    while (auto event = member.sessions().poll_event()) on_event(n, *event);
     while (const auto result = member.tickets().poll_result())
       if (result->outcome == ServiceTickets::Outcome::kAccepted) {
         const auto& [session, ticket] = presented_.at(result->order);
@@ -107,17 +107,17 @@ class ServiceRun final : public directory::test::SimulatedService {
     switch (event.kind) {
       case ServiceEvent::Kind::kOpen:
         ++verdict_.owners;
-        if (now() + ServiceMember::kRefusalPause < Time{} + schedule_.calm && chance(0.05))
-          return process.member->on_open_failed(clock(nodes_[n]), event.session);
+        if (now() + MemberSessions::kRefusalPause < Time{} + schedule_.calm && chance(0.05))
+          return process.member->sessions().on_open_failed(clock(nodes_[n]), event.session);
         process.serves[event.session] = event.revision;
-        return process.member->on_opened(event.session);
+        return process.member->sessions().on_opened(event.session);
       case ServiceEvent::Kind::kGiveUp:
         process.serves.erase(event.session);
-        return process.member->on_given_up(event.session);
+        return process.member->sessions().on_given_up(event.session);
       case ServiceEvent::Kind::kHandOver:
         process.serves.erase(event.session);
-        process.member->set_snapshot(event.session, "state at the hand-over");
-        return process.member->on_handed_over(event.session);
+        process.member->sessions().set_snapshot(event.session, "state at the hand-over");
+        return process.member->moves().on_handed_over(event.session);
       case ServiceEvent::Kind::kRefused:
         return;
     }
@@ -143,7 +143,7 @@ class ServiceRun final : public directory::test::SimulatedService {
     const std::string session = session_name(session_of(c));
     const SessionPlace place = process.member->locate({session});
     if (place.kind == SessionPlace::Kind::kHere && acts(nodes_[n], session_of(c))) {
-      process.member->set_snapshot(session, "state");
+      process.member->sessions().set_snapshot(session, "state");
       return force(c, n, process.serves.at(session));
     }
     if (place.kind != SessionPlace::Kind::kElsewhere) return;
@@ -160,7 +160,8 @@ class ServiceRun final : public directory::test::SimulatedService {
     const bool loses = std::ranges::any_of(schedule_.faults, [](const directory::test::Fault& fault) {
       return fault.kind >= directory::test::Fault::Kind::kEmptied;
     });
-    return directory::test::kCalmLimit + (loses ? times_.ttl + DirectoryLoss::kOthersLater : Duration::zero());
+    return directory::test::kCalmLimit +
+           (loses ? times_.ttl + directory::DirectoryLoss::kOthersLater : Duration::zero());
   }
 
   std::vector<std::unique_ptr<Process>> processes_;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/common/base/counts.h"
+#include "tests/server/directory/model_seeds.h"
 
 namespace tandem::server::test {
 namespace {
@@ -14,23 +14,16 @@ namespace {
 using directory::test::Schedule;
 using directory::test::Verdict;
 
-std::uint64_t first_seed() {
-  const char* text = std::getenv("TANDEM_DIRECTORY_FIRST");
-  return text == nullptr ? 1 : std::strtoull(text, nullptr, 10);
-}
-
 /// Runs schedules until one fails, and prints how hard they were.
 void expect_no_violation(Schedule (*draw)(std::uint64_t), bool losses, std::uint64_t count) {
-  const std::uint64_t first = first_seed();
+  const std::uint64_t first = directory::test::first_seed();
   Verdict sum;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const Schedule schedule = draw(seed);
     const Verdict verdict = run_service_schedule(schedule);
     ASSERT_TRUE(verdict.violation.empty())
         << verdict.violation << "\nshortened " << to_text(shrink(schedule, run_service_schedule))
-        << "\nAgain: TANDEM_DIRECTORY_FIRST=" << seed << " build/release/bin/service_model_test --gtest_filter="
-        << testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() << '.'
-        << testing::UnitTest::GetInstance()->current_test_info()->name();
+        << directory::test::again(seed, "service_model_test");
     sum.recovered = std::max(sum.recovered, verdict.recovered);
     sum.events += verdict.events;
     sum.tickets += verdict.tickets;

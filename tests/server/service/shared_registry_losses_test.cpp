@@ -1,21 +1,28 @@
 // Workstations of servers whose directory loses its data, in virtual time.
+#include <functional>
+
 #include "tests/common/base/counts.h"
 #include "tests/server/service/registry_desks.h"
 
 namespace tandem::server {
 namespace {
 
+/// Runs a case once per seed, with draws of its own.
+/// @param reduced  number of seeds
+void for_each_seed(std::uint64_t reduced, const std::function<void(RandomStream)>& run) {
+  const std::uint64_t count = tandem::test::seeds(reduced);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    run(RandomStream{RandomKey{seed}});
+  }
+}
+
 // The server that had written the mark of the lost directory wrote the same mark into the new one: the other servers
 // took the missing rows for revocations.
 TEST(SharedRegistry, LosesNothingWhenTheDirectoryIsLostWhileServersRun) {
-  const std::uint64_t count = tandem::test::seeds(100);
-  for (std::uint64_t seed = 1; seed <= count; ++seed) {
-    SCOPED_TRACE(seed);
-    RandomStream draws{RandomKey{seed}};
+  for_each_seed(100, [](RandomStream draws) {
     LostDesks desks(2 + draws.below(2));
-    desks[0].enroll("a", 1);
-    desks[1].enroll("b", 2);
-    desks.pass(1s);
+    desks.enroll({"a", "b"});
     for (int loss = 0; loss < 4; ++loss) {
       desks.lose(draws);
       if (draws.below(2) == 0) desks.pass(1s);  // else it is lost again before all have written
@@ -27,37 +34,28 @@ TEST(SharedRegistry, LosesNothingWhenTheDirectoryIsLostWhileServersRun) {
     desks.pass(1s);
     for (const auto& d : desks.desk) EXPECT_EQ(d->key_of("a"), 0);
     desks.expect_all_have({"b"});
-  }
+  });
 }
 
 // The new directory has as many revisions as the lost one before a server sees it.
 TEST(SharedRegistry, LosesNothingWhenTheNewDirectoryHasMoreRevisionsThanTheLostOne) {
-  const std::uint64_t count = tandem::test::seeds(50);
-  for (std::uint64_t seed = 1; seed <= count; ++seed) {
-    SCOPED_TRACE(seed);
-    RandomStream draws{RandomKey{seed}};
+  for_each_seed(50, [](RandomStream draws) {
     LostDesks desks(3);
-    desks[0].enroll("a", 1);
-    desks.pass(1s);
+    desks.enroll({"a"});
     directory::ModelStore next;
     for (std::uint64_t n = draws.below(20); n > 0; --n)
       static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{"/t/other", "x", 0}}, {}}));
     desks.lose(draws, std::move(next));
     desks.pass(2s);
     desks.expect_all_have({"a"});
-  }
+  });
 }
 
 // A server of an older version writes the mark of the lost directory again, at the same revision even.
 TEST(SharedRegistry, LosesNothingToAnOlderServerThatWritesTheOldMark) {
-  const std::uint64_t count = tandem::test::seeds(50);
-  for (std::uint64_t seed = 1; seed <= count; ++seed) {
-    SCOPED_TRACE(seed);
-    RandomStream draws{RandomKey{seed}};
+  for_each_seed(50, [](RandomStream draws) {
     LostDesks desks(2);
-    desks[0].enroll("a", 1);
-    desks[1].enroll("b", 2);
-    desks.pass(1s);
+    desks.enroll({"a", "b"});
     const directory::KeyValue mark = desks.store.entries().at("/t/registry/.mark");
     directory::ModelStore next;
     while (next.revision() + 1 < mark.created)
@@ -67,40 +65,31 @@ TEST(SharedRegistry, LosesNothingToAnOlderServerThatWritesTheOldMark) {
       for (next = {}; next.revision() < desks.store.revision();)
         static_cast<void>(next.execute(1, directory::Transaction{{}, {directory::Put{mark.key, mark.value, 0}}, {}}));
     const directory::KeyValue again = next.entries().at(mark.key);
-    if (again.created == mark.created && next.revision() >= desks.store.revision()) continue;
+    if (again.created == mark.created && next.revision() >= desks.store.revision()) return;
     desks.lose(draws, std::move(next));
     desks.pass(2s);
     desks.expect_all_have({"a", "b"});
-  }
+  });
 }
 
 // A backup that is restored while servers run, against the manual: nothing that came after it is lost.
 TEST(SharedRegistry, KeepsWhatCameAfterABackupThatIsRestoredWhileServersRun) {
-  const std::uint64_t count = tandem::test::seeds(50);
-  for (std::uint64_t seed = 1; seed <= count; ++seed) {
-    SCOPED_TRACE(seed);
-    RandomStream draws{RandomKey{seed}};
+  for_each_seed(50, [](RandomStream draws) {
     LostDesks desks(2);
-    desks[0].enroll("a", 1);
-    desks.pass(1s);
+    desks.enroll({"a"});
     directory::ModelStore backup = desks.store;
     desks[1].enroll("b", 2);
     desks.pass(1s);
     desks.lose(draws, std::move(backup));
     desks.pass(2s);
     desks.expect_all_have({"a", "b"});
-  }
+  });
 }
 
 TEST(SharedRegistry, KeepsARevocationThatWasMadeBetweenTheLossOfTheDirectoryAndTheNextOne) {
-  const std::uint64_t count = tandem::test::seeds(50);
-  for (std::uint64_t seed = 1; seed <= count; ++seed) {
-    SCOPED_TRACE(seed);
-    RandomStream draws{RandomKey{seed}};
+  for_each_seed(50, [](RandomStream draws) {
     LostDesks desks(2);
-    desks[0].enroll("a", 1);
-    desks[1].enroll("b", 2);
-    desks.pass(1s);
+    desks.enroll({"a", "b"});
     for (const auto& d : desks.desk) d->directory.cut = true;
     desks.pass(100ms);
     desks[draws.below(2)].revoke("a");
@@ -111,7 +100,7 @@ TEST(SharedRegistry, KeepsARevocationThatWasMadeBetweenTheLossOfTheDirectoryAndT
     desks[draws.below(2)].enroll("a", 7);
     desks.pass(1s);
     desks.expect_all_have({"a", "b"});
-  }
+  });
 }
 
 // A server that starts may hear from the directory before it has read its files.

@@ -1,0 +1,141 @@
+#include "server/service/session_moves.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tandem::server {
+
+namespace {
+
+/// Steps after which all that was published before the hand-over is known here.
+constexpr int kStepsUntilMove = 2;
+constexpr Duration kBalanceInterval = std::chrono::milliseconds(250);
+constexpr Duration kStandbyCheck = std::chrono::seconds(1);
+constexpr Duration kStandbyPause = std::chrono::seconds(2);  // between two attempts to name a standby
+
+std::string words(directory::PlannedMove::Why why) {
+  switch (why) {
+    case directory::PlannedMove::Why::kDrain:
+      return "because this server drains";
+    case directory::PlannedMove::Why::kSpread:
+      return "because it waits for people, and that server has fewer sessions";
+    case directory::PlannedMove::Why::kStrain:
+      return "because this server is busier than others";
+  }
+  return {};
+}
+
+}  // namespace
+
+void SessionMoves::step(Time now, const directory::ServerRecord& own) {
+  follow_orders();
+  balance(now, own);
+  for (auto& [session, entry] : sessions_.entries()) {
+    if (entry.session.is_open()) choose_standby(now, session, entry, own);
+    if (entry.session.phase() == MemberSession::Phase::kMoving) advance(session, entry);
+  }
+}
+
+/// Follows the keys `move` of the catalogue. The owner answers by emptying the key.
+void SessionMoves::follow_orders() {
+  const ServiceCatalogue& catalogue = directory_.catalogue;
+  const ServiceKeys& keys = directory_.keys;
+  if (orders_seen_ == catalogue.version()) return;
+  orders_seen_ = catalogue.version();
+  for (const auto& [session, seen] : catalogue.entries()) {
+    const auto found = sessions_.entries().find(session);
+    if (seen.move_to.empty() || found == sessions_.entries().end() || !found->second.session.is_open()) continue;
+    Entry& entry = found->second;
+    const directory::Revision revision = entry.session.revision();
+    directory_.writer.set(session, keys.move(session), "", revision);
+    if (seen.move_to == ServiceKeys::kAnyServer) {
+      directory_.writer.set(session, keys.home(session), "", revision);
+      continue;
+    }
+    const bool here = seen.move_to == directory_.server();
+    if (!here && directory_.ownership.view().server(seen.move_to) == nullptr) continue;
+    directory_.writer.set(session, keys.home(session), seen.move_to, revision);
+    if (!here) begin(session, entry, seen.move_to, "by order of an operator");
+  }
+}
+
+void SessionMoves::set_loads(const std::vector<SessionLoad>& loads) {
+  auto& entries = sessions_.entries();
+  for (const SessionLoad& load : loads)
+    if (const auto found = entries.find(load.session); found != entries.end()) found->second.move.load = load;
+}
+
+/// One move at a time. A server that drains moves its sessions even if it does not balance.
+void SessionMoves::balance(Time now, const directory::ServerRecord& own) {
+  auto& entries = sessions_.entries();
+  if (now < next_balance_ || entries.empty() || !(balances_ || own.drains)) return;
+  next_balance_ = now + kBalanceInterval;
+  if (!directory_.ready()) return;
+  std::vector<directory::PlacedSession> placed;
+  for (const auto& [session, entry] : entries) {
+    if (entry.session.phase() == MemberSession::Phase::kMoving) return;
+    const auto& load = entry.move.load;
+    if (!entry.session.is_open() || !load) continue;
+    const auto seen = directory_.catalogue.entries().find(session);
+    const bool pinned = seen != directory_.catalogue.entries().end() && seen->second.home == directory_.server();
+    placed.push_back({session, load->cost, load->expected, load->waiting, pinned, entry.opened});
+  }
+  const auto move = planner_.step(now, candidates(own), directory_.server(), placed);
+  if (move) begin(move->session, entries.find(move->session)->second, move->server, words(move->why));
+}
+
+void SessionMoves::begin(const std::string& session, Entry& entry, const std::string& server, const std::string& why) {
+  entry.move.target = server;
+  entry.move.steps_until_move = -1;
+  ++begun_;
+  sessions_.hand_over(session, entry, "MOVES to server " + server + ", " + why);
+}
+
+void SessionMoves::on_handed_over(const std::string& session) {
+  const auto found = sessions_.entries().find(session);
+  if (found != sessions_.entries().end() && found->second.session.phase() == MemberSession::Phase::kMoving)
+    found->second.move.steps_until_move = kStepsUntilMove;
+}
+
+void SessionMoves::advance(const std::string& session, Entry& entry) {
+  if (entry.move.steps_until_move < 0) return;
+  if (entry.move.steps_until_move > 0) {
+    --entry.move.steps_until_move;
+    return;
+  }
+  // The last snapshot, and the tickets of consoles.
+  if (directory_.writer.pending(session) || directory_.tickets.restoring(session)) return;
+  entry.move.steps_until_move = -1;
+  if (!directory_.ownership.move(session, entry.move.target)) entry.session.set_phase(MemberSession::Phase::kLoading);
+}
+
+void SessionMoves::on_standby_refused(Time now, const std::string& session) {
+  const auto found = sessions_.entries().find(session);
+  if (found == sessions_.entries().end()) return;
+  Entry& entry = found->second;
+  entry.move.next_standby = now + kStandbyPause;
+  if (entry.session.phase() == MemberSession::Phase::kMoving)
+    entry.session.set_phase(MemberSession::Phase::kLoading);  // opened here again
+}
+
+void SessionMoves::choose_standby(Time now, const std::string& session, Entry& entry,
+                                  const directory::ServerRecord& own) {
+  if (now < entry.move.next_standby) return;
+  entry.move.next_standby = now + kStandbyCheck;
+  const auto* const seen = directory_.ownership.view().session(session);
+  if (seen == nullptr || !seen->owner || seen->standby) return;
+  const double cost = own.used / static_cast<double>(std::max<std::size_t>(sessions_.open(), 1));
+  if (const auto chosen = placement_.place_standby(candidates(own), cost, directory_.server()))
+    static_cast<void>(directory_.ownership.set_standby(session, *chosen));
+}
+
+std::vector<directory::Candidate> SessionMoves::candidates(const directory::ServerRecord& own) const {
+  std::vector<directory::Candidate> candidates;
+  for (const auto& [name, published] : directory_.members()) {
+    const directory::ServerRecord& record = name == directory_.server() ? own : published;
+    candidates.push_back({name, record.zone, record.capacity, record.used, record.drains, record.expected});
+  }
+  return candidates;
+}
+
+}  // namespace tandem::server

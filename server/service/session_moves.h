@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "server/directory/placement/move_planner.h"
+#include "server/directory/placement/placement.h"
+#include "server/service/member_sessions.h"
+#include "server/service/move_notes.h"
+#include "server/service/service_directory.h"
+
+namespace tandem::server {
+
+/// Decides which open sessions of this server move to which others, and their standbys: by order of an operator, to
+/// spread the load, and when this server drains. A session moves when its last snapshot is in the directory and the
+/// tickets of its consoles are valid again.
+class SessionMoves {
+ public:
+  /// @param directory, sessions  must outlive this
+  /// @param balances  sessions move to less used servers by themselves
+  SessionMoves(ServiceDirectory& directory, MemberSessions& sessions, RandomKey key, bool balances)
+      : directory_(directory), sessions_(sessions), placement_(key), planner_(key), balances_(balances) {}
+
+  /// Sets the loads of the sessions of this server. A session moves by itself only after its load was set.
+  void set_loads(const std::vector<SessionLoad>& loads);
+  /// A session that moves is over here, and its last snapshot is published.
+  void on_handed_over(const std::string& session);
+  /// The server that was named as standby, or as the target of a move, is not registered.
+  void on_standby_refused(Time now, const std::string& session);
+  /// @param own  record of this server as it is now
+  void step(Time now, const directory::ServerRecord& own);
+  /// Moves that this server has begun.
+  [[nodiscard]] std::uint64_t begun() const noexcept { return begun_; }
+
+ private:
+  using Entry = MemberSessions::Entry;
+
+  void follow_orders();
+  void balance(Time now, const directory::ServerRecord& own);
+  void begin(const std::string& session, Entry& entry, const std::string& server, const std::string& why);
+  void advance(const std::string& session, Entry& entry);
+  void choose_standby(Time now, const std::string& session, Entry& entry, const directory::ServerRecord& own);
+  /// All servers as their records have them; this one as it is now.
+  [[nodiscard]] std::vector<directory::Candidate> candidates(const directory::ServerRecord& own) const;
+
+  ServiceDirectory& directory_;
+  MemberSessions& sessions_;
+  directory::Placement placement_;
+  directory::MovePlanner planner_;
+  bool balances_;
+  std::uint64_t orders_seen_ = 0;  ///< version of the catalogue
+  std::uint64_t begun_ = 0;
+  Time next_balance_{};
+};
+
+}  // namespace tandem::server
