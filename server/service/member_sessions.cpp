@@ -8,7 +8,7 @@ namespace tandem::server {
 
 namespace {
 
-constexpr const char* kLostText = "the directory of the service was begun from nothing; try again in some seconds";
+constexpr const char* kLostText = "the directory of the service has lost its data; try again in some seconds";
 
 }  // namespace
 

@@ -84,6 +84,18 @@ auth::RegistryLists lists_of(const RegistryEntries& entries) {
 
 bool readable_entry(std::string_view text) { return parse_entry(text).has_value(); }
 
+std::optional<CodeRow> code_of(std::string_view text) {
+  if (text.find("\"code\"") == std::string_view::npos) return std::nullopt;  // most have none
+  auto rows = parse_entry(text);
+  return rows ? std::move(rows->code) : std::nullopt;
+}
+
+std::string without_code(std::string_view text) {
+  const auto rows = parse_entry(text);
+  if (!rows || !rows->workstation) return {};
+  return entries_of({{*rows->workstation}, {}}).begin()->second;  // of the name "", as the row has none
+}
+
 std::string merged_entry(std::string_view before, std::string_view local, std::string_view stored) {
   const Rows old = parse_entry(before).value_or(Rows{}), own = parse_entry(local).value_or(Rows{}),
              other = parse_entry(stored).value_or(Rows{});

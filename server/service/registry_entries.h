@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,10 @@ inline constexpr std::size_t kRegistryEntryMax = 1024;  ///< [bytes] of a text t
 [[nodiscard]] auth::RegistryLists lists_of(const RegistryEntries& entries);
 /// Whether another server's text can be read, whatever its bytes are.
 [[nodiscard]] bool readable_entry(std::string_view text);
+/// Returns the code of a text; nullopt: it has none, or cannot be read.
+[[nodiscard]] std::optional<CodeRow> code_of(std::string_view text);
+/// Returns a text that can be read, without its code; empty: it has nothing else.
+[[nodiscard]] std::string without_code(std::string_view text);
 /// Merges two texts of one name that were both changed since `before`, key and code apart: a change of one of them on
 /// one side stays. If both sides changed the key, `stored` counts; of two changed codes that of `stored`, if it has
 /// one.

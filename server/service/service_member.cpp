@@ -25,7 +25,7 @@ ServiceMember::ServiceMember(ServiceMemberOptions options, directory::Directory&
       directory_(std::move(options.server), options.prefix, times_),
       mark_(SharedRegistry::mark_key(options.prefix), {options.agreed.mark, options.agreed.created},
             options.registry_mark),
-      registry_(options.prefix, options.agreed.entries, mark_),
+      registry_(options.prefix, options.agreed.entries, options.agreed.spent, mark_),
       loss_(mark_, times_.ttl, options.agreed.revision, options.agreed.mark.empty() || options.agreed.waits),
       base_(directory_, options.agreed.epoch_base),
       sessions_(directory_, base_),

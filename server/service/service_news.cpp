@@ -80,7 +80,7 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
                     seconds(times_.ttl))});
   if (!status.recovers && std::exchange(recovers_, status.recovers))
     lines.push_back({false, "service_recovered",
-                     format("the service goes on in a directory that was begun from nothing: %zu session%s known here",
+                     format("the service goes on in the directory as it is now: %zu session%s known here",
                             status.sessions, status.sessions == 1 ? " is" : "s are")});
   recovers_ = status.recovers;
   const bool held = status.held();

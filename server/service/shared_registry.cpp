@@ -20,7 +20,8 @@ const std::string& text_in(const RegistryEntries& entries, const std::string& na
 std::string to_text(const RegistryAgreement& agreed) {
   return nlohmann::json{{"mark", agreed.mark},         {"created", agreed.created},
                         {"revision", agreed.revision}, {"epoch_base", agreed.epoch_base},
-                        {"waits", agreed.waits},       {"entries", agreed.entries}}
+                        {"waits", agreed.waits},       {"entries", agreed.entries},
+                        {"spent_codes", agreed.spent}}
              .dump(1) +
          "\n";
 }
@@ -44,6 +45,13 @@ std::optional<RegistryAgreement> parse_registry_agreement(std::string_view text)
     if (!waits->is_boolean()) return std::nullopt;
     agreed.waits = waits->get<bool>();
   }
+  if (const auto spent = in.find("spent_codes"); spent != in.end()) {
+    if (!spent->is_object() || spent->size() > SpentCodes::kMax) return std::nullopt;
+    for (const auto& [code, not_after] : spent->items()) {
+      if (!not_after.is_number_integer()) return std::nullopt;
+      agreed.spent[code] = not_after.get<std::int64_t>();
+    }
+  }
   for (const auto& [name, value] : in["entries"].items()) {
     if (!value.is_string() || !readable_entry(value.get<std::string>())) return std::nullopt;
     agreed.entries[name] = value.get<std::string>();
@@ -62,8 +70,9 @@ bool SharedRegistry::unreadable(const std::string& name) const {
 }
 
 std::string SharedRegistry::merged(const std::string& name) const {
-  const std::string &before = text_in(agreed_, name), &local = text_in(local_, name), &stored = stored_text(name);
+  const std::string &before = text_in(agreed_, name), &local = text_in(local_, name);
   if (unreadable(name)) return local;
+  const std::string stored = spent_.without(name, stored_text(name));
   // Revoked here while the lost directory did not answer; another server has brought the row into the new one.
   if (local.empty() && before.empty() && !stored.empty() && stored == text_in(lost_, name)) return kNone;
   if (local == before) return stored;
@@ -199,6 +208,7 @@ void SharedRegistry::agree() {
   for (const std::string& name : names()) {
     const std::string& local = text_in(local_, name);
     if (unreadable(name) || local != stored_text(name)) continue;
+    spent_.note(name, text_in(agreed_, name), local);
     if (local.empty()) {
       agreed_.erase(name);
     } else {

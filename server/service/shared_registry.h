@@ -9,6 +9,7 @@
 #include "server/directory/directory_mark.h"
 #include "server/directory/prefix_follower.h"
 #include "server/service/registry_entries.h"
+#include "server/service/spent_codes.h"
 
 namespace tandem::server {
 
@@ -21,6 +22,7 @@ struct RegistryAgreement {
   directory::Revision revision = 0;
   std::int64_t epoch_base = 0;  ///< highest one of a session that the server knows
   bool waits = false;           ///< it waited for leases of another directory, and waits again after a restart
+  SpentCodes::Codes spent{};    ///< enrolment codes
   friend bool operator==(const RegistryAgreement&, const RegistryAgreement&) = default;
 };
 /// As one text for a file, and back. Reads any bytes; nullopt: they are no such text.
@@ -35,23 +37,31 @@ struct RegistryAgreement {
 ///
 /// While the directory does not answer, the files hold as they are. A missing entry is a revocation only in the
 /// directory of the last agreement. Any other gets the content of the files: one that was begun from nothing, or was
-/// put back to an older state while this server ran. Its mark tells it (DirectoryMark), and revisions that go back. A
-/// server that notices the latter replaces the mark, so that all servers notice. Each change has the condition that the
-/// mark is the known one. Pure: no clock, file, socket or thread.
+/// put back to an older state while this server ran; codes that were spent meanwhile stay spent. Its mark tells it
+/// (DirectoryMark), and revisions that go back. A server that notices the latter replaces the mark, so that all servers
+/// notice. Each change has the condition that the mark is the known one. Pure: no clock, file, socket or thread.
 class SharedRegistry {
  public:
   static constexpr Duration kPause = std::chrono::milliseconds(50);  ///< after a change that was not written
 
   /// @param prefix  of the directory's keys, begins and ends with "/"
   /// @param agreed  entries of `agreed()` from the time before a restart, of the directory of the mark
+  /// @param spent   its spent codes
   /// @param mark    of the directory, with the key `mark_key(prefix)`; must outlive this
-  SharedRegistry(const std::string& prefix, RegistryEntries agreed, directory::DirectoryMark& mark)
-      : prefix_(prefix + "registry/"), follower_(prefix_), mark_(mark), agreed_(std::move(agreed)) {}
+  SharedRegistry(const std::string& prefix, RegistryEntries agreed, SpentCodes::Codes spent,
+                 directory::DirectoryMark& mark)
+      : prefix_(prefix + "registry/"),
+        follower_(prefix_),
+        mark_(mark),
+        agreed_(std::move(agreed)),
+        spent_(std::move(spent)) {}
 
   [[nodiscard]] static std::string mark_key(const std::string& prefix) { return prefix + "registry/.mark"; }
 
   /// Sets the entries of the files as they are now. Nothing changes on either side before the first call.
   void set_local(RegistryEntries local);
+  /// @param now_s  wall clock [s since 1970, UTC]
+  void forget_expired_codes(std::int64_t now_s) { spent_.forget_expired(now_s); }
 
   /// Returns the request to begin now, if there is one.
   [[nodiscard]] std::optional<directory::Request> poll_request(Time now, directory::OperationId operation,
@@ -64,7 +74,7 @@ class SharedRegistry {
   [[nodiscard]] std::optional<RegistryEntries> wanted() const;
   /// Entries on which files and directory agree; the caller stores them for the next start.
   [[nodiscard]] RegistryAgreement agreed() const {
-    return {.mark = mark_.known().text, .entries = agreed_, .created = mark_.known().created};
+    return {.mark = mark_.known().text, .entries = agreed_, .created = mark_.known().created, .spent = spent_.codes()};
   }
   /// The copy of the directory is complete and follows it.
   [[nodiscard]] bool follows() const noexcept { return follower_.follows(); }
@@ -100,6 +110,7 @@ class SharedRegistry {
   directory::PrefixFollower follower_;
   directory::DirectoryMark& mark_;
   RegistryEntries agreed_;
+  SpentCodes spent_;
   RegistryEntries local_;
   bool local_known_ = false;
   RegistryEntries lost_;  ///< as agreed in directories that are lost, without names that the files have

@@ -135,6 +135,15 @@ TEST(ManySessions, ReportAllConfigurationErrorsTogether) {
   for (const char* mistake : {"s.textproto:2:9: listen", "s.textproto:3:10: metrics", "s.textproto:4:10: reports",
                               "s.textproto:5:28: session[0].scene = ", "contact", "session[1].name", "5 mistakes"})
     EXPECT_NE(host.err().find(mistake), std::string::npos) << mistake << "\n" << host.err();
+  Process same = server({"serve",
+                         folder.write("m.textproto",
+                                      "version: 1\nlisten: \"127.0.0.1:7201\"\n"
+                                      "metrics: \"0.0.0.0:7201\"\n"
+                                      "session { name: \"a\" scene: \"contact\" }\n"),
+                         "--check"});
+  EXPECT_EQ(same.wait(), 2) << same.out();
+  EXPECT_NE(same.err().find("m.textproto:3:10: metrics"), std::string::npos) << same.err();
+  EXPECT_NE(same.err().find("another port"), std::string::npos) << same.err();
   const std::string good =
       folder.write("g.textproto", "version: 1 listen: \"127.0.0.1:0\" session { name: \"a\" scene: \"contact\" }");
   Process checked = server({"serve", good, "--check"});

@@ -116,7 +116,8 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
       control.metrics = *metrics;
       if (const std::string problem = problem_with_address(*metrics); !problem.empty())
         errors.push_back(config.metrics.error(config.file, problem));
-      const bool same_host = control.listen.any() || metrics->any() || io::host_text(*metrics) == io::host_text(control.listen);
+      const bool same_host =
+          control.listen.any() || metrics->any() || io::to_text(*metrics) == io::to_text(control.listen);
       if (metrics->port() != 0 && metrics->port() == control.listen.port() && same_host)
         errors.push_back(config.metrics.error(config.file, "is the address of `listen`, too; give it another port"));
     } else {

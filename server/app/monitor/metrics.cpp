@@ -216,7 +216,8 @@ const char* unready_text(const ServiceStatus& service) {
   if (service.name_taken) return "another server is registered in the service under the name of this one\n";
   if (!service.registered) return "this server is not registered in its service\n";
   if (service.recovers)
-    return "the directory of the service was begun from nothing: sessions are served again within seconds\n";
+    return "the directory of the service was begun from nothing, or put back to an older state: sessions are served "
+           "again within seconds\n";
   return service.held() ? "the sessions are HELD: the lease of this server was not renewed in time\n" : "";
 }
 

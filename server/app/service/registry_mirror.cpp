@@ -44,6 +44,7 @@ std::string RegistryMirror::compare() {
   RegistryAgreement agreed;
   service_.quietly([&](ServiceMember& member, Time now) {
     if (fresh) member.registry().set_local(entries_of(*lists_));
+    member.registry().forget_expired_codes(auth::wall_seconds());
     wanted = member.registry().wanted();
     agreed = member.agreement(now);
   });

@@ -40,8 +40,7 @@ SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
     case SessionPlace::Kind::kComing:
       return Coming{};
     case SessionPlace::Kind::kUnknown:
-      return Unknown{
-          "the directory of the service does not answer, or was begun from nothing; try again in some seconds"};
+      return Unknown{"the directory of the service does not answer, or has lost its data; try again in some seconds"};
     case SessionPlace::Kind::kElsewhere:
       break;
   }

@@ -24,7 +24,7 @@ struct Desk {
   Desk(directory::ModelStore& store, std::string drawn, RegistryAgreement agreed = {})
       : directory(store),
         mark(SharedRegistry::mark_key("/t/"), {agreed.mark, agreed.created}, std::move(drawn)),
-        registry("/t/", std::move(agreed.entries), mark) {}
+        registry("/t/", std::move(agreed.entries), std::move(agreed.spent), mark) {}
 
   void step(Time now) {
     registry.set_local(entries_of(lists));

@@ -196,7 +196,7 @@ TEST_F(ServiceLosses, SessionsAreComingAndCreationsAreRefusedMeanwhile) {
   EXPECT_TRUE(a.member.create(now_, "other", session_spec(2), 5));
   act(a);
   EXPECT_EQ(a.events.back().kind, Kind::kRefused);
-  EXPECT_NE(a.events.back().text.find("begun from nothing"), std::string::npos);
+  EXPECT_NE(a.events.back().text.find("has lost its data"), std::string::npos);
   pass(9s);
   EXPECT_FALSE(a.member.status(now_).recovers);
   EXPECT_EQ(a.member.locate(named("lab")).kind, SessionPlace::Kind::kHere);

@@ -86,6 +86,62 @@ TEST(SharedRegistry, KeepsWhatCameAfterABackupThatIsRestoredWhileServersRun) {
   });
 }
 
+// The codes of the backup enrolled a second time, instead of the workstation that had used one, and of one that was
+// revoked.
+TEST(SharedRegistry, KeepsCodesSpentThatABackupStillHas) {
+  for_each_seed(50, [](RandomStream draws) {
+    LostDesks desks(2);
+    for (const auto& [name, hash] : {std::pair{"used", 9}, {"revoked", 8}, {"unused", 7}}) desks[0].issue(name, hash);
+    desks.pass(1s);
+    directory::ModelStore backup = desks.store;
+    for (const auto& [name, key] : {std::pair{"used", 1}, {"revoked", 2}}) desks[1].enroll(name, key);
+    desks.pass(1s);
+    desks[0].revoke("revoked");
+    desks.pass(1s);
+    if (draws.below(2) == 0) {  // a server that was started again meanwhile
+      const auth::RegistryLists lists = desks[0].lists;
+      const auto agreed = parse_registry_agreement(to_text(desks[0].registry.agreed()));
+      ASSERT_TRUE(agreed);
+      desks.desk[0] = std::make_unique<Desk>(desks.store, "again", *agreed);
+      desks[0].lists = lists;
+      desks.pass(100ms);
+    }
+    desks.lose(draws, std::move(backup));
+    desks.pass(2s);
+    for (const auto& d : desks.desk) {
+      EXPECT_EQ(d->key_of("used"), 1);
+      EXPECT_EQ(d->key_of("revoked"), 0);
+      ASSERT_EQ(d->lists.codes.size(), 1U);
+      EXPECT_EQ(d->lists.codes[0], code("unused", 7));
+    }
+    EXPECT_FALSE(desks.store.entries().contains("/t/registry/revoked"));
+  });
+}
+
+TEST(SpentCodes, AreForgottenWhenTheyWouldHaveExpiredOrAreTooMany) {
+  SpentCodes spent;
+  const auto text = [](const CodeRow& row) { return entries_of({{}, {row}}).begin()->second; };
+  const std::string first = text(code("a", 1)), second = text(code("a", 2));
+  spent.note("a", first, first);
+  spent.note("a", "", first);
+  EXPECT_EQ(spent.codes().size(), 0U);
+  spent.note("a", first, second);
+  EXPECT_EQ(spent.without("a", first), "");
+  EXPECT_EQ(spent.without("a", second), second);
+  spent.forget_expired(2001);
+  EXPECT_EQ(spent.without("a", first), "") << "valid in its last second";
+  spent.forget_expired(2002);
+  EXPECT_EQ(spent.without("a", first), first);
+  for (std::int64_t i = 0; i <= std::int64_t{SpentCodes::kMax}; ++i) {
+    CodeRow row{{}, "a", 5000 - i};
+    row.hash[0] = std::byte(i % 256);
+    row.hash[1] = std::byte(i / 256);
+    spent.note("a", text(row), "");
+  }
+  EXPECT_EQ(spent.codes().size(), SpentCodes::kMax);
+  EXPECT_TRUE(std::ranges::none_of(spent.codes(), [](const auto& c) { return c.second == 4000; }));
+}
+
 TEST(SharedRegistry, KeepsARevocationThatWasMadeBetweenTheLossOfTheDirectoryAndTheNextOne) {
   for_each_seed(50, [](RandomStream draws) {
     LostDesks desks(2);
