@@ -278,9 +278,10 @@ void add_swarm_command(const io::Command& root) {
   command.footer(
       "A session has a fault phase, with every fault drawn for it, and a recovery phase: the network is good, nothing "
       "fails,\n"
-      "and simulated users reset every latched gate. In the recovery phase every seat must be active again within 10 "
-      "s. The\n"
-      "same seed and --fault-phase give the same session with the same build.\n\n"
+      "and simulated users reset every latched gate. Every seat must be active again within 10 s of its begin, or of "
+      "the\n"
+      "arrival of the last datagram from before. The same seed and --fault-phase give the same session with the same "
+      "build.\n\n"
       "Examples\n"
       "  tandem-netsim swarm --seeds 500\n"
       "  tandem-netsim swarm --first 17 --seeds 1 --trace trace.csv\n"

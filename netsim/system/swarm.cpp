@@ -251,7 +251,8 @@ SwarmResult run_swarm_case(const SwarmCase& which, const std::function<void(Simu
   Simulation& simulation = **made;
   const Time calm = Time{} + which.recovery_start;
   Time end = calm + from_seconds(kRecoveryLimit);
-  Time buttons = calm;
+  Time buttons = calm, delivered = calm;
+  bool recovered = false;
   // A datagram of the fault phase is still under way. A link that keeps order delivers nothing newer before it.
   bool held_back = true;
   while (simulation.now() < end) {
@@ -270,17 +271,19 @@ SwarmResult run_swarm_case(const SwarmCase& which, const std::function<void(Simu
     if (held_back && simulation.now() > calm) {
       const auto oldest = simulation.network().oldest_in_flight();
       held_back = oldest && *oldest < calm;
-      end = simulation.now() + from_seconds(kRecoveryLimit);
+      delivered = simulation.now();
+      end = delivered + from_seconds(kRecoveryLimit);
     }
-    if (result.recovered_s == 0 && simulation.now() > calm && everybody_active(simulation)) {
-      result.recovered_s = seconds(simulation.now() - calm);
+    if (!recovered && simulation.now() > calm && everybody_active(simulation)) {
+      recovered = true;
+      result.recovered_s = seconds(simulation.now() - delivered);
       if (!simulation.begin_recovery_phase()) break;
       end = simulation.now() + from_seconds(kOrdinaryMotionDuration);
     }
   }
   result.lived_s = seconds(simulation.now() - Time{});
   result.trouble = simulation.trouble();
-  if (result.trouble.empty() && result.recovered_s == 0) result.trouble = inactive_seats_text(simulation);
+  if (result.trouble.empty() && !recovered) result.trouble = inactive_seats_text(simulation);
   for (const server::Violation& violation : simulation.violations().list())
     if (!violation.expected) result.violations.push_back(violation);
   for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i)

@@ -35,9 +35,11 @@ inline constexpr double kOrdinaryMotionDuration = 10;
 
 struct SwarmResult {
   std::vector<server::Violation> violations;  ///< expected violations are left out
-  std::string trouble;            ///< a seat whose join was rejected, hands that did not become active again
-  double lived_s = 0;             ///< virtual time
-  double recovered_s = 0;         ///< from the begin of the recovery phase until all hands were active [s]
+  std::string trouble;  ///< a seat whose join was rejected, hands that did not become active again
+  double lived_s = 0;   ///< virtual time
+  /// From the begin of the recovery phase, or the delivery of the last datagram from before it, until all hands were
+  /// active [s].
+  double recovered_s = 0;
   std::uint64_t fingerprint = 0;  ///< hash of every hand's position and force at every tick
   std::uint32_t gate_trips = 0;
   std::vector<NamedLink> links;  ///< of every seat, if the setup requested them (`monitor_quality`)
