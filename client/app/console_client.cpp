@@ -58,6 +58,8 @@ int ConsoleClient::connection() const { return console_.connection->fd(); }
 
 bool ConsoleClient::drained() const { return drain_due_ && io::monotonic_now() >= *drain_due_; }
 
+std::string ConsoleClient::drained_server() const { return named(drained_); }
+
 ConsoleClient::PollResult ConsoleClient::poll_status() {
   const auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, timeout_);
   const auto* const moved = answer ? std::get_if<rpc::Elsewhere>(&*answer) : nullptr;
@@ -90,17 +92,20 @@ bool ConsoleClient::follow() {
   }
   console_ = std::move(*again);
   seen_.reset();
+  drain_due_.reset();  // of the server before
   say("this console has followed session " + welcome().session_name + " to its new server");
   return true;
 }
 
 int ConsoleClient::follow_drain(int signals) {
+  bool moved = false;  // the connection stays until the server ends
   while (true) {
-    const bool gone = poll_status() == PollResult::kGone;
+    const bool gone = !moved && poll_status() == PollResult::kGone;
+    moved = moved || std::exchange(moved_, false);
     pollfd files[] = {{signals, POLLIN, 0}, {connection(), POLLIN | POLLRDHUP, 0}};
-    poll(files, 2, gone ? 0 : kPollIntervalMs / 2);
-    if (files[0].revents != 0) return say("the drain continues without this console");
-    if (gone || files[1].revents != 0) return say("the server has ended");
+    poll(files, 2, gone && !moved ? 0 : kPollIntervalMs / 2);
+    if (files[0].revents != 0) return say("the drain of " + drained_server() + " continues without this console");
+    if ((gone && !moved) || files[1].revents != 0) return say(drained_server() + " has ended");
   }
 }
 
@@ -205,15 +210,25 @@ int ConsoleClient::run(const rpc::RemoveParticipant& request) {
              "code");
 }
 
+DrainTarget ConsoleClient::drain_target() {
+  DrainTarget target{"", io::to_text(console_.server), console_.service, welcome().members.size() > 1};
+  if (!console_.service) return target;
+  if (const auto list = sessions())
+    for (const rpc::ListedSession& s : list->sessions)
+      if (s.id == welcome().session_id) target.name = s.server;
+  return target;
+}
+
 int ConsoleClient::run(const rpc::Drain& request) {
+  DrainTarget target = drain_target();
+  if (const std::string problem = drain_problem(asked_, target, welcome().session_name); !problem.empty())
+    return complain("refused: " + problem);
   // Computed before the request, so the server never ends earlier.
   const Time due = io::monotonic_now() + std::chrono::seconds(request.grace_s);
   if (!order(request)) return io::kExitTrouble;
   drain_due_ = std::min(due, drain_due_.value_or(due));
-  return say(request.grace_s == 0
-                 ? std::string("draining: all hands are released, then the server ends")
-                 : format("draining: new joins are rejected; all hands are released in %u s, then the server ends",
-                          request.grace_s));
+  drained_ = std::move(target);
+  return say(drain_text(drained_, request.grace_s));
 }
 
 int ConsoleClient::run(const CreateCommand& command) {

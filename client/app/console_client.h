@@ -6,6 +6,7 @@
 #include <string>
 
 #include "client/app/console_commands.h"
+#include "client/app/drain_target.h"
 #include "client/app/join_client.h"
 
 namespace tandem::client {
@@ -33,6 +34,8 @@ class ConsoleClient {
 
   /// True if a drain requested on this console is due, so that an end of the connection is expected.
   [[nodiscard]] bool drained() const;
+  /// That server. @pre a drain was requested on this console
+  [[nodiscard]] std::string drained_server() const;
 
   /// True if the server accepted a command, so that the ticket of this console is used up. A status query alone uses
   /// it up too, unless another command was refused. A recorder uses it up by any query, its only command.
@@ -67,13 +70,15 @@ class ConsoleClient {
   int run(const HelpCommand& command);
   int run(const QuitCommand& command);
 
+  [[nodiscard]] DrainTarget drain_target();
   /// Completes the commands in the server's texts with the options of this console.
   [[nodiscard]] rpc::Status completed(rpc::Status status) const;
 
   Console console_;
   JoinOptions asked_;
   std::optional<rpc::Status> seen_;
-  std::optional<Time> drain_due_;  ///< earliest drain requested on this console
+  std::optional<Time> drain_due_;  ///< earliest drain requested on this console, of `drained_`
+  DrainTarget drained_;
   std::chrono::milliseconds timeout_;
   bool json_;
   bool moved_ = false;                                     ///< the server has said that the session is at another one

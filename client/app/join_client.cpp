@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "client/app/drain_target.h"
 #include "client/app/join_hello.h"
 #include "client/app/server_addresses.h"
 #include "client/app/server_connection.h"
@@ -46,7 +47,7 @@ bool wait_for_owner(const JoinOptions& options, Time asked) {
 /// @param seen    as `ServerConnection::follow`
 /// @param until   end of the waiting
 /// @param wanted  whether to go on waiting
-/// @return `is_coming` if the time is over, or the server has closed the connection
+/// @return `is_coming` if the time is over, or the server has closed the connection; Elsewhere to a join for a drain
 std::expected<rpc::Body, JoinError> ask_owner(ServerConnection& server, const rpc::Hello& hello, std::uint64_t seen,
                                               Time until, const std::function<bool()>& wanted) {
   std::optional<std::expected<rpc::Body, JoinError>> coming;
@@ -54,7 +55,9 @@ std::expected<rpc::Body, JoinError> ask_owner(ServerConnection& server, const rp
     const Time asked = io::monotonic_now();
     auto reply = server.ask(hello);
     if (!reply && coming && !reply.error().interrupted) return std::move(*coming);
-    if (const auto* elsewhere = reply ? std::get_if<rpc::Elsewhere>(&*reply) : nullptr) {
+    const auto* elsewhere = reply ? std::get_if<rpc::Elsewhere>(&*reply) : nullptr;
+    if (elsewhere != nullptr && server.options().drains) return reply;
+    if (elsewhere != nullptr) {
       auto followed = server.follow(*elsewhere, seen);
       if (followed) {
         coming.reset();
@@ -71,7 +74,18 @@ std::expected<rpc::Body, JoinError> ask_owner(ServerConnection& server, const rp
 /// The control connection of a console that was accepted.
 Console console_of(ServerConnection& server, const Accepted& accepted) {
   const bool service = server.service().has_value();
-  return {accepted.welcome, server.release(), server.workstation(), service};
+  return {accepted.welcome, server.release(), server.workstation(), service, server.address()};
+}
+
+/// Why a join for a drain ends at a server that sends it to another one.
+std::string drain_elsewhere(ServerConnection& server, const rpc::Elsewhere& to) {
+  DrainTarget target{"", to.address, true, true};
+  const auto list = rpc::all_sessions([&](const rpc::Body& page) { return server.request<rpc::SessionList>(page); },
+                                      server.service().has_value());
+  if (list)
+    for (const rpc::ListedSession& s : list->sessions)
+      if (s.name == to.session) target.name = s.server;
+  return drain_problem(server.options(), target, to.session);
 }
 
 /// Connects, sends the join request and returns it with the server's Welcome. Follows the servers of a service to the
@@ -80,6 +94,11 @@ std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
   const Time until = io::monotonic_now() + server.options().timeout;
   if (auto connected = server.connect(); !connected) return std::unexpected(connected.error());
   server.remember({});
+  if (server.options().drains)
+    if (auto problem = drain_problem(server.options(),
+                                     {"", io::to_text(server.address()), server.service().has_value(), true}, "");
+        !problem.empty())
+      return join_failure(std::move(problem));
   auto hello = make_hello(server);
   if (!hello) return std::unexpected(hello.error());
   while (true) {
@@ -89,6 +108,8 @@ std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
       continue;
     }
     if (!reply) return std::unexpected(reply.error());
+    if (const auto* elsewhere = std::get_if<rpc::Elsewhere>(&*reply))
+      return join_failure(drain_elsewhere(server, *elsewhere));
     auto welcome = server.expect<rpc::Welcome>(std::move(*reply));
     if (!welcome) return std::unexpected(welcome.error());
     server.remember(welcome->members);

@@ -41,6 +41,9 @@ struct JoinOptions {
   std::string unresolved{};                       ///< given names without address, for errors; empty: none
   std::optional<AccessRole>
       console{};  ///< joins as console instead of a seat; the role counts only on the server's own computer
+  /// With `console`: joins for a drain, only at a server that `server` and `alternatives` name. If another one has the
+  /// session, or they name several of a service, the join fails before the ticket is used.
+  bool drains = false;
 };
 
 /// A joined seat.
@@ -62,6 +65,7 @@ struct Console {
   std::shared_ptr<auth::ControlClient> connection;
   auth::KeyFingerprint workstation{};  ///< key of this workstation
   bool service = false;                ///< the server belongs to a service: it lists the sessions of all its servers
+  io::SocketAddress server{};          ///< address of the connection
 };
 
 /// A console that watches the session.

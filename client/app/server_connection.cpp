@@ -66,7 +66,8 @@ std::expected<void, auth::ClientError> ServerConnection::connect_once(const io::
 std::expected<void, JoinError> ServerConnection::connect() {
   if (auto keys = select_keys(); !keys) return keys;
   hops_ = 0;
-  const auto addresses = addresses_to_try(options_, keys_->known());
+  // A drain ends the server to which it goes, so that it goes only to those that the user named.
+  const auto addresses = addresses_to_try(options_, options_.drains ? std::vector<ServerRow>{} : keys_->known());
   const bool several = addresses.size() > 1;
   const Duration each =
       several ? std::clamp(options_.timeout / static_cast<int>(addresses.size()), Duration{kTryMin}, Duration{kTryMax})

@@ -67,7 +67,7 @@ TEST(Notice, ShowsTheProgressOfADrainAtConsoleAndServer) {
   Process drain = control(address, {"drain", "4"});
   EXPECT_EQ(drain.wait(), 0) << drain.err();
   EXPECT_NE(drain.out().find("s left, 1 session, 2 participants on their seats"), std::string::npos) << drain.out();
-  EXPECT_NE(drain.out().find("the server has ended"), std::string::npos) << drain.out();
+  EXPECT_NE(drain.out().find("the server at " + address + " has ended"), std::string::npos) << drain.out();
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_NE(host.err().find(
                 "DRAINING: new joins are rejected, and all hands are released in 4 s; requested by local (operator)"),
@@ -81,12 +81,12 @@ TEST(Notice, ShowsTheProgressOfADrainAtConsoleAndServer) {
 TEST(Notice, EndsTheConsoleThatOrderedADrainWithoutAnError) {
   const Folder folder;
   Process host = hosting("free_motion", {"--duration", "600"});
-  const std::string pipe = folder.file("pipe");
+  const std::string pipe = folder.file("pipe"), address = address_of(host);
   Process console({"/bin/bash", "-c",
                    "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo drain 1 >&3 && exec " + TANDEM_CLIENT +
-                       " control --server " + address_of(host) + " <&3"});
+                       " control --server " + address + " <&3"});
   EXPECT_EQ(console.wait(), 0) << console.out() << console.err();
-  EXPECT_NE(console.out().find("the server has ended: the drain is complete"), std::string::npos)
+  EXPECT_NE(console.out().find("the server at " + address + " has ended: the drain is complete"), std::string::npos)
       << console.out() << console.err();
   EXPECT_EQ(console.err(), "");
   EXPECT_EQ(host.wait(), 0) << host.err();

@@ -55,5 +55,34 @@ TEST_F(ServiceBalanceLive, DrainMovesAllSessionsAndThenEndsTheServerBeforeItsGra
   EXPECT_EQ(ids(service, {"b"}), before);
 }
 
+TEST_F(ServiceBalanceLive, DrainOfAConsoleNamesTheServerAndEndsNoOther) {
+  LiveService service("session { name: \"one\" scene: \"free_motion\" } session { name: \"two\" scene: \"contact\" }");
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 2);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const std::string own = service.enrolled("desk"), at_a = address_of(a), at_b = address_of(b);
+  const std::string ticket = service.folder().write(
+      "ticket", first_line(LiveService::run({"ticket", "--session", "one", "--role", "operator", "--workstation",
+                                             "desk", "--state", service.folder().file("a")})));
+  const auto drain = [&](const std::string& address) {
+    return Process(
+        {TANDEM_CLIENT, "control", "--server", address, "--ticket-file", ticket, "--state", own, "drain", "300"});
+  };
+  Process refused = drain(at_b);
+  EXPECT_EQ(refused.wait(), 1) << refused.out();
+  for (const std::string& words :
+       {"--server names " + at_b, "session one is served by server a at " + at_a, std::string("`tandem-server stop`")})
+    EXPECT_NE(refused.err().find(words), std::string::npos) << refused.err();
+  Process done = drain(at_a);  // the refusal has left the ticket valid
+  EXPECT_EQ(done.wait(), 0) << done.err();
+  EXPECT_NE(done.out().find("server a at " + at_a + " is draining: new joins are rejected; its sessions move"),
+            std::string::npos)
+      << done.out();
+  EXPECT_NE(done.out().find("server a at " + at_a + " has ended"), std::string::npos) << done.out();
+  EXPECT_EQ(a.wait(), 0) << a.err();
+  service.wait_for_sessions("b", 2);
+}
+
 }  // namespace
 }  // namespace tandem::test

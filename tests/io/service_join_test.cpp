@@ -1,78 +1,15 @@
 // Clients of a service: real servers with real keys, whose directory the test sets.
 #include <gtest/gtest.h>
 
-#include "client/app/join_client.h"
 #include "client/app/run_seat.h"
-#include "client/app/server_addresses.h"
-#include "common/auth/io/client_keystore.h"
 #include "common/auth/io/control_client.h"
 #include "common/io/clock.h"
-#include "proto/text/service_text.h"
-#include "tests/io/member_server.h"
+#include "tests/io/service_join_fixture.h"
 
 namespace tandem::client {
 namespace {
 
-using namespace std::chrono_literals;
 using server::ControlEvent;
-using server::ServerLocation;
-using server::SessionLocator;
-using server::test::MemberServer;
-
-/// A service with a workstation that is enrolled at its server "a".
-class ServiceJoin : public testing::Test {
- protected:
-  ServiceJoin() {
-    EXPECT_TRUE(auth::ServiceKeystore::init(folder.path("service")));
-    EXPECT_TRUE(auth::ServiceKeystore::init(folder.path("other")));
-  }
-  std::unique_ptr<MemberServer> member(const std::string& name, const char* service = "service",
-                                       const std::string& at = tandem::test::free_address()) {
-    auto made = std::make_unique<MemberServer>(name, folder.path(service), at);
-    made->enrol(own().identity());
-    return made;
-  }
-  auth::ClientKeystore own() {
-    return std::move(*auth::ClientKeystore::open_or_make(folder.path("client"), auth::wall_seconds()));
-  }
-  void know(const MemberServer& server) {
-    EXPECT_EQ(own().store_server({server.at(), server.key.sha256, "touch-01"}), "");
-  }
-  JoinOptions options(const std::vector<const MemberServer*>& servers, Duration timeout = 20s) {
-    JoinOptions out{.seat = "trainee", .session = MemberServer::kCode, .state = folder.path("client")};
-    std::string text;
-    for (const MemberServer* s : servers) text += (text.empty() ? "" : ",") + s->at();
-    EXPECT_EQ(set_server_addresses(text, out), "");
-    out.caps.joints = out.caps.tip_axes = 3;
-    out.caps.simulated = true;
-    out.timeout = timeout;
-    return out;
-  }
-  /// State with which a seat that was joined is resumed, and the secret's hash for the next server.
-  static ResumeState resume_state(const JoinedSeat& joined) {
-    return {.session = joined.welcome.session_id,
-            .epoch = joined.welcome.epoch,
-            .secrets = {joined.welcome.resume_secret},
-            .setup = joined.setup,
-            .server = joined.server,
-            .service = joined.service};
-  }
-  server::SeatReservation::Hash secret_of(const JoinedSeat& joined) {
-    return server::resume_hash(joined.welcome.resume_secret.bytes, own().identity().fingerprint().sha256);
-  }
-  std::string reason(const JoinOptions& asking) {
-    const auto joined = join_seat(asking);
-    return joined ? "joined" : joined.error().reason;
-  }
-  /// The voucher in a member file.
-  static std::vector<std::byte> text_of_member(std::span<const std::byte> file) {
-    return parse_member({reinterpret_cast<const char*>(file.data()), file.size()}, "member")->voucher;
-  }
-  static void point(MemberServer& from, SessionLocator::Found to) {
-    from.on_thread([&] { from.directory.found = std::move(to); });
-  }
-  auth::test::Folder folder;
-};
 
 TEST_F(ServiceJoin, FollowsToTheOwnerAndRemembersTheService) {
   const auto a = member("desk-a"), b = member("desk-b");
@@ -172,6 +109,38 @@ TEST_F(ServiceJoin, FindsTheServiceByAMemberThatItLearntWhenTheEnrolledServerIsG
   a.reset();
   b->serve(4);
   EXPECT_EQ(reason(asking), "joined");
+}
+
+TEST_F(ServiceJoin, ADrainGoesToNoServerThatTheUserHasNotNamed) {
+  auto a = member("desk-a");
+  const auto b = member("desk-b");
+  know(*a);
+  b->serve(77);
+  point(*a, b->location(77));
+  b->on_thread([&] { b->directory.addresses = {b->at(), a->at()}; });
+  a->on_thread([&] { a->directory.others = {b->listed()}; });
+  const auto why = [&](const std::vector<const MemberServer*>& servers) {
+    JoinOptions asking = options(servers, 2s);
+    asking.seat.clear();
+    asking.console = AccessRole::kOperator;
+    asking.drains = true;
+    const auto joined = join_console(asking);
+    return joined ? "joined" : joined.error().reason;
+  };
+  EXPECT_NE(why({a.get()}).find("--server names " + a->at() + ", but session lesson is served by server desk-b at " +
+                                b->at() + ", and a drain ends"),
+            std::string::npos)
+      << why({a.get()});
+  EXPECT_NE(why({a.get(), b.get()}).find("--server names several servers"), std::string::npos);
+  const JoinOptions asking = options({a.get()});
+  ASSERT_EQ(reason(asking), "joined");  // a seat, which learns the address of the other server
+  const std::string gone = a->at();
+  a.reset();
+  JoinOptions drain = asking;
+  drain.drains = true;
+  drain.timeout = 500ms;
+  EXPECT_NE(reason(drain).find("no server at " + gone), std::string::npos) << reason(drain);
+  EXPECT_EQ(b->count(ControlEvent::kWelcomed), 1U) << "the drain came to a server that was not named";
 }
 
 TEST_F(ServiceJoin, WorksOverIpv6) {

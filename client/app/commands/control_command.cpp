@@ -88,7 +88,7 @@ int converse(ConsoleClient& attendant, int signals) {
         lines.set_server(attendant.connection());
         continue;
       }
-      std::printf("%sthe server has ended: the drain is complete\n", person ? "\n" : "");
+      std::printf("%s%s has ended: the drain is complete\n", person ? "\n" : "", attendant.drained_server().c_str());
       return worst;
     }
     if (!line) return worst;
@@ -120,6 +120,7 @@ int control_command(const ControlArguments& arguments) {
     }
   }
   asking.console = wish ? role_for(*wish) : AccessRole::kOperator;
+  asking.drains = wish && std::holds_alternative<rpc::Drain>(*wish);
   if (!arguments.role.empty()) {
     const auto role = access_role_named(arguments.role);
     const bool stands = role && (*role == AccessRole::kInstructor || *role == AccessRole::kEvaluator ||

@@ -236,7 +236,7 @@ SessionInstance::Verdict SessionInstance::finish() {
                                        live_session_->skipped_records(), missing_seats);
   json_.write(text);
   io::OutputFile kept;
-  if (!options_->reports.empty()) {
+  if (!options_->reports.empty() && report.duration_s > 0) {  // as a recording, none of a session that never ran
     verdict.problem = kept.open(options_->reports + "/" + report_name(options_->name, id_), false);
     if (verdict.problem.empty()) kept.write(text);
   }

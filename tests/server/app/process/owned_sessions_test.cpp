@@ -1,5 +1,7 @@
 // Sessions of a service of several servers: opened as this server's own, given up, ended. Without clients.
+#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "common/io/event_fd.h"
 #include "server/app/control/session_registry.h"
@@ -85,6 +87,37 @@ TEST(OwnedSessions, AreServedUnderTheirIdCodeAndRevision) {
   EXPECT_EQ(m.kept.last.code, "ABCDEFGHJK");
   EXPECT_EQ(m.checkpoint().epoch, 4711U);
   EXPECT_NE(m.rig.table->open_owned(m.owned(4712)).find("has a session exam"), std::string::npos);
+}
+
+/// A session that moves before its hands are there would leave an empty report at each server.
+TEST(OwnedSessions, LeaveAReportOnlyOfATimeInWhichTheyRan) {
+  const std::filesystem::path folder = testing::TempDir() + "owned_reports_" + std::to_string(::getpid());
+  std::filesystem::create_directories(folder);
+  const auto reports = [&](bool runs) {
+    Member m;
+    m.rig.start();
+    SessionOptions options = lesson("exam");
+    options.reports = folder.string();
+    for (SeatSpec& seat : options.scene.seats) seat.required = seat.required && !runs;
+    OwnedSession owned = m.owned(4711);
+    owned.options = std::make_shared<const SessionOptions>(std::move(options));
+    EXPECT_EQ(m.rig.table->open_owned(std::move(owned)), "");
+    for (int i = 0; runs && i < 1000 && m.only().live_session().status().state == wire::SessionState::kWaiting; ++i)
+      poll(nullptr, 0, 10);
+    poll(nullptr, 0, 50);
+    m.rig.table->give_up("exam");
+    m.service_until_over();
+    std::vector<std::filesystem::path> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) all.push_back(entry.path());
+    return all;
+  };
+  EXPECT_EQ(reports(false).size(), 0U);
+  const auto ran = reports(true);
+  ASSERT_EQ(ran.size(), 1U);
+  std::stringstream text;
+  text << std::ifstream(ran.front()).rdbuf();
+  EXPECT_NE(text.str().find("\"ended_by\": \"given_up\""), std::string::npos) << text.str();
+  std::filesystem::remove_all(folder);
 }
 
 TEST(OwnedSessions, MayHaveATickRateThatNoConfiguredSessionHas) {
