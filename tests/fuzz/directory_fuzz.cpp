@@ -73,7 +73,7 @@ void read_texts(std::string_view text) {
 /// Handles the entries as the mirror of the registry does (server/app/service/registry_mirror.cpp).
 void share_registry(const std::vector<directory::KeyValue>& entries) {
   directory::DirectoryMark mark(server::SharedRegistry::mark_key(kPrefix), {}, "mark");
-  server::SharedRegistry registry(kPrefix, {}, mark);
+  server::SharedRegistry registry(kPrefix, {}, {}, mark);
   WorkstationRow own{"own", {std::byte{1}}, 5};
   registry.set_local(server::entries_of({{own}, {}}));
   feed(registry, entries, kPrefix + "registry/");
