@@ -200,11 +200,6 @@ int finish(const CLI::App& app, int code) {
   return code != 0 ? code : 1;
 }
 
-/// Makes a check of a validator of CLI11.
-OptionCheck check_of(const CLI::Validator& validator) {
-  return {[validator](std::string& text) { return validator(text); }, validator.get_description()};
-}
-
 }  // namespace
 
 Option& Option::value_name(const std::string& name) {
@@ -322,7 +317,5 @@ OptionCheck one_of(const std::vector<std::string>& names) {
           },
           member.get_description()};
 }
-
-OptionCheck integer_in(int lo, int hi) { return check_of(CLI::Range(lo, hi)); }
 
 }  // namespace tandem::io

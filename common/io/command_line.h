@@ -98,7 +98,5 @@ class Program {
 
 /// Accepts one of `names`, upper or lower case; the text becomes that name.
 [[nodiscard]] OptionCheck one_of(const std::vector<std::string>& names);
-/// Accepts an integer in [lo, hi].
-[[nodiscard]] OptionCheck integer_in(int lo, int hi);
 
 }  // namespace tandem::io

@@ -45,7 +45,9 @@ OptionCheck whole_number_in(double lo, double hi) {
   const OptionCheck range = number_in(lo, hi, ""), whole = whole_number();
   const auto check = [range, whole](std::string& text) {
     std::string error = range(text);
-    return error.empty() ? whole(text) : error;
+    if (!error.empty() || whole(text).empty()) return error;
+    const std::string allowed = range.allowed();
+    return "\"" + text + "\" is not a whole number " + allowed;
   };
   return {check, range.allowed()};
 }

@@ -255,7 +255,7 @@ void add_swarm_command(const io::Command& root) {
                        swarm_command);
   command.add_option("--first", arguments.first, "first seed; default 1").check(io::whole_number()).value_name("N");
   command.add_option("--seeds", arguments.seeds, "how many sessions; default 500")
-      .check(io::integer_in(1, 10'000'000))
+      .check(io::whole_number_in(1, 10'000'000))
       .value_name("N");
   command
       .add_option("--law", arguments.law,
@@ -268,7 +268,7 @@ void add_swarm_command(const io::Command& root) {
       .check(io::number_in(2, 3600, "s"))
       .value_name("S");
   command.add_option("--jobs", arguments.jobs, "sessions at a time; default one per core")
-      .check(io::integer_in(1, 1024))
+      .check(io::whole_number_in(1, 1024))
       .value_name("N");
   command.add_flag("--fail-fast", arguments.fail_fast, "stops at the first session that fails");
   command.add_flag("--scene", arguments.scene, "only prints the scene, faults, clocks and network of the first seed");

@@ -63,10 +63,17 @@ std::string disturbance_text(const Disturbance& disturbance) {
   };
   std::string text =
       "DISTURBED: " + count(disturbance.gate_trips, "gate trip") + ", " + count(disturbance.late_ticks, "late tick");
-  if (disturbance.ticks > 0) text += " of " + plot::number_text(disturbance.ticks, 0);
-  return text +
-         ". The machine was too busy, so the numbers judge the machine rather than Tandem. Repeat the demo on an idle "
-         "machine, or use --quick, whose virtual time has no late ticks.";
+  if (disturbance.ticks > 0)
+    text += " of " + plot::number_text(disturbance.ticks, 0) + " (" +
+            (disturbance.late_ticks > 0 ? plot::significant_text(100 * disturbance.late_ticks / disturbance.ticks, 2)
+                                        : "0") +
+            " %; undisturbed: at most " +
+            plot::number_text(std::floor(Disturbance::kLateShareMax * disturbance.ticks), 0) + ")";
+  text += disturbance.heavy()
+              ? ". The machine was too busy, so the numbers judge the machine rather than Tandem."
+              : ". Late ticks make errors larger, and these are few: kept limits hold, but a missed limit "
+                "can be due to the machine.";
+  return text + " Repeat the demo on an idle machine, or use --quick, whose virtual time has no late ticks.";
 }
 
 Headline headline_of(std::span<const RunResult> runs, const Comparison& comparison) {
@@ -89,9 +96,9 @@ Headline headline_of(std::span<const RunResult> runs, const Comparison& comparis
   if (asked == 0) {
     headline.sentence += "Nothing was asked of these runs.";
   } else if (headline.missed.empty()) {
-    headline.sentence += disturbance.found()
-                             ? "The runs were disturbed: the " + std::to_string(asked) + " kept limits prove little."
-                             : "All " + std::to_string(asked) + " limits were kept.";
+    headline.sentence += "All " + std::to_string(asked) + " limits were kept";
+    headline.sentence +=
+        disturbance.heavy() ? ", but the runs were disturbed too much for that to prove anything." : ".";
   } else {
     headline.sentence += std::to_string(headline.missed.size()) + " of " + std::to_string(asked) + " limits " +
                          (headline.missed.size() == 1 ? "was" : "were") + " missed.";

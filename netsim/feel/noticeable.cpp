@@ -45,6 +45,7 @@ std::vector<std::pair<std::string, double>> noticeable_numbers(const SceneSpec& 
 std::vector<std::string> noticeable_text(const SceneSpec& scene, const std::map<std::string, FeelNumber>& numbers,
                                          double one_way_s) {
   std::vector<std::string> out;
+  if (numbers.empty()) return out;  // interrupted before the first seed ended
   const double bone = mean_of(numbers, "stiffness_felt_n_m"), tissue = mean_of(numbers, "stiffness_tissue_n_m");
   const double possible = in_series(scene.coupling.k_c, kBone);
   if (const double steps = noticeable_steps(bone, possible, kStiffnessWeber); !std::isnan(steps))

@@ -44,7 +44,7 @@ inline constexpr double kHandleMass = 0.1;
 [[nodiscard]] std::vector<std::pair<std::string, double>> noticeable_numbers(
     const SceneSpec& scene, const std::map<std::string, FeelNumber>& numbers, double one_way_s);
 
-/// Returns one sentence per number that exists, for reports.
+/// Returns one sentence per number that exists, for reports; none without numbers, so without a measured seed.
 /// @param one_way_s  network delay each way as the leader met it [s]; NaN: unknown
 [[nodiscard]] std::vector<std::string> noticeable_text(const SceneSpec& scene,
                                                        const std::map<std::string, FeelNumber>& numbers,

@@ -53,7 +53,10 @@ bool are_one_person(const Lesson& lesson, std::size_t a, std::size_t b,
   const bool named = std::ranges::any_of(one_person, [&](const auto& pair) {
     return (pair.first == first && pair.second == second) || (pair.first == second && pair.second == first);
   });
-  return named || (!lesson.seats[a].person.empty() && lesson.seats[a].person == lesson.seats[b].person);
+  const LessonSeat &left = lesson.seats[a], &right = lesson.seats[b];
+  // Two clients of one computer, or of all computers of a trial on loopback, have the name of one workstation.
+  const bool persons = !left.person.empty() && !left.workstation && !right.workstation;
+  return named || (persons && left.person == right.person);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ struct LessonScores {
 };
 
 /// @param one_person  pairs of seats, names in the scene, which are the two hands of one person, in addition to seats
-///                    with the same person
+///                    with the same person; the name of a workstation is no person
 /// @return error: the reason why the lesson cannot be scored
 [[nodiscard]] std::expected<LessonScores, std::string> score_lesson(
     const Lesson& lesson, const ScoreOptions& options = {},

@@ -216,6 +216,11 @@ std::string read_metadata(const mcap::Reader& reader, Lesson& lesson) {
   if (const mcap::TextMap* const persons = reader.metadata(kParticipantsRecord))
     for (std::size_t i = 0; i < lesson.seats.size(); ++i)
       lesson.seats[i].person = value(*persons, lesson.scene.seats[i].name.c_str());
+  const mcap::TextMap* const workstations = reader.metadata(kWorkstationsRecord);
+  for (std::size_t i = 0; i < lesson.seats.size(); ++i)
+    lesson.seats[i].workstation = workstations == nullptr
+                                      ? lesson.seats[i].person == kLoopbackWorkstation
+                                      : value(*workstations, lesson.scene.seats[i].name.c_str()) == "true";
   return {};
 }
 

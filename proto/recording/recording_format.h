@@ -14,6 +14,11 @@ inline constexpr std::string_view kEncoding = "protobuf";  ///< of schemas and m
 inline constexpr const char* kSessionRecord = "session";
 inline constexpr const char* kSceneRecord = "scene";
 inline constexpr const char* kParticipantsRecord = "participants";
+/// Seats whose name in the record before is that of a workstation, which several persons may share: seat, `true` or
+/// `false`. Only in files with such seats.
+inline constexpr const char* kWorkstationsRecord = "workstations";
+/// Name of the workstation of all clients on loopback, for files without that record.
+inline constexpr std::string_view kLoopbackWorkstation = "local";
 inline constexpr const char* kRolesRecord = "roles";
 inline constexpr const char* kCountsRecord = "counts";
 inline constexpr const char* kPartRecord = "part";  ///< at the end of a file

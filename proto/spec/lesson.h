@@ -23,6 +23,7 @@ using LessonSeatSet = std::bitset<kSeatsMax>;  ///< of a scene, by index
 /// Columns of one seat. MASTER seats: tip and forces of the hand, as the tool sees them.
 struct LessonSeat {
   std::string person;                      ///< name of the participant, or empty
+  bool workstation = false;                ///< `person` is the name of a workstation, which several persons may share
   std::vector<std::uint8_t> fresh;         ///< 1: a sample that no earlier row has; 0: the last sample again
   std::vector<std::uint32_t> sample_tick;  ///< session tick of the sample
   std::vector<AxisArray> q;                ///< joints of the device [rad] or [m]

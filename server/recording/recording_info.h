@@ -17,6 +17,7 @@ struct RecordingInfo {
   std::int64_t start_unix_ns = 0;  ///< wall clock at TickRecord::time_ns = 0, not negative; 0: not known
   bool round_tools = false;        ///< values of tools (rec::round_tool), with a digest of the exact ones for a replay
   std::vector<std::string> persons;  ///< participant of each seat, in the order of the scene; empty: not known
+  std::vector<bool> workstations{};  ///< seats whose name in `persons` is that of a workstation; empty: none
 };
 
 }  // namespace tandem::server

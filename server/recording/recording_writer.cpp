@@ -90,15 +90,18 @@ RecordingWriter::RecordingWriter(const SceneSpec& scene, const RecordingInfo& in
   file_.add_metadata({rec::kSceneRecord, scene_metadata(scene, info)});
   mcap::TextMap roles;
   for (const SeatSpec& seat : scene.seats) roles[seat.name] = role_text(seat);
-  set_persons(info.persons);
+  set_persons(info.persons, info.workstations);
   file_.add_metadata({rec::kRolesRecord, std::move(roles)});
 }
 
-void RecordingWriter::set_persons(const std::vector<std::string>& persons) {
-  mcap::TextMap seats;
-  for (std::size_t i = 0; i < std::min(persons.size(), scene_->seats.size()); ++i)
+void RecordingWriter::set_persons(const std::vector<std::string>& persons, const std::vector<bool>& workstations) {
+  mcap::TextMap seats, shared;
+  for (std::size_t i = 0; i < std::min(persons.size(), scene_->seats.size()); ++i) {
     seats[scene_->seats[i].name] = persons[i];
+    shared[scene_->seats[i].name] = i < workstations.size() && workstations[i] ? "true" : "false";
+  }
   file_.add_metadata({rec::kParticipantsRecord, std::move(seats)});
+  if (!workstations.empty()) file_.add_metadata({rec::kWorkstationsRecord, std::move(shared)});
 }
 
 std::uint64_t RecordingWriter::log_time(std::int64_t time_ns) const noexcept {

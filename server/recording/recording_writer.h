@@ -35,7 +35,8 @@ class RecordingWriter {
 
   /// Adds the participant of each seat, in the order of the scene; empty: not known. Call it again when one changes:
   /// the last record is the present one, and all of them name persons of the file.
-  void set_persons(const std::vector<std::string>& persons);
+  /// @param workstations  seats whose name is that of a workstation; empty: none
+  void set_persons(const std::vector<std::string>& persons, const std::vector<bool>& workstations = {});
   /// Adds a tick. Records whose tick is not later than the last one are ignored, because the session clock stood still;
   /// so are those from before the session runs.
   void add(const TickRecord& record);

@@ -36,7 +36,7 @@ std::string line_of(ConsoleBeside& console) {
 
 TEST(ConsoleBeside, GivesItsUrlOnce) {
   const Demo demo("echo \"open within 10 minutes, once: http://127.0.0.1:1/?token=$2$4\"; exec sleep 60\n");
-  ConsoleBeside console(demo.places, "");
+  ConsoleBeside console(demo.places);
   EXPECT_FALSE(console.poll()) << "no server listens yet";
   console.on_server("127.0.0.1:7");
   EXPECT_EQ(line_of(console), "Watch the runs in a browser, once: http://127.0.0.1:1/?token=127.0.0.1:7operator");
@@ -48,7 +48,7 @@ TEST(ConsoleBeside, EndsItsProgramWithTheDemo) {
   const Demo demo("echo $$ > \"$0.pid\"; echo http://x/; exec sleep 60\n");
   pid_t pid = 0;
   {
-    ConsoleBeside console(demo.places, "");
+    ConsoleBeside console(demo.places);
     console.on_server("127.0.0.1:7");
     ASSERT_NE(line_of(console).find("http://x/"), std::string::npos);
     std::ifstream(demo.places.programs / "tandem-console.pid") >> pid;
@@ -59,11 +59,10 @@ TEST(ConsoleBeside, EndsItsProgramWithTheDemo) {
 
 TEST(ConsoleBeside, ReportsWhyThereIsNone) {
   const Demo missing(""), ends("exit 3\n");
-  ConsoleBeside absent(missing.places, ""), ended(ends.places, ""), unbuilt(ends.places, ends.folder.file(""));
-  for (ConsoleBeside* console : {&absent, &ended, &unbuilt}) console->on_server("127.0.0.1:7");
+  ConsoleBeside absent(missing.places), ended(ends.places);
+  for (ConsoleBeside* console : {&absent, &ended}) console->on_server("127.0.0.1:7");
   EXPECT_NE(line_of(absent).find("cannot be started"), std::string::npos);
   EXPECT_NE(line_of(ended).find("tandem-console ended"), std::string::npos);
-  EXPECT_NE(line_of(unbuilt).find("was not built"), std::string::npos) << "the folder has no build";
 }
 
 TEST(ConsoleUrl, NeedsACompleteLine) {

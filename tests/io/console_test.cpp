@@ -205,12 +205,12 @@ TEST(Control, EndsAtOnceWhenTheServerIsGone) {
   const Folder folder;
   const std::string pipe = folder.file("pipe");  // the console itself holds both ends open, so its input never ends
   Process waiting({"/bin/bash", "-c",
-                   "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo status >&3 && exec " + TANDEM_CLIENT +
+                   "mkfifo " + pipe + " && exec 3<>" + pipe + " && printf 'stauts\\nstatus\\n' >&3 && exec " + TANDEM_CLIENT +
                        " control --server " + address_of(host) + " <&3"});
   ASSERT_TRUE(waiting.wait_for("free_motion: waiting")) << waiting.err();
   host.signal(SIGKILL);
   EXPECT_TRUE(waiting.wait_for("the server ended this connection")) << waiting.err();
-  EXPECT_EQ(waiting.wait(), 1);
+  EXPECT_EQ(waiting.wait(), 1) << "not 2: the session was lost, whatever was typed wrong before";
   EXPECT_NE(waiting.err().find("start again"), std::string::npos) << waiting.err();
 }
 

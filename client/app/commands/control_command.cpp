@@ -27,7 +27,8 @@ struct ControlArguments {
   bool json = false;
 };
 
-int tell_gone(bool person, int worst) {
+/// Says that the session is lost. @return the exit code: what was typed wrong before does not matter for it
+int tell_gone(bool person) {
   io::print_formatted(
       stderr,
       "%standem-client control: the server ended this connection: it was stopped, is being restarted, or withdrew its "
@@ -35,7 +36,7 @@ int tell_gone(bool person, int worst) {
       "Orders after that were not carried out. To continue, start again; if your ticket is refused, with a new one "
       "(`tandem-server ticket` on the server)\n",
       person ? "\n" : "");
-  return std::max(worst, io::kExitTrouble);
+  return io::kExitTrouble;
 }
 
 /// Says for each line that a person typed while the console was not connected that it was not carried out: seconds
@@ -59,7 +60,8 @@ std::pair<std::size_t, bool> drop_orders(const ConsoleLines::Arrived& arrived) {
   return {orders, false};
 }
 
-/// Executes the commands of standard input line by line. @return the largest exit code
+/// Executes the commands of standard input line by line.
+/// @return the largest exit code; kExitTrouble if the session was lost or lines were not carried out
 int converse(ConsoleClient& attendant, int signals) {
   const bool person = isatty(STDIN_FILENO) == 1;
   const std::string prompt =
@@ -67,6 +69,8 @@ int converse(ConsoleClient& attendant, int signals) {
   if (person) std::printf("the connection stays open until you quit; `help` lists the commands\n");
   ConsoleLines lines(signals, attendant.connection(), STDIN_FILENO, prompt);
   int worst = io::kExitDone;
+  bool dropped = false;  // lines were not carried out
+  const auto ending = [&] { return dropped ? io::kExitTrouble : worst; };
   bool waiting = false;  // the prompt is already shown
   while (true) {
     if (person && !waiting) lines.show_prompt();
@@ -82,22 +86,22 @@ int converse(ConsoleClient& attendant, int signals) {
       if (!attendant.drained()) {
         const bool there = attendant.follow();
         const auto [orders, quits] = drop_orders(lines.take_arrived());
-        if (orders > 0) worst = std::max(worst, io::kExitTrouble);
-        if (!there) return tell_gone(person, worst);
-        if (quits) return worst;
+        dropped = dropped || orders > 0;
+        if (!there) return tell_gone(person);
+        if (quits) return ending();
         lines.set_server(attendant.connection());
         continue;
       }
       std::printf("%s%s has ended: the drain is complete\n", person ? "\n" : "", attendant.drained_server().c_str());
-      return worst;
+      return ending();
     }
-    if (!line) return worst;
+    if (!line) return ending();
     const auto words = words_of(*line);
     if (words.empty()) continue;
     const auto wish = parse_command(words);
     int code = io::kExitUsage;
     if (wish) {
-      if (std::holds_alternative<QuitCommand>(*wish)) return worst;
+      if (std::holds_alternative<QuitCommand>(*wish)) return ending();
       code = attendant.execute(*wish);
     } else {
       io::print_formatted(stderr, "tandem-client control: %s\n", wish.error().c_str());
@@ -182,7 +186,8 @@ void add_control_command(const io::Command& root) {
                  "progress of a drain. A stop is latched\n"
                  "and numbered; a resume names the newest stop, so that an old command never ends a newer stop.\n"
                  "Exit: 0 done; 1 refused, with the reason, or server not reachable; 2 wrong arguments. In the "
-                 "console: the greatest code of its commands.\n\n"
+                 "console: the greatest code of its commands, but 1 if it lost its session or did not carry out "
+                 "lines.\n\n"
                  "Examples\n"
                  "  tandem-client control --server 127.0.0.1:7000 stop a hand is in the way\n"
                  "  tandem-client control --server lab-server:7000 --ticket-file operator.ticket");

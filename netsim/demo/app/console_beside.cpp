@@ -5,23 +5,16 @@
 namespace tandem::netsim::demo {
 
 ConsoleBeside::~ConsoleBeside() {
-  for (auto* child : {&builder_, &console_})
-    if (*child) end_all({&**child, 1});
+  if (console_) end_all({&*console_, 1});
 }
 
 void ConsoleBeside::on_server(const std::string& address) {
-  if (!server_.empty()) return;
-  server_ = address;
-  if (build_.empty()) return;
-  auto child = ChildProcess::start(
-      "ninja", {"/usr/bin/env", "nice", "-n", "19", "ninja", "-C", build_, "-j", "1", "tandem-console"},
-      (places_.output / kBuildLog).string());
-  if (child) builder_ = std::move(*child);
+  if (server_.empty()) server_ = address;
 }
 
-std::optional<std::string> ConsoleBeside::give_up(const std::string& what, const char* log) {
+std::optional<std::string> ConsoleBeside::give_up(const std::string& what) {
   over_ = true;
-  return "The runs cannot be watched in a browser: " + what + "; see " + (places_.output / log).string();
+  return "The runs cannot be watched in a browser: " + what + "; see " + (places_.output / kLog).string();
 }
 
 std::optional<std::string> ConsoleBeside::start() {
@@ -29,25 +22,19 @@ std::optional<std::string> ConsoleBeside::start() {
                                    {(places_.programs / "tandem-console").string(), "--server", server_, "--role",
                                     "operator", "--listen", "127.0.0.1:0"},
                                    (places_.output / kLog).string());
-  if (!child) return give_up(child.error(), kBuildLog);
+  if (!child) return give_up(child.error());
   console_ = std::move(*child);
   return std::nullopt;
 }
 
 std::optional<std::string> ConsoleBeside::poll() {
   if (over_ || server_.empty()) return std::nullopt;
-  if (builder_) {
-    if (builder_->running()) return std::nullopt;
-    const bool built = builder_->exit_code() == 0;
-    builder_.reset();
-    if (!built) return give_up("tandem-console was not built", kBuildLog);
-  }
   if (!console_) return start();
   if (const std::string url = console_url(console_->output()); !url.empty()) {
     over_ = true;
     return "Watch the runs in a browser, once: " + url;
   }
-  if (!console_->running()) return give_up("tandem-console ended", kLog);
+  if (!console_->running()) return give_up("tandem-console ended");
   return std::nullopt;
 }
 

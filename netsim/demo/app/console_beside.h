@@ -8,31 +8,28 @@
 
 namespace tandem::netsim::demo {
 
-/// tandem-console beside the runs of a live demo, so that they can be watched in a browser. It is built after the first
-/// run has begun, with the lowest priority, so that the report comes no later. Trouble with it ends no run.
+/// tandem-console beside the runs of a live demo, so that they can be watched in a browser. Trouble with it ends no
+/// run.
 class ConsoleBeside {
  public:
-  /// @param build  folder of the build in which ninja makes tandem-console; empty: it is not built, only started
-  ConsoleBeside(DemoPaths places, std::string build) : places_(std::move(places)), build_(std::move(build)) {}
+  explicit ConsoleBeside(DemoPaths places) : places_(std::move(places)) {}
   ConsoleBeside(const ConsoleBeside&) = delete;
   ConsoleBeside& operator=(const ConsoleBeside&) = delete;
   ~ConsoleBeside();
 
   /// A server listens at this address; those of later runs are expected at the same.
   void on_server(const std::string& address);
-  /// Continues with the build and the start. Call it often. @return a line for the user, once there is one
+  /// Continues with the start. Call it often. @return a line for the user, once there is one
   [[nodiscard]] std::optional<std::string> poll();
-  /// Files that it writes, relative to the output folder.
-  static constexpr const char* kBuildLog = "console-build.log";
-  static constexpr const char* kLog = "console.log";
+  static constexpr const char* kLog = "console.log";  ///< file that it writes, relative to the output folder
 
  private:
-  std::optional<std::string> give_up(const std::string& what, const char* log);
+  std::optional<std::string> give_up(const std::string& what);
   std::optional<std::string> start();
 
   DemoPaths places_;
-  std::string build_, server_;
-  std::optional<ChildProcess> builder_, console_;
+  std::string server_;
+  std::optional<ChildProcess> console_;
   bool over_ = false;  ///< the line was given, or there is none
 };
 

@@ -35,9 +35,7 @@ std::vector<const RunPlan*> chosen_runs(const std::string& list, std::string& mi
 }
 
 /// Options that ./demo adds itself.
-bool added_by_script(const std::string& word) {
-  return word == "--live" || word == "--console" || word.starts_with("--console-build=");
-}
+bool added_by_script(const std::string& word) { return word == "--live" || word == "--console"; }
 
 }  // namespace
 
@@ -83,9 +81,6 @@ int main(int argc, char** argv) {
                   "which is removed at the end")
       .value_name("DIR");
   root.add_flag("--console", plan.console, "tandem-console beside the live runs: a picture of them in a browser");
-  root.add_option("--console-build", plan.console_build,
-                  "folder of a build in which ninja first makes tandem-console, at the lowest priority; with --console")
-      .value_name("DIR");
   root.add_flag("--keep", plan.keep, "leaves ./demo-output (10 MB per run)");
   root.footer(
       "In real time the six runs take about two minutes. Late ticks and gate trips that a busy machine causes are "

@@ -120,7 +120,7 @@ void remove_files(const DemoOptions& plan, const Folders& folders) {
   std::error_code ignored;
   for (const RunPlan* run : plan.runs)
     for (const fs::path& file : files_of(*run, folders.files)) fs::remove(file, ignored);
-  for (const char* log : {ConsoleBeside::kBuildLog, ConsoleBeside::kLog}) fs::remove(folders.files / log, ignored);
+  fs::remove(folders.files / ConsoleBeside::kLog, ignored);
   fs::remove(folders.files, ignored);  // removes it only if empty
 }
 
@@ -157,7 +157,7 @@ int run_demo(const DemoOptions& plan) {
 
   Progress progress(plan.runs, plan.quick ? 60 : 1);
   std::optional<ConsoleBeside> console;
-  if (plan.console && !plan.quick) console.emplace(places, plan.console_build);
+  if (plan.console && !plan.quick) console.emplace(places);
   RunObserver observer{[&](double session_s) {
                          if (const auto line = console ? console->poll() : std::nullopt) {
                            progress.clear();

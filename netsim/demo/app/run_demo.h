@@ -10,11 +10,10 @@ namespace tandem::netsim::demo {
 /// Options of the demo.
 struct DemoOptions {
   std::vector<const RunPlan*> runs;
-  std::string out;            ///< output folder; empty: the report here, everything else in ./demo-output
-  bool quick = false;         ///< virtual time
-  bool keep = false;          ///< keep traces, reports and logs in ./demo-output
-  bool console = false;       ///< start tandem-console beside the live runs
-  std::string console_build;  ///< folder of the build that makes it; empty: it is there
+  std::string out;       ///< output folder; empty: the report here, everything else in ./demo-output
+  bool quick = false;    ///< virtual time
+  bool keep = false;     ///< keep traces, reports and logs in ./demo-output
+  bool console = false;  ///< start tandem-console beside the live runs
   std::string version;
   std::string repeat;  ///< command that repeats the demo, for the report
 };

@@ -335,7 +335,8 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
              .connection = catalogue.make_connection(seat, params, request.hello.device),
              .done = [&reservation](ShardRequest&) { reservation.end_join(); }};
     if (RecordingDesk* const desk = entry->registration.recording.get())
-      desk->set_person(seat, welcome.person.empty() ? request.workstation.name : welcome.person);
+      desk->set_person(seat, welcome.person.empty() ? request.workstation.name : welcome.person,
+                       welcome.person.empty());
     joins.connection.resume = secret;
     joins.connection.force_scale = reservation.force_scale();
     if (std::string softer = catalogue.softened_spring_text(seat, request.hello.device); !softer.empty())

@@ -176,6 +176,7 @@ std::string SessionInstance::start_recording() {
                    {"pseudonyms", wanted.pseudonyms ? "true" : "false"}};
   info.round_tools = true;
   info.persons = desk_->persons();
+  info.workstations = desk_->workstations();
   std::expected<std::unique_ptr<KeptInputs::Reader>, std::string> inputs = std::unexpected(kNoneKept);
   if (inputs_) inputs = inputs_->read();
   if (!inputs) info.metadata[rec::kNoInputsKey] = inputs.error();

@@ -99,7 +99,7 @@ void LiveRecording::step(Time now) {
   }
   if (now < next_files_) return;
   next_files_ = now + kFilesInterval;
-  files_->set_persons(desk_->persons());
+  files_->set_persons(desk_->persons(), desk_->workstations());
   files_->step(now);
   report();
 }

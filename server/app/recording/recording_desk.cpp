@@ -27,9 +27,16 @@ void RecordingDesk::set_status(std::optional<rpc::StatusRecording> status) {
   status_ = std::move(status);
 }
 
-void RecordingDesk::set_person(std::size_t seat, const std::string& name) {
+void RecordingDesk::set_person(std::size_t seat, const std::string& name, bool workstation) {
   const std::lock_guard lock(lock_);
-  if (seat < persons_.size()) persons_[seat] = named(name);
+  if (seat >= persons_.size()) return;
+  persons_[seat] = named(name);
+  workstations_[seat] = workstation;
+}
+
+std::vector<bool> RecordingDesk::workstations() const {
+  const std::lock_guard lock(lock_);
+  return workstations_;
 }
 
 std::vector<std::string> RecordingDesk::persons() const {

@@ -26,13 +26,14 @@ class RecordingDesk {
   static constexpr std::size_t kNamesMax = 1000;  ///< pseudonyms; further participants are P?
 
   /// @param pseudonyms  participants are P1, P2 ... in the order in which they come
-  RecordingDesk(std::size_t seats, bool pseudonyms) : persons_(seats), pseudonyms_(pseudonyms) {}
+  RecordingDesk(std::size_t seats, bool pseudonyms) : persons_(seats), workstations_(seats), pseudonyms_(pseudonyms) {}
 
   // ---- Any thread without real-time duties ----
   /// The state of the recording; nullopt: none runs.
   [[nodiscard]] std::optional<rpc::StatusRecording> status() const;
   /// A participant has this seat from now on.
-  void set_person(std::size_t seat, const std::string& name);
+  /// @param workstation  `name` is that of a workstation, because the participant's ticket names no person
+  void set_person(std::size_t seat, const std::string& name, bool workstation = false);
   /// A person gives an order, whose events may come before or after its outcome.
   /// @return its number, from 1, for `add_event`
   [[nodiscard]] std::uint32_t add_order(const std::string& person);
@@ -53,6 +54,8 @@ class RecordingDesk {
   [[nodiscard]] Items take();
   /// Participants by seat, as the file names them; empty: none yet.
   [[nodiscard]] std::vector<std::string> persons() const;
+  /// Seats whose name is that of a workstation, by seat.
+  [[nodiscard]] std::vector<bool> workstations() const;
   /// Sets the state; nullopt: the recording is over.
   void set_status(std::optional<rpc::StatusRecording> status);
 
@@ -63,6 +66,7 @@ class RecordingDesk {
 
   mutable std::mutex lock_;
   std::vector<std::string> persons_;
+  std::vector<bool> workstations_;
   bool pseudonyms_;
   std::map<std::string, std::string> names_;                              ///< pseudonym of each participant
   std::array<std::pair<std::uint32_t, std::string>, kOrdersMax> orders_;  ///< number and person, by number

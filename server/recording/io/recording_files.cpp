@@ -90,10 +90,11 @@ void RecordingFiles::begin(std::int64_t start_unix_ns) {
   writer_ = std::make_unique<RecordingWriter>(*scene_, info_);
 }
 
-void RecordingFiles::set_persons(std::vector<std::string> persons) {
-  if (info_.persons == persons) return;
+void RecordingFiles::set_persons(std::vector<std::string> persons, std::vector<bool> workstations) {
+  if (info_.persons == persons && info_.workstations == workstations) return;
   info_.persons = std::move(persons);
-  if (begun()) writer_->set_persons(info_.persons);
+  info_.workstations = std::move(workstations);
+  if (begun()) writer_->set_persons(info_.persons, info_.workstations);
 }
 
 void RecordingFiles::add(const TickRecord& record) {

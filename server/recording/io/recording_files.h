@@ -58,7 +58,7 @@ class RecordingFiles {
   /// The writer of the present file, for events, marks, sheets and links. They are few: they are never left out.
   [[nodiscard]] RecordingWriter& writer() noexcept { return *writer_; }
   /// Participants by seat, from now on.
-  void set_persons(std::vector<std::string> persons);
+  void set_persons(std::vector<std::string> persons, std::vector<bool> workstations = {});
 
   /// Passes what is complete to the disk and changes files. Call it at least every 250 ms.
   void step(Time now);

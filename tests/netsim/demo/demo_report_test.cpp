@@ -84,15 +84,31 @@ TEST(Headline, OfDisturbedRunsIsNoSuccess) {
 
   runs[1].report.late_ticks = 2;
   const Headline late = headline_of(runs, comparison);
-  EXPECT_EQ(late.sentence, "Two people held one tool. The runs were disturbed: the 1 kept limits prove little.");
-  EXPECT_TRUE(late.disturbed.starts_with("DISTURBED: 0 gate trips, 2 late ticks of 60000. ")) << late.disturbed;
+  EXPECT_EQ(late.sentence, "Two people held one tool. All 1 limits were kept.") << "errors get no smaller";
+  EXPECT_TRUE(
+      late.disturbed.starts_with("DISTURBED: 0 gate trips, 2 late ticks of 60000 (0.0033 %; undisturbed: at "
+                                 "most 1). "))
+      << late.disturbed;
+  EXPECT_NE(late.disturbed.find("kept limits hold"), std::string::npos);
   EXPECT_NE(late.disturbed.find("--quick"), std::string::npos);
   EXPECT_NE(html_report(runs, comparison, {}).find("DISTURBED: 0 gate trips"), std::string::npos);
 
+  runs[1].report.late_ticks = 60;  // one in a thousand
+  EXPECT_FALSE(disturbance_of(runs).heavy());
+  runs[1].report.late_ticks = 61;
+  const Headline heavy = headline_of(runs, comparison);
+  EXPECT_EQ(heavy.sentence,
+            "Two people held one tool. All 1 limits were kept, but the runs were disturbed too much for "
+            "that to prove anything.");
+  EXPECT_NE(heavy.disturbed.find("judge the machine"), std::string::npos) << heavy.disturbed;
+
   runs[1].report.late_ticks = std::numeric_limits<double>::quiet_NaN();  // as in virtual time
   runs[0].report.gate_trips = 1;
-  EXPECT_TRUE(headline_of(runs, comparison).disturbed.starts_with("DISTURBED: 1 gate trip, 0 late ticks of 60000. "))
-      << "one released hand is enough";
+  const Headline released = headline_of(runs, comparison);
+  EXPECT_TRUE(released.disturbed.starts_with("DISTURBED: 1 gate trip, 0 late ticks of 60000 (0 %;"))
+      << released.disturbed;
+  EXPECT_TRUE(disturbance_of(runs).heavy()) << "one released hand is enough";
+  EXPECT_TRUE(released.sentence.ends_with("too much for that to prove anything.")) << released.sentence;
 }
 
 TEST(Headline, NamesEachMissedLimit) {

@@ -99,6 +99,13 @@ TEST(FeelReport, FitsEightyColumnsAndMarksNoticeableValues) {
   EXPECT_NE(feel_text(r).find("steps softer than the 392 N/m"), std::string::npos);
 }
 
+TEST(FeelReport, SaysNothingAboutPerceptionWithoutASeed) {
+  const std::string perception = "Perception by a person";
+  EXPECT_NE(feel_text(report_of(kThree)).find(perception), std::string::npos);
+  EXPECT_EQ(feel_text(report_of({})).find(perception), std::string::npos) << "interrupted before a seed ended";
+  EXPECT_TRUE(nlohmann::json::parse(feel_json(report_of({})))["noticed"].empty());
+}
+
 TEST(FeelReport, WritesEveryNumberAsJsonWithoutNan) {
   std::vector<FeelSeed> seeds = kThree;
   seeds[0].values["gain_max"] = NAN;

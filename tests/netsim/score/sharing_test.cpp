@@ -158,6 +158,8 @@ TEST(PairScores, MeasureConflictAndTwoHandsOfOnePerson) {
   s = maker.scores();
   EXPECT_NEAR(s.pairs[0].score.both_move_share, 1.0 / 3, 0.05);
   EXPECT_NEAR(s.pairs[0].score.speed_correlation, 0, 0.05);
+  maker.lesson.seats[0].workstation = maker.lesson.seats[1].workstation = true;
+  EXPECT_TRUE(std::isnan(maker.scores().pairs[0].score.both_move_share)) << "one workstation, two persons";
 }
 
 TEST(PassivityScores, SumDissipationAndKeepTheLeastMargin) {

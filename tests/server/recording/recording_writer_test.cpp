@@ -69,6 +69,35 @@ TEST(RecordingWriter, StatesTheSession) {
   EXPECT_EQ(lesson->time_ns[0], 1'000'000);
 }
 
+TEST(RecordingWriter, StatesWhichNamesAreOfWorkstations) {
+  const SceneSpec scene = shipped_scene("contact");
+  RecordingInfo info = sample_info(scene);
+  info.persons = {"desk-1", ""};
+  info.workstations = {true, false};
+  const auto read = [&](const RecordingInfo& facts, const std::vector<bool>& later) {
+    RecordingWriter writer(scene, facts);
+    if (!later.empty()) writer.set_persons({"desk-1", "desk-1"}, later);
+    TickRecord record = smooth_record(scene, 1);
+    record.running = true;
+    writer.add(record);
+    writer.finish();
+    const std::string bytes = writer.take();
+    return read_lesson(bytes_of(bytes)).value();
+  };
+  Lesson lesson = read(info, {});
+  EXPECT_TRUE(lesson.seats[0].workstation);
+  EXPECT_FALSE(lesson.seats[1].workstation);
+  lesson = read(info, {false, true});
+  EXPECT_FALSE(lesson.seats[0].workstation) << "the last record is the present one";
+  EXPECT_TRUE(lesson.seats[1].workstation);
+  info.workstations = {};
+  EXPECT_FALSE(read(info, {}).seats[0].workstation);
+  info.persons = {"local", "Ada"};  // a file of before the record
+  lesson = read(info, {});
+  EXPECT_TRUE(lesson.seats[0].workstation) << "the workstation of all clients on loopback";
+  EXPECT_FALSE(lesson.seats[1].workstation);
+}
+
 TEST(RecordingWriter, KeepsEveryParticipantOfASeat) {
   const SceneSpec scene = shipped_scene("contact");
   RecordingInfo info = sample_info(scene);

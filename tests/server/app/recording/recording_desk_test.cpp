@@ -60,13 +60,16 @@ TEST(RecordingDesk, ReplacesAllNamesByPseudonyms) {
   d.desk.set_person(2, "ann");
   d.desk.set_person(3, "beyond the seats");
   EXPECT_EQ(d.desk.persons(), (std::vector<std::string>{"P2", "P1", "P1"}));
+  EXPECT_EQ(d.desk.workstations(), (std::vector<bool>{false, false, false}));
+  d.desk.set_person(2, "local", true);
+  EXPECT_EQ(d.desk.workstations(), (std::vector<bool>{false, false, true}));
   d.desk.add_note(mark(R"({"text": "x", "person": "ann"})"));
   d.desk.add_note(mark(R"({"text": "x", "person": "eva"})", "bob"));
   d.desk.add_note(mark(R"({"text": "x"})", "bob"));
   const RecordingDesk::Items items = d.desk.take();
   ASSERT_EQ(items.marks.size(), 3u);
   EXPECT_EQ(items.marks[0].by, "P1");
-  EXPECT_EQ(items.marks[1].by, "P3");
+  EXPECT_EQ(items.marks[1].by, "P4");
   EXPECT_EQ(items.marks[2].by, "P2");
 }
 
