@@ -13,6 +13,7 @@ namespace {
 using ReportJson = nlohmann::ordered_json;
 
 ReportJson number(double v) { return std::isfinite(v) ? ReportJson(v) : ReportJson(nullptr); }
+ReportJson number(const std::optional<double>& v) { return v ? number(*v) : ReportJson(nullptr); }
 
 }  // namespace
 
@@ -59,13 +60,13 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
       {"rejoins", s.reconnects},
       {"away_longest_s", number(r.outage_longest_s)},
       {"session_s", number(std::max(0.0, s.session_time))},
-      {"alpha", number(s.alpha)},
-      {"beside_leader_m", s.offset_from_leader_m ? number(*s.offset_from_leader_m) : ReportJson(nullptr)},
+      {"alpha", number(s.engaged.alpha())},
+      {"alpha_mean", number(s.engaged.alpha_mean())},
+      {"beside_leader_m", number(s.engaged.beside_leader_m())},
+      {"beside_leader_mean_m", number(s.engaged.beside_leader_mean_m())},
       {"effort_peak_n", number(s.force_peak_n)},
       {"gate", {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.energy.given_after_loss_max_j)}}},
-      {"motors",
-       {{"too_hot", s.motors.hot_trips},
-        {"heat_max", s.motors.heat_max ? number(*s.motors.heat_max) : ReportJson(nullptr)}}},
+      {"motors", {{"too_hot", s.motors.hot_trips}, {"heat_max", number(s.motors.heat_max)}}},
       {"energy",
        {{"in_j", number(s.energy.in_j)},
         {"out_j", number(s.energy.out_j)},

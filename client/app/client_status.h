@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "client/app/engaged_values.h"
 #include "hal/core/device.h"
 #include "proto/text/seat_setup.h"
 #include "proto/wire/wire_messages.h"
@@ -91,6 +92,7 @@ struct ClientStatus {
       late_ticks = 0;                   ///< ticks that began more than 1 ms late
   std::uint32_t reconnects = 0;         ///< number of connections after the first
   bool reconnecting = false;            ///< a Reconnector is active
+  EngagedValues engaged;                ///< authority and distance to the leader's hand while it was engaged
 };
 
 /// Reason for which a seat ended.

@@ -74,6 +74,8 @@ const ClientStatus& SeatStatusRecorder::update(Time now, const Seat& seat) noexc
   if (seat.setup().port == PortSpace::kTip && timing.heard()) s.distance_m = distance_to_tool(seat);
   const auto offset = offset_from_leader(seat, now);
   s.offset_from_leader_m = offset ? std::optional{offset->norm()} : std::nullopt;
+  if (s.gate == wire::GateState::kActive && s.session == wire::SessionState::kRunning && !s.closed)
+    s.engaged.add(s.alpha, s.offset_from_leader_m);
   s.transfer = transfer_.status();
   s.force_n = norm(t.f_out);
   s.x = t.x;

@@ -6,6 +6,7 @@
 
 #include "client/app/server_addresses.h"
 #include "common/auth/service_pin.h"
+#include "common/base/command_hints.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/log.h"
@@ -25,6 +26,14 @@ constexpr milliseconds kTryMin{100}, kTryMax{1500};  // for one of several addre
 JoinError interrupted(const JoinOptions& options) {
   return {true, "ended by " + std::string(io::pending_signal()) +
                     (options.seat.empty() ? " before the server answered" : " before it had a seat")};
+}
+
+/// The server still answers: only its session ends. It may begin another one.
+std::string session_over_text(const rpc::ErrorReply& reply, const JoinOptions& options) {
+  return "refused: " + reply.text +
+         ", and takes no participants any more. Ask its operator whether another one begins; " +
+         with_options("`tandem-client sessions` lists the open ones", "tandem-client sessions",
+                      " --server " + io::to_text(options.server) + state_option(options.state));
 }
 
 /// True if the server is not started yet, or too busy: it then closes the connection of an unknown client without a
@@ -223,7 +232,7 @@ std::string ServerConnection::rejection_text(const rpc::ErrorReply& reply) const
     case ErrorCode::kDeviceUnfit:
       return "the device does not fit this scene: " + reply.text;
     case ErrorCode::kSessionOver:
-      return reply.text + "; start the server again";
+      return session_over_text(reply, options_);
     default:
       return "refused: " + reply.text;
   }

@@ -228,11 +228,24 @@ TEST(ClientReport, NamesEveryReasonVerdictAndRole) {
   EXPECT_STREQ(to_text(Role::kObserver), "OBSERVER");
 }
 
-TEST(ClientReport, ReportsTheDistanceToTheLeadersHandOrThatNoneLeads) {
+/// The status at the end is that of a released seat.
+TEST(ClientReport, ReportsAuthorityAndDistanceOfTheEngagedTime) {
   ClientReport r;
-  EXPECT_TRUE(nlohmann::json::parse(to_json(r, setup()))["beside_leader_m"].is_null());
-  r.last.offset_from_leader_m = 0.0032;
-  EXPECT_DOUBLE_EQ(nlohmann::json::parse(to_json(r, setup()))["beside_leader_m"].get<double>(), 0.0032);
+  r.last.alpha = 0.25;
+  r.last.offset_from_leader_m = 1;
+  auto j = nlohmann::json::parse(to_json(r, setup()));
+  for (const char* key : {"alpha", "alpha_mean", "beside_leader_m", "beside_leader_mean_m"})
+    EXPECT_TRUE(j[key].is_null()) << key << ": it was never engaged";
+  r.last.engaged.add(0, 0.002);
+  r.last.engaged.add(0, 0.004);
+  r.last.engaged.add(0.75, std::nullopt);
+  r.last.alpha = 0;
+  r.last.offset_from_leader_m.reset();
+  j = nlohmann::json::parse(to_json(r, setup()));
+  EXPECT_DOUBLE_EQ(j["alpha"].get<double>(), 0.75);
+  EXPECT_DOUBLE_EQ(j["alpha_mean"].get<double>(), 0.25);
+  EXPECT_DOUBLE_EQ(j["beside_leader_m"].get<double>(), 0.004);
+  EXPECT_DOUBLE_EQ(j["beside_leader_mean_m"].get<double>(), 0.003);
 }
 
 }  // namespace

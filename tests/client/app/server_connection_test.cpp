@@ -64,6 +64,17 @@ TEST_F(ServerConnectionTest, NamesTheSignalAndWhatWasMissingWhenItEnded) {
   EXPECT_EQ(seat.error().reason, "ended by SIGTERM before it had a seat");
 }
 
+TEST_F(ServerConnectionTest, SaysThatOnlyTheSessionEnds) {
+  options.session = "exam";
+  const auto refused = ServerConnection{options}.expect<rpc::Welcome>(
+      rpc::ErrorReply{rpc::ErrorCode::kSessionOver, "the session is ending", 0});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason,
+            "refused: the session is ending, and takes no participants any more. Ask its operator whether another one "
+            "begins; `tandem-client sessions --server 127.0.0.1:1 --state " +
+                options.state + "` lists the open ones");
+}
+
 TEST_F(ServerConnectionTest, TriesOnceToReturnToTheServerOfASeat) {
   ServerConnection server{options};
   const Time begin = io::monotonic_now();
