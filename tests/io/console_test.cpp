@@ -205,8 +205,8 @@ TEST(Control, EndsAtOnceWhenTheServerIsGone) {
   const Folder folder;
   const std::string pipe = folder.file("pipe");  // the console itself holds both ends open, so its input never ends
   Process waiting({"/bin/bash", "-c",
-                   "mkfifo " + pipe + " && exec 3<>" + pipe + " && printf 'stauts\\nstatus\\n' >&3 && exec " + TANDEM_CLIENT +
-                       " control --server " + address_of(host) + " <&3"});
+                   "mkfifo " + pipe + " && exec 3<>" + pipe + " && printf 'stauts\\nstatus\\n' >&3 && exec " +
+                       TANDEM_CLIENT + " control --server " + address_of(host) + " <&3"});
   ASSERT_TRUE(waiting.wait_for("free_motion: waiting")) << waiting.err();
   host.signal(SIGKILL);
   EXPECT_TRUE(waiting.wait_for("the server ended this connection")) << waiting.err();
