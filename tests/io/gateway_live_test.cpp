@@ -276,29 +276,6 @@ TEST(GatewayLive, ShowsLiveValuesAgainAfterItWasStopped) {
   EXPECT_FALSE(state_where(page, [](const Json& s) { return s["age_ms"].is_number(); }).is_null());
 }
 
-/// Nothing shows the status while the server is away, so no message promises it.
-TEST(GatewayLive, PromisesNoStatusWhileTheServerRestarts) {
-  const Folder folder;
-  const std::string address = free_address();
-  const Words serve{"serve", folder.write("s.textproto", "version: 1 listen: \"" + address +
-                                                             "\" session { name: \"one\" scene: \"one_axis\" }")};
-  Process host = server(serve);
-  ASSERT_EQ(address_of(host), address) << host.err();
-  WebGateway gateway(address);
-  gateway.open_url();
-  WebPage page = gateway.page();
-  EXPECT_FALSE(state_where(page, [](const Json& s) { return s["age_ms"].is_number(); }).is_null());
-  host.signal(SIGTERM);
-  EXPECT_EQ(host.wait(), 0) << host.err();
-  std::string warnings;
-  EXPECT_FALSE(page.until([&](const Json& m) {
-                     if (m["type"] == "notice" && m["level"] == "warning") warnings += m["text"].get<std::string>();
-                     return m["type"] == "notice" && m["server"] == "lost";
-                   })
-                   .is_null());
-  EXPECT_EQ(warnings.find("five times per second"), std::string::npos) << warnings;
-}
-
 TEST(GatewayLive, FallsBackToTheStatusWithoutAPlaceToWatch) {
   const Process host = hosting("one_axis");
   std::list<Process> watching;
