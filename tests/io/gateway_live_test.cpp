@@ -289,6 +289,7 @@ TEST(GatewayLive, FallsBackToTheStatusWithoutAPlaceToWatch) {
   const Json warned = page.next("notice");
   EXPECT_EQ(warned["level"], "warning");
   EXPECT_NE(warned["text"].get<std::string>().find("all 8 places"), std::string::npos) << warned;
+  EXPECT_TRUE(warned["text"].get<std::string>().ends_with("; the page shows the status five times per second"));
   const Json state = page.next("state");
   EXPECT_TRUE(state["age_ms"].is_null());
   EXPECT_EQ(state["phase"], "WAITING");

@@ -27,7 +27,7 @@ struct ControlArguments {
   bool json = false;
 };
 
-/// Says that the session is lost. @return the exit code: what was typed wrong before does not matter for it
+/// Says that the session is lost. @return the exit code, which is the same after mistakes of typing
 int tell_gone(bool person) {
   io::print_formatted(
       stderr,

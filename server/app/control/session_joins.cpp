@@ -335,8 +335,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
              .connection = catalogue.make_connection(seat, params, request.hello.device),
              .done = [&reservation](ShardRequest&) { reservation.end_join(); }};
     if (RecordingDesk* const desk = entry->registration.recording.get())
-      desk->set_person(seat, welcome.person.empty() ? request.workstation.name : welcome.person,
-                       welcome.person.empty());
+      desk->set_person(seat, welcome.person, request.workstation.name);
     joins.connection.resume = secret;
     joins.connection.force_scale = reservation.force_scale();
     if (std::string softer = catalogue.softened_spring_text(seat, request.hello.device); !softer.empty())

@@ -27,11 +27,11 @@ void RecordingDesk::set_status(std::optional<rpc::StatusRecording> status) {
   status_ = std::move(status);
 }
 
-void RecordingDesk::set_person(std::size_t seat, const std::string& name, bool workstation) {
+void RecordingDesk::set_person(std::size_t seat, const std::string& person, const std::string& workstation) {
   const std::lock_guard lock(lock_);
   if (seat >= persons_.size()) return;
-  persons_[seat] = named(name);
-  workstations_[seat] = workstation;
+  persons_[seat] = named(person.empty() ? workstation : person);
+  workstations_[seat] = person.empty();
 }
 
 std::vector<bool> RecordingDesk::workstations() const {

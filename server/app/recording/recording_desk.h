@@ -32,8 +32,9 @@ class RecordingDesk {
   /// The state of the recording; nullopt: none runs.
   [[nodiscard]] std::optional<rpc::StatusRecording> status() const;
   /// A participant has this seat from now on.
-  /// @param workstation  `name` is that of a workstation, because the participant's ticket names no person
-  void set_person(std::size_t seat, const std::string& name, bool workstation = false);
+  /// @param person       name in the participant's ticket; empty: none, and the name is that of the workstation
+  /// @param workstation  name of the participant's workstation
+  void set_person(std::size_t seat, const std::string& person, const std::string& workstation = {});
   /// A person gives an order, whose events may come before or after its outcome.
   /// @return its number, from 1, for `add_event`
   [[nodiscard]] std::uint32_t add_order(const std::string& person);

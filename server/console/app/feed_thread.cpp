@@ -29,12 +29,12 @@ std::shared_ptr<const LiveValues> values_of(const client::TelemetryFeed& feed, T
 std::string text_of(wire::CloseReason why) {
   switch (why) {
     case wire::CloseReason::kServerReturns:
-      return "the server is being restarted";
+      return "the server is being restarted, so no live values come";
     case wire::CloseReason::kRevoked:
     case wire::CloseReason::kRemoved:
-      return "the server withdrew the right to watch; ask its operator";
+      return "the server withdrew the right to watch; ask its operator" + std::string(kStatusOnly);
     default:
-      return "the session is over";
+      return "the session is over" + std::string(kStatusOnly);
   }
 }
 
@@ -70,10 +70,11 @@ void FeedThread::work() {
     } else if (!silent && feed_.watch().silence(now) > kSilence) {
       silent = true;
       sink_(nullptr,
-            feed_.watch().newest()
-                ? "no datagram of the server arrived for 3 s"
-                : "the server accepted the join, but no datagram arrives; a firewall may block UDP. `tandem-client "
-                  "link-test` judges the link");
+            (feed_.watch().newest()
+                 ? "no datagram of the server arrived for 3 s"
+                 : "the server accepted the join, but no datagram arrives; a firewall may block UDP. `tandem-client "
+                   "link-test` judges the link") +
+                std::string(kStatusOnly));
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "client/app/telemetry_feed.h"
@@ -10,6 +11,9 @@
 #include "server/console/session_picture.h"
 
 namespace tandem::console {
+
+/// End of the warning of a page that has the control connection, but no datagrams.
+inline constexpr std::string_view kStatusOnly = "; the page shows the status five times per second";
 
 /// Receives the TELEMETRY of one session on a thread of its own, so that no reply of the server delays it.
 class FeedThread {

@@ -127,8 +127,7 @@ void LivePage::send_notices(const LivePicture& own, const LivePicture& view) {
   const std::string warning = view.live || !own.connected ? std::string{} : view.warning;
   if (warning == warning_ || (warning.empty() && !view.live)) return;
   warning_ = warning;
-  send(warning.empty() ? notice_json("info", "live values are there")
-                       : notice_json("warning", warning + "; the page shows the status five times per second"));
+  send(warning.empty() ? notice_json("info", "live values are there") : notice_json("warning", warning));
 }
 
 void LivePage::send_events(const rpc::Status& status) {

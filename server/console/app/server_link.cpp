@@ -45,7 +45,7 @@ std::expected<JoinedLink, client::JoinError> join_link(client::JoinOptions optio
     } else if (feed.error().interrupted) {
       return std::unexpected(feed.error());
     } else {
-      joined.warning = feed.error().reason;
+      joined.warning = feed.error().reason + std::string(kStatusOnly);
     }
   }
   if (!joined.feed) {

@@ -61,7 +61,9 @@ TEST(RecordingDesk, ReplacesAllNamesByPseudonyms) {
   d.desk.set_person(3, "beyond the seats");
   EXPECT_EQ(d.desk.persons(), (std::vector<std::string>{"P2", "P1", "P1"}));
   EXPECT_EQ(d.desk.workstations(), (std::vector<bool>{false, false, false}));
-  d.desk.set_person(2, "local", true);
+  d.desk.set_person(2, "", "local");
+  EXPECT_EQ(d.desk.persons()[2], "P3");
+  d.desk.set_person(1, "ann", "local");
   EXPECT_EQ(d.desk.workstations(), (std::vector<bool>{false, false, true}));
   d.desk.add_note(mark(R"({"text": "x", "person": "ann"})"));
   d.desk.add_note(mark(R"({"text": "x", "person": "eva"})", "bob"));

@@ -335,8 +335,11 @@ export const en = {
   'desk.steps_console': 'Without a browser',
   'desk.steps_browser': 'In a browser',
   'desk.ticket_text': 'The ticket, to type it by hand:',
-  'desk.denied':
-    'Only operators create and end sessions; your role is {role}. Sign in with a ticket of an operator, or start tandem-console with --role operator.',
+  'desk.denied_watch': 'Only operators create and end sessions; your role is {role}.',
+  'desk.denied_ticket':
+    'Only operators create and end sessions; your role is {role}. An operator can give you a ticket of that role, with which you sign in.',
+  'desk.denied_gateway':
+    'Only operators create and end sessions; your role is {role}. Start tandem-console again with --role operator, or with the ticket of an operator.',
   'desk.end_explain': 'Session {name} ends for all participants, and all hands are released.',
   'desk.print': 'Print',
   'desk.qr': 'QR code of the link for {person}',

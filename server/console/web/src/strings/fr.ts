@@ -339,8 +339,11 @@ export const fr: Readonly<Record<StringKey, string>> = {
   'desk.steps_console': 'Sans navigateur',
   'desk.steps_browser': 'Dans un navigateur',
   'desk.ticket_text': 'Le billet, pour le taper à la main :',
-  'desk.denied':
-    'Seuls les opérateurs créent et terminent des sessions ; votre rôle est {role}. Entrez avec le billet d’un opérateur, ou démarrez tandem-console avec --role operator.',
+  'desk.denied_watch': 'Seuls les opérateurs créent et terminent des sessions ; votre rôle est {role}.',
+  'desk.denied_ticket':
+    'Seuls les opérateurs créent et terminent des sessions ; votre rôle est {role}. Un opérateur peut vous donner un billet de ce rôle, avec lequel vous entrez.',
+  'desk.denied_gateway':
+    'Seuls les opérateurs créent et terminent des sessions ; votre rôle est {role}. Redémarrez tandem-console avec --role operator, ou avec le billet d’un opérateur.',
   'desk.end_explain': 'La session {name} se termine pour tous les participants, et toutes les mains sont relâchées.',
   'desk.print': 'Imprimer',
   'desk.qr': 'Code QR du lien pour {person}',

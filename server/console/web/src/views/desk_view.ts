@@ -1,4 +1,5 @@
 import type { Page, View } from '../app/page';
+import { deskDenial } from '../logic/desk_denial';
 import { clock } from '../logic/format';
 import { kPeopleMax, lessonMistakes, type Lesson, type LessonMistake } from '../logic/lesson';
 import { kNameMax } from '../protocol/names';
@@ -114,7 +115,7 @@ export class DeskView implements View {
     const { model } = this.page;
     if (model.may('create')) return '';
     if (model.granted('create') || !model.hello) return t('order.no_connection');
-    return t('desk.denied', { role: word('role', model.hello.role) });
+    return t(deskDenial(model.hello), { role: word('role', model.hello.role) });
   }
 
   /** Name of a scene and when its sessions end; empty: the page does not know that. */

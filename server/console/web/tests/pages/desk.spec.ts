@@ -117,6 +117,7 @@ test('what a role may not do says why, in each view', async ({ start, open }) =>
     await view(page, name);
     await expect(page.locator('main')).toContainText(words);
   }
+  await expect(page.locator('main')).not.toContainText('--role operator'); // an observer cannot do that
   await expect(page.getByLabel('Name of the session')).toBeDisabled();
   await expect(page.getByRole('button', { name: 'Create session' })).toBeDisabled();
 });
