@@ -242,7 +242,8 @@ SessionInstance::Verdict SessionInstance::finish() {
     if (verdict.problem.empty()) kept.write(text);
   }
   for (io::OutputFile* file : {&json_, &trace_, &kept})
-    if (const auto problem = file->close(); !problem.empty() && verdict.problem.empty()) verdict.problem = problem;
+    if (const auto problem = file->close(); !problem.empty())
+      verdict.problem += (verdict.problem.empty() ? "" : "; ") + problem;  // each file that is cut is named
   const bool completed = (why == EndReason::kScene || why == EndReason::kAllLeft) && report.passed;
   const bool good = verdict.problem.empty() && (completed || why == EndReason::kSignal || why == EndReason::kOperator ||
                                                 why == EndReason::kTimeLimit);
