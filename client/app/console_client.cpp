@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ranges>
 #include <utility>
 
 #include "client/app/console_follow.h"
@@ -17,6 +18,7 @@
 #include "common/io/exit_code.h"
 #include "common/io/help_text.h"
 #include "common/io/print.h"
+#include "common/io/socket_address.h"
 #include "proto/rpc/session_list_text.h"
 #include "proto/rpc/session_pages.h"
 
@@ -211,8 +213,12 @@ int ConsoleClient::run(const rpc::RemoveParticipant& request) {
 }
 
 DrainTarget ConsoleClient::drain_target() {
-  DrainTarget target{"", io::to_text(console_.server), console_.service, welcome().members.size() > 1};
+  DrainTarget target{"", io::to_text(console_.server), console_.service};
   if (!console_.service) return target;
+  // The first member is the server itself.
+  for (const std::string& member : welcome().members | std::views::drop(1))
+    if (const auto addresses = io::resolve_addresses(member, 1))
+      for (const io::SocketAddress& address : *addresses) target.others.push_back(io::to_text(address));
   if (const auto list = sessions())
     for (const rpc::ListedSession& s : list->sessions)
       if (s.id == welcome().session_id) target.name = s.server;

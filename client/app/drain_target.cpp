@@ -25,7 +25,7 @@ std::string drain_text(const DrainTarget& target, std::uint32_t grace_s) {
   const std::string released =
       grace_s == 0 ? std::string("all hands are released") : format("all hands are released in %u s", grace_s);
   return named(target) + " is draining: new joins are rejected; " +
-         (target.has_others ? "its sessions move to other servers of the service, and it ends when it has none; of "
+         (!target.others.empty() ? "its sessions move to other servers of the service, and it ends when it has none; of "
                               "those that find no room "
                             : "") +
          released + ", then it ends";
@@ -33,9 +33,12 @@ std::string drain_text(const DrainTarget& target, std::uint32_t grace_s) {
 
 std::string drain_problem(const JoinOptions& asked, const DrainTarget& target, const std::string& session) {
   const std::string given = given_servers(asked);
-  const auto is_target = [&](const io::SocketAddress& a) { return io::to_text(a) == target.address; };
-  const bool meant = is_target(asked.server) || std::ranges::any_of(asked.alternatives, is_target);
-  if (target.in_service && asked.typed.size() > 1)
+  const auto has = [&](const std::string& address) {
+    const auto is = [&](const io::SocketAddress& a) { return io::to_text(a) == address; };
+    return is(asked.server) || std::ranges::any_of(asked.alternatives, is);
+  };
+  const bool meant = has(target.address);
+  if (target.in_service && (asked.typed.size() > 1 || (meant && std::ranges::any_of(target.others, has))))
     return "drain: --server names several servers of a service, " + given +
            ", and a drain ends one of them. Name only the one that is to end; it must serve the session of the ticket" +
            (session.empty() ? "" : ", as " + named(target) + " serves session " + session) + ". To end another one, " +

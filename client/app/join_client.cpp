@@ -79,7 +79,7 @@ Console console_of(ServerConnection& server, const Accepted& accepted) {
 
 /// Why a join for a drain ends at a server that sends it to another one.
 std::string drain_elsewhere(ServerConnection& server, const rpc::Elsewhere& to) {
-  DrainTarget target{"", to.address, true, true};
+  DrainTarget target{"", to.address, true, {io::to_text(server.address())}};
   const auto list = rpc::all_sessions([&](const rpc::Body& page) { return server.request<rpc::SessionList>(page); },
                                       server.service().has_value());
   if (list)
@@ -96,7 +96,7 @@ std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
   server.remember({});
   if (server.options().drains)
     if (auto problem = drain_problem(server.options(),
-                                     {"", io::to_text(server.address()), server.service().has_value(), true}, "");
+                                     {"", io::to_text(server.address()), server.service().has_value()}, "");
         !problem.empty())
       return join_failure(std::move(problem));
   auto hello = make_hello(server);

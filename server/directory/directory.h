@@ -109,7 +109,8 @@ struct Reply {
   bool held = false;       ///< Transaction: all conditions held
   std::vector<std::vector<KeyValue>> found;  ///< Transaction: entries of each Read of the executed branch
   std::vector<Change> changes;               ///< Watch
-  std::string reason;                        ///< kUnknown, kRefused: in words
+  std::string reason;                        ///< kUnknown, kRefused: in words of the store, or of the network library
+  bool unreachable = false;                  ///< kUnknown: the connection failed, and `reason` says how
 };
 
 /// Access to the store. The caller begins operations and polls replies; no call waits, and none calls back.

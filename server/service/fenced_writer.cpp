@@ -97,7 +97,11 @@ bool FencedWriter::on_reply(const directory::Reply& reply) {
   ++counters_.batches;
   if (reply.outcome != Outcome::kDone) {
     ++counters_.unknown;
-    problem_ = reply.reason.empty() ? "no answer in time" : reply.reason;
+    if (reply.unreachable) {
+      problem_ = "no server of it can be reached";  // participants read this; the log has the network's words
+    } else {
+      problem_ = reply.reason.empty() ? "no answer in time" : reply.reason;
+    }
     again(false);
   } else if (reply.held) {
     counters_.written += sent_.size();

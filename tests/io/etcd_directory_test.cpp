@@ -143,7 +143,9 @@ TEST_F(EtcdDirectoryTest, WaitsBetweenFailuresWhileNoMemberAnswers) {
   constexpr OperationId kTries = 12;
   for (OperationId n = 1; n <= kTries; ++n) {
     directory.begin(n, Transaction{});
-    EXPECT_EQ(wait_for_reply(directory, n).outcome, Outcome::kUnknown);
+    const Reply reply = wait_for_reply(directory, n);
+    EXPECT_EQ(reply.outcome, Outcome::kUnknown);
+    EXPECT_TRUE(reply.unreachable) << reply.reason;
   }
   EXPECT_GE(std::chrono::steady_clock::now() - began, 900ms) << "a tenth of a second each, but for the first members";
   EXPECT_EQ(directory.counters().begun, kTries);

@@ -1,5 +1,6 @@
 // User errors with the real programs: exit codes and messages. No program starts before all input was checked.
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
 
 #include "common/io/tcp_listener.h"
@@ -154,6 +155,25 @@ TEST(ClientErrors, ReportARejectionByTheServer) {
   expect_refused(client(address, "trainer", {"--alpha-script", strange}), 2, {"b.csv:1", "absent", "trainer trainee"});
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
+TEST(ClientInterruption, BeforeTheServerAnswersIsNoSuccess) {
+  const Folder folder;
+  for (const Words& command : {Words{"link-test"}, Words{"watch"}, Words{"record", "--out", folder.file("r")}}) {
+    SCOPED_TRACE(command.front());
+    const auto silent = io::listen_tcp(*io::parse_address("127.0.0.1:0", 0));
+    ASSERT_TRUE(silent) << silent.error();
+    Words words{TANDEM_CLIENT};
+    words.insert(words.end(), command.begin(), command.end());
+    words.insert(words.end(), {"--server", io::to_text(silent->local), "--timeout", "60"});
+    Process process(std::move(words));
+    pollfd comes{silent->fd.get(), POLLIN, 0};
+    ASSERT_EQ(::poll(&comes, 1, 30'000), 1);  // it now waits for the reply
+    process.signal(SIGINT);
+    EXPECT_EQ(process.wait(), 1);
+    expect_words(process.err(), {"ended by Ctrl-C before the server answered"});
+    EXPECT_EQ(process.out(), "");
+  }
 }
 
 }  // namespace

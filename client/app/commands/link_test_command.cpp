@@ -206,7 +206,7 @@ int test_link(const LinkTestArguments& arguments, JoinOptions options, double du
   options.caps.simulated = true;
   options.signals = signals.get();
   const auto given = join_seat(options);
-  if (!given) return given.error().interrupted ? 0 : link_test_trouble(given.error().reason);
+  if (!given) return link_test_trouble(given.error().reason);
   auto socket = io::connect_udp(given->udp);
   if (!socket) return link_test_trouble("--server: " + socket.error());
 
@@ -275,8 +275,8 @@ void add_link_test_command(const io::Command& root) {
       "GOOD: round trip up to 20 ms (99 %), jitter 2 ms, loss 0.1 %, no silence that releases a hand; USABLE: up to "
       "the age the scene\n"
       "trusts, jitter 10 ms, loss 10 %, seldom a gap of up to 50 ms; BAD: anything more.\n"
-      "Exit: 0 good or usable, or ended by a signal; 1 not fit for hands, refused, server not reachable or lost; 2 "
-      "wrong arguments.\n\n"
+      "Exit: 0 good or usable, or ended by a signal during the test; 1 not fit for hands, refused, server not reachable "
+      "or lost; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-client link-test --server 127.0.0.1:7000\n"
       "  tandem-client link-test --server lab-server:7000 --duration 30s --json link.json");

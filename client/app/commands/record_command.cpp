@@ -164,7 +164,7 @@ int record_command(const RecordArguments& arguments) {
   const io::Fd signals = io::make_signalfd();
   asking.signals = signals.get();
   auto feed = TelemetryFeed::open(asking);
-  if (!feed) return feed.error().interrupted ? io::kExitDone : record_trouble(feed.error().reason);
+  if (!feed) return record_trouble(feed.error().reason);
   auto files = RecordingFiles::open(arguments.out, feed->scene(), recording_info(*feed), {}, io::monotonic_now());
   if (!files) return record_trouble(files.error());
   return RemoteRecording(*feed, **files, arguments.quiet).run(signals.get());

@@ -168,7 +168,7 @@ int watch_command(const WatchArguments& arguments) {
   const io::Fd signals = io::make_signalfd();
   asking.signals = signals.get();
   auto feed = TelemetryFeed::open(asking);
-  if (!feed) return feed.error().interrupted ? io::kExitDone : end_watch(feed.error().reason);
+  if (!feed) return end_watch(feed.error().reason);
   if (plot)
     io::print_formatted(stderr, "tandem-client watch: JSON over UDP to %s, at most 100 datagrams per second%s\n",
                         plot->to().c_str(), plot->on_this_computer() ? "" : ", readable for everyone on that network");

@@ -113,7 +113,7 @@ int vouch_for_server(const ServiceArguments& arguments) {
 }
 
 void print_membership(const auth::ServiceMembership& membership) {
-  std::printf("member      %s\nservice key %s\nvalid until %s\nkey changes %zu\n", membership.name.c_str(),
+  std::printf("member      %s\nservice key %s\nvalid until %s\nkey changes %zu (since the service was made)\n", membership.name.c_str(),
               auth::to_hex(membership.service_key).c_str(), date_text(membership.not_after).c_str(),
               membership.key_changes.size());
 }
@@ -156,7 +156,7 @@ int show_service(const ServiceArguments& arguments) {
   if (!arguments.folder.empty()) {
     const auto service = auth::ServiceKeystore::open(arguments.folder);
     if (!service) return service_trouble(service.error());
-    std::printf("service folder %s\nservice key    %s\nkey changes    %zu\n", arguments.folder.c_str(),
+    std::printf("service folder %s\nservice key    %s\nkey changes    %zu (since the service was made)\n", arguments.folder.c_str(),
                 auth::to_hex(service->public_key()).c_str(), service->key_changes().size());
     return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
   }

@@ -138,7 +138,8 @@ std::string SessionTable::recording_words(const SessionInstance& session) {
   const auto recording = session.recording_desk()->status();
   if (!recording) return {};
   std::string text = recording->trouble.empty() ? "RECORDED" : "RECORDED WITH GAPS: " + recording->trouble;
-  if (recording->dropped > 0) text += format(", %llu ticks lost", static_cast<unsigned long long>(recording->dropped));
+  if (const auto dropped = static_cast<unsigned long long>(recording->dropped); dropped > 0)
+    text += format(", dropped %llu %s", dropped, dropped == 1 ? "tick" : "ticks");
   return text;
 }
 

@@ -40,12 +40,12 @@ SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
     case SessionPlace::Kind::kComing:
       return Coming{};
     case SessionPlace::Kind::kUnknown:
-      return Unknown{"the directory of the service does not answer, or has lost its data; try again in some seconds"};
+      return Unknown{"the directory of the service does not answer, or has lost its data"};
     case SessionPlace::Kind::kElsewhere:
       break;
   }
   auto location = location_of(*place.record, place.session, static_cast<std::uint64_t>(place.revision));
-  if (!location) return Unknown{"server " + place.server + " has published no valid key; restart it"};
+  if (!location) return Unknown{"server " + place.server + " has published no valid key (a restart of that server mends this)"};
   return std::move(*location);
 }
 

@@ -94,7 +94,10 @@ Reply failed(OperationId operation, const grpc::Status& status) {
   Reply reply;
   reply.operation = operation;
   reply.outcome = outcome_of(status);
-  reply.reason = status.error_message();
+  const bool late = status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
+  reply.reason = late ? "no answer in time" : status.error_message();
+  // etcd itself gives this code too, with its own words, while it has no leader.
+  reply.unreachable = status.error_code() == grpc::StatusCode::UNAVAILABLE && !reply.reason.starts_with("etcdserver:");
   return reply;
 }
 

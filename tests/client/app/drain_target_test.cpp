@@ -12,8 +12,8 @@ JoinOptions asked(const std::string& servers) {
   EXPECT_EQ(set_server_addresses(servers, options), "");
   return options;
 }
-const DrainTarget kAlone{"", "127.0.0.1:7000"}, kOwner{"a", "127.0.0.1:7001", true, true},
-    kLast{"a", "127.0.0.1:7001", true, false};
+const DrainTarget kAlone{"", "127.0.0.1:7000"}, kOwner{"a", "127.0.0.1:7001", true, {"127.0.0.1:7002"}},
+    kLast{"a", "127.0.0.1:7001", true};
 
 TEST(DrainTarget, ConfirmationNamesTheServerAndWhereItsSessionsGo) {
   EXPECT_EQ(drain_text(kAlone, 20),
@@ -49,6 +49,14 @@ TEST(DrainTarget, RefusalAsksForOneOfSeveralServers) {
   EXPECT_EQ(drain_problem(asked(both), kOwner, ""), begin + end);
   EXPECT_EQ(drain_problem(asked(both), kOwner, "lab"),
             begin + ", as server a at 127.0.0.1:7001 serves session lab" + end);
+}
+
+TEST(DrainTarget, RefusalAsksForOneServerWhereANameHasTheAddressesOfSeveral) {
+  JoinOptions name = asked("127.0.0.1:7002,127.0.0.1:7001");
+  name.typed = {"service.example:7000"};
+  EXPECT_EQ(drain_problem(name, kOwner, "lab").find("drain: --server names several servers of a service, service.exa"),
+            0u);
+  EXPECT_EQ(drain_problem(name, kLast, "lab"), "") << "two addresses of one server";
 }
 
 }  // namespace

@@ -102,6 +102,15 @@ TEST_F(FencedWriterTest, ReportsTheMarkOfAValueThatIsWrittenAndOfNoOther) {
   writer_.on_reply(refused);
   EXPECT_EQ(writer_.problem(), "out of space");
   EXPECT_EQ(writer_.poll_written(), std::nullopt);
+  now_ += 2s;
+  ASSERT_TRUE(writer_.poll_request(now_, ++operation_, 1s));
+  directory::Reply unreachable;
+  unreachable.operation = operation_;
+  unreachable.outcome = directory::Outcome::kUnknown;
+  unreachable.reason = "failed to connect to all addresses; last error: UNKNOWN: ipv4:10.0.0.1:2379";
+  unreachable.unreachable = true;
+  writer_.on_reply(unreachable);
+  EXPECT_EQ(writer_.problem(), "no server of it can be reached") << "participants read it";
   settle();
   EXPECT_EQ(writer_.poll_written(), 3u);
   EXPECT_EQ(writer_.problem(), "");
