@@ -46,8 +46,7 @@ OptionCheck whole_number_in(double lo, double hi) {
   const auto check = [range, whole](std::string& text) {
     std::string error = range(text);
     if (!error.empty() || whole(text).empty()) return error;
-    const std::string allowed = range.allowed();
-    return "\"" + text + "\" is not a whole number " + allowed;
+    return "\"" + text + "\" is not a whole number " + range.allowed();
   };
   return {check, range.allowed()};
 }

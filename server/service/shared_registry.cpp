@@ -72,7 +72,7 @@ bool SharedRegistry::unreadable(const std::string& name) const {
 std::string SharedRegistry::merged(const std::string& name) const {
   const std::string &before = text_in(agreed_, name), &local = text_in(local_, name);
   if (unreadable(name)) return local;
-  const std::string stored = spent_.without(name, stored_text(name));
+  std::string stored = spent_.without(name, stored_text(name));
   // Revoked here while the lost directory did not answer; another server has brought the row into the new one.
   if (local.empty() && before.empty() && !stored.empty() && stored == text_in(lost_, name)) return kNone;
   if (local == before) return stored;
