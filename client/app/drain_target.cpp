@@ -25,9 +25,10 @@ std::string drain_text(const DrainTarget& target, std::uint32_t grace_s) {
   const std::string released =
       grace_s == 0 ? std::string("all hands are released") : format("all hands are released in %u s", grace_s);
   return named(target) + " is draining: new joins are rejected; " +
-         (!target.others.empty() ? "its sessions move to other servers of the service, and it ends when it has none; of "
-                              "those that find no room "
-                            : "") +
+         (!target.others.empty()
+              ? "its sessions move to other servers of the service, and it ends when it has none; of "
+                "those that find no room "
+              : "") +
          released + ", then it ends";
 }
 

@@ -95,8 +95,8 @@ std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
   if (auto connected = server.connect(); !connected) return std::unexpected(connected.error());
   server.remember({});
   if (server.options().drains)
-    if (auto problem = drain_problem(server.options(),
-                                     {"", io::to_text(server.address()), server.service().has_value()}, "");
+    if (auto problem =
+            drain_problem(server.options(), {"", io::to_text(server.address()), server.service().has_value()}, "");
         !problem.empty())
       return join_failure(std::move(problem));
   auto hello = make_hello(server);

@@ -113,9 +113,9 @@ int vouch_for_server(const ServiceArguments& arguments) {
 }
 
 void print_membership(const auth::ServiceMembership& membership) {
-  std::printf("member      %s\nservice key %s\nvalid until %s\nkey changes %zu (since the service was made)\n", membership.name.c_str(),
-              auth::to_hex(membership.service_key).c_str(), date_text(membership.not_after).c_str(),
-              membership.key_changes.size());
+  std::printf("member      %s\nservice key %s\nvalid until %s\nkey changes %zu (since the service was made)\n",
+              membership.name.c_str(), auth::to_hex(membership.service_key).c_str(),
+              date_text(membership.not_after).c_str(), membership.key_changes.size());
 }
 
 int join_service(const ServiceArguments& arguments) {
@@ -156,8 +156,8 @@ int show_service(const ServiceArguments& arguments) {
   if (!arguments.folder.empty()) {
     const auto service = auth::ServiceKeystore::open(arguments.folder);
     if (!service) return service_trouble(service.error());
-    std::printf("service folder %s\nservice key    %s\nkey changes    %zu (since the service was made)\n", arguments.folder.c_str(),
-                auth::to_hex(service->public_key()).c_str(), service->key_changes().size());
+    std::printf("service folder %s\nservice key    %s\nkey changes    %zu (since the service was made)\n",
+                arguments.folder.c_str(), auth::to_hex(service->public_key()).c_str(), service->key_changes().size());
     return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
   }
   const auto state = open_state(arguments.state);

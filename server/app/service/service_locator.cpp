@@ -45,7 +45,8 @@ SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
       break;
   }
   auto location = location_of(*place.record, place.session, static_cast<std::uint64_t>(place.revision));
-  if (!location) return Unknown{"server " + place.server + " has published no valid key (a restart of that server mends this)"};
+  if (!location)
+    return Unknown{"server " + place.server + " has published no valid key (a restart of that server mends this)"};
   return std::move(*location);
 }
 
