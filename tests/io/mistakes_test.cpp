@@ -159,7 +159,7 @@ TEST(ClientErrors, ReportARejectionByTheServer) {
 
 TEST(ClientInterruption, BeforeTheServerAnswersIsNoSuccess) {
   const Folder folder;
-  for (const Words& command : {Words{"link-test"}, Words{"watch"}, Words{"record", "--out", folder.file("r")}}) {
+  for (const Words& command : {Words{"link-test"}, Words{"watch"}, Words{"record", "--out", folder.file("r.mcap")}}) {
     SCOPED_TRACE(command.front());
     const auto silent = io::listen_tcp(*io::parse_address("127.0.0.1:0", 0));
     ASSERT_TRUE(silent) << silent.error();

@@ -58,11 +58,13 @@ TEST(LiveSession, OfOneAxisRunsToItsEnd) {
 TEST(LiveSession, FullDiskNamesEachFileThatItCuts) {
   const Folder folder;
   // A limit of the file size in place of a full disk: it cuts each file of this process, and no other.
-  Process host({"sh", "-c", "trap '' XFSZ; ulimit -f 1; exec \"$@\"", "sh", TANDEM_SERVER, "run", "one_axis",
+  Process host({"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 8; exec \"$@\"", "sh", TANDEM_SERVER, "run", "free_motion",
                 "--duration", "1", "--json", folder.file("s.json"), "--trace", folder.file("s.csv")});
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   Process trainer = client(address_of(host), "trainer");
+  Process trainee = client(address_of(host), "trainee");
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
   EXPECT_EQ(host.wait(), 1);
   for (const char* name : {"s.json", "s.csv"})
     EXPECT_NE(host.err().find(folder.file(name)), std::string::npos) << name << "\n" << host.err();

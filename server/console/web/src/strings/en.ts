@@ -121,7 +121,8 @@ export const en = {
   'who.reason': 'Reason',
   'who.cancel': 'Cancel',
   'drain.title': 'Drain the server of this session',
-  'drain.explain': 'It takes no new participants, and ends after the grace time with all its sessions. In a service, sessions move to other servers if these have room.',
+  'drain.explain':
+    'It takes no new participants, and ends after the grace time with all its sessions. In a service, sessions move to other servers if these have room.',
   'drain.grace': 'Grace time (s)',
   'authority.title': 'Authority',
   'authority.tool': 'Tool',

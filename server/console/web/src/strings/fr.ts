@@ -123,7 +123,8 @@ export const fr: Readonly<Record<StringKey, string>> = {
   'who.reason': 'Raison',
   'who.cancel': 'Annuler',
   'drain.title': 'Vider le serveur de cette session',
-  'drain.explain': 'Il ne prend plus de participants et finit après le délai, avec toutes ses sessions. Dans un service, elles passent à d’autres serveurs si ceux-ci ont de la place.',
+  'drain.explain':
+    'Il ne prend plus de participants et finit après le délai, avec toutes ses sessions. Dans un service, elles passent à d’autres serveurs si ceux-ci ont de la place.',
   'drain.grace': 'Délai (s)',
   'authority.title': 'Autorité',
   'authority.tool': 'Outil',

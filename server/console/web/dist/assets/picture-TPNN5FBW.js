@@ -1,4 +1,4 @@
-import{R as bl,s as mr,i as Al,t as wl}from"./page-CeE8_XM0.js";/**
+import{R as bl,s as mr,i as Al,t as wl}from"./page-CQ337qVT.js";/**
  * @license
  * Copyright 2010-2024 Three.js Authors
  * SPDX-License-Identifier: MIT
