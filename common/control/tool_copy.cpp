@@ -50,7 +50,7 @@ void ToolCopy::set_leader(const AxisArray& x, const AxisArray& velocity, bool to
 const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, ChannelEnd& end) noexcept {
   engaged_for_ += p_.dt;
   grow_offset(hand);
-  decay_offset(end);
+  decay_offset(hand, end);
   apply_assist(hand, authority, end);
   apply_received_contacts(end);
   const EndState& reference = end.state();
@@ -107,11 +107,14 @@ void ToolCopy::apply_received_contacts(ChannelEnd& end) noexcept {
   if (received_contacts_.step(x, &end)) tool_.set_received_contacts(received_contacts_.surfaces());
 }
 
-void ToolCopy::decay_offset(ChannelEnd& end) noexcept {
+/// Each step is paid at the force of the spring after it, which is never less than its work. The force of the last tick
+/// lacks what the hand has moved since: 0.1 mJ per tick at 1 m/s.
+void ToolCopy::decay_offset(const AxisArray& hand, ChannelEnd& end) noexcept {
   const double pace = offset_.pace(engaged_for_);
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double step = offset_.decay(a, pace);
-    offset_.move(a, step != 0 && end.pay(a, share_ * wanted_[a] * step) ? step : 0);
+    const double force = share_ * p_.k_c * (shown_[a] - place(hand, a) + step);
+    offset_.move(a, step != 0 && end.pay(a, force * step) ? step : 0);
   }
 }
 

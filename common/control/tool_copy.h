@@ -91,7 +91,7 @@ class ToolCopy {
  private:
   void grow_offset(const AxisArray& hand) noexcept;
   void release_spring() noexcept;
-  void decay_offset(ChannelEnd& end) noexcept;
+  void decay_offset(const AxisArray& hand, ChannelEnd& end) noexcept;
   void apply_assist(const AxisArray& hand, double authority, ChannelEnd& end) noexcept;
   /// Position of the hand as the copy sees it: without its offset and the shift of its assist [m].
   [[nodiscard]] double place(const AxisArray& hand, std::size_t axis) const noexcept {

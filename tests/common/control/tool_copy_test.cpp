@@ -128,6 +128,21 @@ TEST(ToolCopy, KeepsAnOffsetDuringTheRampAndThenDecaysIt) {
   EXPECT_NEAR(seat.copy.tool().x(0), 0.02, 0.001) << "the tool came to the hand that leads it";
 }
 
+TEST(ToolCopy, PaysForTheDecayOfTheOffsetAtTheForceAfterIt) {
+  ToolCopy::Params params = one_axis();
+  params.b_rel = 0;  // a sole leader then pays for nothing else
+  Seat seat(params);
+  seat.engage(0, 0.1);
+  double force = 0;
+  for (int i = 0; i < 900; ++i) force = seat.tick(0.1);
+  ASSERT_LT(force, 0) << "the tool lags behind the place that comes to the hand";
+  const std::uint64_t before = seat.end.ledger(0).out_nj();
+  seat.tick(0.1 + 0.001);  // 1 m/s
+  // The spring is stretched by 1 mm of the hand and 0.1 mm of the decay before the tool moves.
+  const double stretch = 0.001 + 1e-4 - force / 400;
+  EXPECT_NEAR(1e-9 * static_cast<double>(seat.end.ledger(0).out_nj() - before), 400 * stretch * 1e-4, 2e-9);
+}
+
 TEST(ToolCopy, GuidesAFollowerAsFarAsItsBudgetAllows) {
   // No energy is granted: 50 mJ is all. The stored energies 1/2 k (q - y)^2 of the spring and of r are bounded by it.
   Seat poor(one_axis(), 0.05);
