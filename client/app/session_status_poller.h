@@ -37,6 +37,8 @@ class SessionStatusPoller {
   void poll_now() noexcept;
   /// Readable when `take` returns a status.
   [[nodiscard]] int status_fd() const noexcept { return news_.get(); }
+  /// Descriptor of the connection for poll(), valid during the life of this object; -1 without a connection.
+  [[nodiscard]] int connection_fd() const noexcept { return socket_.get(); }
   /// True if the connection is lost: no further status arrives, and the last one may be outdated.
   [[nodiscard]] bool ended() const noexcept { return ended_.load(std::memory_order_acquire); }
   /// Returns the newest status that was not taken yet.

@@ -19,6 +19,7 @@ namespace {
 using Kind = FileFault::Kind;
 enum class Call { kOpen, kMake, kWrite, kSync, kRename, kOther };
 
+std::mutex settings_lock;
 FileFault fault;
 std::string below;  // empty: nothing is counted
 std::atomic<std::size_t> count{0};
@@ -28,7 +29,12 @@ std::vector<std::string> names;
 
 /// Returns the absolute path of `name`; empty if it is not below the folder.
 std::string path_of(int folder, const char* name) {
-  if (below.empty()) return {};
+  std::string counted;
+  {
+    const std::lock_guard lock{settings_lock};
+    counted = below;
+  }
+  if (counted.empty()) return {};
   std::string path;
   if (name == nullptr || *name != '/') {
     if (folder == AT_FDCWD) return {};
@@ -41,7 +47,12 @@ std::string path_of(int folder, const char* name) {
   } else {
     path = name;
   }
-  return path.starts_with(below) ? path : std::string();
+  return path.starts_with(counted) ? path : std::string();
+}
+
+FileFault injected() {
+  const std::lock_guard lock{settings_lock};
+  return fault;
 }
 
 enum class Verdict { kPass, kFail, kHalf, kKillBehind };
@@ -50,16 +61,17 @@ enum class Verdict { kPass, kFail, kHalf, kKillBehind };
 Verdict judge(const char* word, Call call, const std::string& path) {
   if (path.empty()) return Verdict::kPass;
   const std::size_t number = count++;
-  if (fault.kind == Kind::kNone) {
+  const FileFault now = injected();
+  if (now.kind == Kind::kNone) {
     const std::lock_guard lock{names_lock};
     names.resize(std::max(names.size(), number + 1));
     names[number] = std::string(word) + " " + path;
     return Verdict::kPass;
   }
-  const bool behind_a_half = fault.kind == Kind::kHalf && number == fault.at + 1 && call == Call::kWrite;
-  if (number < fault.at || (number > fault.at && !fault.lasting && !behind_a_half)) return Verdict::kPass;
+  const bool behind_a_half = now.kind == Kind::kHalf && number == now.at + 1 && call == Call::kWrite;
+  if (number < now.at || (number > now.at && !now.lasting && !behind_a_half)) return Verdict::kPass;
   const bool needs_space = call == Call::kMake || call == Call::kWrite || call == Call::kSync || call == Call::kRename;
-  switch (fault.kind) {
+  switch (now.kind) {
     case Kind::kKill:
       syscall(SYS_exit_group, kKilledByFault);
       break;
@@ -75,7 +87,7 @@ Verdict judge(const char* word, Call call, const std::string& path) {
       errno = EMFILE;
       return Verdict::kFail;
     case Kind::kHalf:
-      if (call == Call::kWrite && number == fault.at) return Verdict::kHalf;
+      if (call == Call::kWrite && number == now.at) return Verdict::kHalf;
       [[fallthrough]];
     case Kind::kNoSpace:
       if (!needs_space) return Verdict::kPass;
@@ -102,7 +114,7 @@ long write_with(int file, std::size_t size, Real real) {
   const Verdict verdict = judge("write", Call::kWrite, path_of(file, nullptr));
   if (verdict != Verdict::kHalf) return call(verdict, [&] { return real(size); });
   const long written = real(size / 2);
-  if (fault.kind == Kind::kKillHalfway) syscall(SYS_exit_group, kKilledByFault);
+  if (injected().kind == Kind::kKillHalfway) syscall(SYS_exit_group, kKilledByFault);
   hit = true;
   return written;
 }
@@ -110,6 +122,7 @@ long write_with(int file, std::size_t size, Real real) {
 }  // namespace
 
 void inject(const std::string& folder, const FileFault& what) {
+  const std::lock_guard lock{settings_lock};
   below = folder;
   fault = what;
   count = 0;
@@ -119,7 +132,10 @@ void inject(const std::string& folder, const FileFault& what) {
 std::size_t file_calls() noexcept { return count; }
 bool fault_hit() noexcept { return hit; }
 std::string file_call(std::size_t at) { return at < names.size() ? names[at] : std::string(); }
-void no_faults() noexcept { below.clear(); }
+void no_faults() noexcept {
+  const std::lock_guard lock{settings_lock};
+  below.clear();
+}
 
 }  // namespace tandem::test
 

@@ -88,7 +88,7 @@ WatchEnd show(TelemetryFeed& feed, int signals, bool json, PlotStream* plot) {
   std::optional<rpc::StatusRecording> recording;
   Time next_line = io::monotonic_now();
   while (true) {
-    pollfd files[] = {{feed.fd(), POLLIN, 0}, {signals, POLLIN, 0}, {feed.console().connection->fd(), POLLRDHUP, 0}};
+    pollfd files[] = {{feed.fd(), POLLIN, 0}, {signals, POLLIN, 0}, {poller.connection_fd(), POLLRDHUP, 0}};
     poll(files, 3, TelemetryFeed::kServeIntervalMs);
     const Time now = io::monotonic_now();
     const bool newer = feed.serve(now);

@@ -200,6 +200,7 @@ KeptInputs::Reader::Item KeptInputs::Reader::read_block() {
   const auto block = blocks_.read(*head, packed_);
   if (!block) return lose("a block of the kept inputs " + block.error());
   const std::size_t stored = bytes.size() + packed_.size();
+  const std::lock_guard lock(inputs_->lock_);  // the thread of `keep` asks whether this is behind
   at_ += stored;
   return {Kind::kBlock, *block, stored};
 }
