@@ -303,7 +303,8 @@ TEST(LiveReplay, ScoresALeaveWithoutAFlag) {
   EXPECT_GT(std::ranges::count(lesson.seats[1].gate, std::uint8_t{4}), 0) << "the gate released the hand";
   const Ended scored = netsim({"score", folder.file("a.mcap"), "--json", "-", "--quiet"});
   ASSERT_EQ(scored.code, 0) << scored.err;
-  for (const Json& seat : Json::parse(scored.out)["lessons"][0]["seats"])
+  const Json scores = Json::parse(scored.out);
+  for (const Json& seat : scores["lessons"][0]["seats"])
     EXPECT_LE(seat["parts"][0]["quality"]["gate_trips"], losses) << seat["seat"];
 }
 

@@ -31,7 +31,15 @@ std::map<std::uint32_t, std::int64_t> times_of(server::TickQueue& records) {
   return times;
 }
 
+#ifdef __SANITIZE_THREAD__
+constexpr bool kSlow = true;
+#else
+constexpr bool kSlow = false;
+#endif
+constexpr const char* kTooSlow = "under the thread sanitizer 20 sessions do not get their turns within a tick";
+
 TEST(TurnsInATick, HaveATimeOfTheirOwn) {
+  if (kSlow) GTEST_SKIP() << kTooSlow;
   const SceneSpec scene = test::shipped("contact_remote");
   HostedShard host{scene, 20, true};  // 60 hands: the datagrams of 10 sessions fill half a batch
   host.run(500ms);
@@ -128,6 +136,7 @@ class SendingWithinTheTick {
 };
 
 TEST(TurnsInATick, ActOnStatesThatArriveWithinTheTick) {
+  if (kSlow) GTEST_SKIP() << kTooSlow;
   const SendingWithinTheTick run;
   ASSERT_GT(run.first().all, SendingWithinTheTick::kTicks / 2);
   ASSERT_GT(run.last().all, SendingWithinTheTick::kTicks / 2);
