@@ -116,9 +116,20 @@ TEST_F(ServiceWords, AClientJoinsByNameAndTicketWhileTheSessionMoves) {
     const std::string ticket = service.folder().write("ticket", first_line(LiveService::run(made)));
     Process move = server({"move", "lab", "--to", to, "--config", config});
     std::this_thread::sleep_for(std::chrono::milliseconds(n == 0 ? 10 : 50 * n));
-    Process joined = client(address_of(service.of(from)), "trainee",
-                            {"--session", "lab", "--ticket-file", ticket, "--state", own, "--duration", "1"});
-    EXPECT_TRUE(joined.wait_for("left the seat")) << n << ": " << joined.err();
+    const auto join = [&] {
+      return client(address_of(service.of(from)), "trainee",
+                    {"--session", "lab", "--ticket-file", ticket, "--state", own, "--duration", "1"});
+    };
+    Process joined = join();
+    // On a slow machine the client before can end while its session moves, too early to leave the seat at the new
+    // owner, which then keeps it for that client for 2 s.
+    bool left = joined.wait_for("left the seat");
+    for (int again = 0; again < 5 && !left && contains(joined.err(), "is reserved for 2 s"); ++again) {
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      joined = join();
+      left = joined.wait_for("left the seat");
+    }
+    EXPECT_TRUE(left) << n << ": " << joined.err();
     EXPECT_EQ(joined.err().find("no such session"), std::string::npos) << joined.err();
     EXPECT_EQ(joined.err().find("the seat is gone"), std::string::npos) << joined.err();
     EXPECT_EQ(move.wait(), 0) << move.err();

@@ -276,8 +276,7 @@ void add_link_test_command(const io::Command& root) {
       "the age the scene\n"
       "trusts, jitter 10 ms, loss 10 %, seldom a gap of up to 50 ms; BAD: anything more.\n"
       "Exit: 0 good or usable, or ended by a signal during the test; 1 not fit for hands, refused, server not "
-      "reachable "
-      "or lost; 2 wrong arguments.\n\n"
+      "reachable or lost; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-client link-test --server 127.0.0.1:7000\n"
       "  tandem-client link-test --server lab-server:7000 --duration 30s --json link.json");

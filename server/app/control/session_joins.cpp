@@ -135,7 +135,8 @@ void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, st
   if (resume == nullptr && reservation.reserved(io::monotonic_now()))
     return answer(ErrorReply{ErrorCode::kSeatTaken,
                              "seat " + catalogue.scene().seats[*seat].name +
-                                 " is reserved for 2 s for the client that had it when the server died",
+                                 " is reserved for 2 s for the client that had it before the restart or move of the "
+                                 "session",
                              2});
 
   reservation.begin_join();

@@ -30,6 +30,23 @@ std::optional<ServerLocation> location_of(const directory::ServerRecord& record,
   return location;
 }
 
+std::vector<std::string> member_addresses(const std::string& own,
+                                          const std::map<std::string, directory::ServerRecord>& present,
+                                          const std::map<std::string, std::string>& seen) {
+  std::vector<std::string> addresses;
+  const auto add = [&](const std::string& address) {
+    if (addresses.size() < ServiceLocator::kMembersMax && std::ranges::find(addresses, address) == addresses.end())
+      addresses.push_back(address);
+  };
+  if (const auto record = present.find(own); record != present.end())
+    add(record->second.address);
+  else if (const auto before = seen.find(own); before != seen.end())
+    add(before->second);
+  for (const auto& [name, record] : present) add(record.address);
+  for (const auto& [name, address] : seen) add(address);
+  return addresses;
+}
+
 SessionLocator::Found ServiceLocator::locate(const rpc::SessionChoice& choice) {
   const SessionPlace place = thread_.with([&](ServiceMember& member, Time) { return member.locate(choice); });
   switch (place.kind) {
@@ -73,16 +90,8 @@ void ServiceLocator::remember_members() {
 
 std::vector<std::string> ServiceLocator::members() const {
   const auto records = thread_.quietly([](const ServiceMember& member, Time) { return member.directory().members(); });
-  std::vector<std::string> addresses;
-  const auto add = [&](const std::string& address) {
-    if (addresses.size() < kMembersMax && std::ranges::find(addresses, address) == addresses.end())
-      addresses.push_back(address);
-  };
-  if (const auto own = records.find(server_); own != records.end()) add(own->second.address);
-  for (const auto& [name, record] : records) add(record.address);
   const std::lock_guard lock(lock_);
-  for (const auto& [name, address] : addresses_) add(address);
-  return addresses;
+  return member_addresses(server_, records, addresses_);
 }
 
 bool ServiceLocator::fresh() const noexcept {

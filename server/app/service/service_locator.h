@@ -38,4 +38,10 @@ class ServiceLocator final : public SessionLocator {
 [[nodiscard]] std::optional<ServerLocation> location_of(const directory::ServerRecord& record,
                                                         const std::string& session, std::uint64_t revision);
 
+/// Returns addresses of members, each once, at most kMembersMax: of server `own` first, also while the directory does
+/// not have its record; then of the present ones, then of others that were seen. Keys are names.
+[[nodiscard]] std::vector<std::string> member_addresses(const std::string& own,
+                                                        const std::map<std::string, directory::ServerRecord>& present,
+                                                        const std::map<std::string, std::string>& seen);
+
 }  // namespace tandem::server
