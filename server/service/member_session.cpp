@@ -150,6 +150,7 @@ MemberSession::Next MemberSession::on_loaded(const Reply& reply, EpochBase& base
     phase_ = Phase::kWriting;
     return Next::kNothing;
   }
+  if (spec_text != nullptr && !spec && !spec_) return Next::kUnreadable;
   if (spec && spec_) spec_->epoch_base = std::max(spec_->epoch_base, spec->epoch_base);
   // A configured session without owner begins; any other without a spec has ended.
   phase_ = spec_ ? Phase::kWriting : Phase::kEnding;

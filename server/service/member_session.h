@@ -84,6 +84,7 @@ class MemberSession {
     kNothing,
     kOpen,     ///< `run` is to be opened
     kRelease,  ///< the ownership is to be released: no key is left
+    kUnreadable,  ///< the same, and its keys stay: another release may have written them
     kTaken,    ///< the same: the name of the creation belongs to a session without owner
   };
   /// Takes the reply that it waits for.

@@ -19,6 +19,12 @@ std::optional<ServiceEvent> MemberSessions::poll_event() {
   return event;
 }
 
+bool MemberSessions::takes_away() const noexcept {
+  return std::ranges::any_of(events_, [](const ServiceEvent& event) {
+    return event.kind == ServiceEvent::Kind::kGiveUp || event.kind == ServiceEvent::Kind::kHandOver;
+  });
+}
+
 std::optional<MemberSession::Phase> MemberSessions::phase(std::string_view session) const {
   const auto found = entries_.find(session);
   return found == entries_.end() ? std::nullopt : std::optional(found->second.session.phase());
@@ -32,6 +38,14 @@ std::size_t MemberSessions::open() const noexcept {
 MemberSession* MemberSessions::in(Phase phase, const std::string& session) {
   const auto found = entries_.find(session);
   return found == entries_.end() || found->second.session.phase() != phase ? nullptr : &found->second.session;
+}
+
+MemberSession* MemberSessions::served(const std::string& session) {
+  const auto found = entries_.find(session);
+  if (found == entries_.end()) return nullptr;
+  Entry& entry = found->second;
+  const bool moves = entry.session.phase() == Phase::kMoving && !entry.move.handed_over;
+  return entry.session.is_open() || moves ? &entry.session : nullptr;
 }
 
 void MemberSessions::refuse(const std::string& session, Entry& entry, std::string why) {
@@ -102,17 +116,17 @@ void MemberSessions::release(Time now, const std::string& session) {
 }
 
 void MemberSessions::end(const std::string& session) {
-  MemberSession* const open = in(Phase::kOpen, session);
-  if (open == nullptr) return;
+  MemberSession* const over = served(session);
+  if (over == nullptr) return;
   directory_.writer.drop(session);
-  open->end();
+  over->end();
 }
 
 void MemberSessions::replace(const std::string& session, ServiceSession spec) {
-  MemberSession* const open = in(Phase::kOpen, session);
-  if (open == nullptr) return;
+  MemberSession* const over = served(session);
+  if (over == nullptr) return;
   directory_.writer.drop(session);
-  open->replace(std::move(spec));
+  over->replace(std::move(spec));
 }
 
 void MemberSessions::set_snapshot(const std::string& session, std::string bytes, std::uint64_t mark, bool order) {
@@ -225,6 +239,10 @@ std::string MemberSessions::on_reply(Time now, const directory::Reply& reply) {
       refuse(session, entry, "a session " + session + " exists already, and no server serves it now");
       release(now, session);
       return {};
+    case MemberSession::Next::kUnreadable:
+      refused_until_[session] = now + kRefusalPause;
+      events_.push_back({.kind = ServiceEvent::Kind::kUnreadable, .session = session});
+      [[fallthrough]];
     case MemberSession::Next::kRelease:
       release(now, session);
       return {};

@@ -18,6 +18,7 @@ struct ServiceEvent {
     kGiveUp,    ///< end it here, its state stays; answer with `on_given_up`
     kHandOver,  ///< the same, because it moves, `text` says why; answer with `on_handed_over` when it is over
     kRefused,   ///< a creation is refused: `text` says why
+    kUnreadable,  ///< the session cannot be opened: its spec in the directory is damaged, or of another release
   };
   Kind kind{};
   std::string session;
@@ -53,6 +54,8 @@ class MemberSessions {
 
   [[nodiscard]] std::optional<ServiceEvent> poll_event();
   [[nodiscard]] bool has_event() const noexcept { return !events_.empty(); }
+  /// Whether an order waits after which this server serves a session no more.
+  [[nodiscard]] bool takes_away() const noexcept;
 
   /// Claims a session that no server owns, unless it could not be opened here a short time ago.
   void want(const std::string& session);
@@ -68,7 +71,8 @@ class MemberSessions {
   void on_open_failed(Time now, const std::string& session);
   void on_given_up(const std::string& session);
 
-  /// The session is over: erases its keys, then its ownership.
+  /// The session is over: erases its keys, then its ownership. Nothing is handed over of a session that ends before the
+  /// server has begun that.
   void end(const std::string& session);
   /// Another run replaces the session under the same ownership. kOpen follows.
   void replace(const std::string& session, ServiceSession spec);
@@ -111,6 +115,8 @@ class MemberSessions {
   using Phase = MemberSession::Phase;
 
   [[nodiscard]] MemberSession* in(Phase phase, const std::string& session);
+  /// A session that is served here, also if its hand-over was ordered but has not begun.
+  [[nodiscard]] MemberSession* served(const std::string& session);
   void refuse(const std::string& session, Entry& entry, std::string why);
   void release(Time now, const std::string& session);
   void report_open(const std::string& session, Entry& entry);

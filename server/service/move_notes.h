@@ -20,6 +20,7 @@ struct MoveNotes {
   std::optional<SessionLoad> load{};
   std::string target{};       ///< of the newest move
   int steps_until_move = -1;  ///< after the hand-over; -1: not handed over, or the ownership is moving
+  std::optional<Time> handed_over{};  ///< of the newest move; nullopt: the session still runs here
   Time next_standby{};        ///< then a standby is chosen
 };
 

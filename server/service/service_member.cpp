@@ -139,7 +139,7 @@ void ServiceMember::take_notices(Time now) {
         name_taken_ = true;
         break;
       case Notice::Kind::kStandbyRefused:
-        moves_.on_standby_refused(now, session);
+        moves_.on_standby_refused(now, session, notice->other);
         break;
       case Notice::Kind::kLeaseLost:  // a kLost of each session follows
         mark_.doubt();

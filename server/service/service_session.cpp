@@ -1,5 +1,6 @@
 #include "server/service/service_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -60,6 +61,7 @@ std::string to_text(const ServiceSession& session) {
 std::optional<ServiceSession> parse_service_session(std::string_view text) {
   constexpr std::size_t kTextMax = 255;
   constexpr double kDurationMax = 3e6;
+  constexpr std::int64_t kEndsMax = 8'000'000'000;  // in the year 2223: still a time in nanoseconds
   constexpr std::int64_t kEpochBaseMax = std::int64_t{1} << 62;  // half of what an epoch can be
   if (text.size() > kServiceSessionMax) return std::nullopt;
   const Json in = Json::parse(text, nullptr, false);
@@ -72,8 +74,10 @@ std::optional<ServiceSession> parse_service_session(std::string_view text) {
                         read(in, "restart", out.restart) && read(in, "created", out.created) &&
                         read(in, "ends_s", out.ends_s);
   if (!complete || out.code.size() > kTextMax || out.scene.empty() || out.scene_name.empty() ||
-      out.scene_name.size() > kTextMax || out.ends_s < 0)
+      out.scene_name.size() > kTextMax || out.ends_s < 0 || out.ends_s > kEndsMax)
     return std::nullopt;
+  const auto of_code = [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z'); };
+  if (!std::ranges::all_of(out.code, of_code)) return std::nullopt;
   if (in.contains("epoch_base") && !read(in, "epoch_base", out.epoch_base)) return std::nullopt;
   if (out.epoch_base < 0 || out.epoch_base > kEpochBaseMax) return std::nullopt;
   if (!(out.duration_s >= 0 && out.duration_s <= kDurationMax)) return std::nullopt;

@@ -12,6 +12,8 @@ constexpr int kStepsUntilMove = 2;
 constexpr Duration kBalanceInterval = std::chrono::milliseconds(250);
 constexpr Duration kStandbyCheck = std::chrono::seconds(1);
 constexpr Duration kStandbyPause = std::chrono::seconds(2);  // between two attempts to name a standby
+/// For the last snapshot of a session that moves. A directory without space stores none, and keeps the leases.
+constexpr Duration kWritingMax = std::chrono::seconds(5);
 
 std::string words(directory::PlannedMove::Why why) {
   switch (why) {
@@ -32,7 +34,7 @@ void SessionMoves::step(Time now, const directory::ServerRecord& own) {
   balance(now, own);
   for (auto& [session, entry] : sessions_.entries()) {
     if (entry.session.is_open()) choose_standby(now, session, entry, own);
-    if (entry.session.phase() == MemberSession::Phase::kMoving) advance(session, entry);
+    if (entry.session.phase() == MemberSession::Phase::kMoving) advance(now, session, entry);
   }
 }
 
@@ -40,7 +42,7 @@ void SessionMoves::step(Time now, const directory::ServerRecord& own) {
 void SessionMoves::follow_orders() {
   const ServiceCatalogue& catalogue = directory_.catalogue;
   const ServiceKeys& keys = directory_.keys;
-  if (orders_seen_ == catalogue.version()) return;
+  if (orders_seen_ == catalogue.version() || !directory_.writer.problem().empty()) return;
   orders_seen_ = catalogue.version();
   for (const auto& [session, seen] : catalogue.entries()) {
     const auto found = sessions_.entries().find(session);
@@ -70,7 +72,7 @@ void SessionMoves::balance(Time now, const directory::ServerRecord& own) {
   auto& entries = sessions_.entries();
   if (now < next_balance_ || entries.empty() || !(balances_ || own.drains)) return;
   next_balance_ = now + kBalanceInterval;
-  if (!directory_.ready()) return;
+  if (!directory_.ready() || !directory_.writer.problem().empty()) return;
   std::vector<directory::PlacedSession> placed;
   for (const auto& [session, entry] : entries) {
     if (entry.session.phase() == MemberSession::Phase::kMoving) return;
@@ -87,34 +89,40 @@ void SessionMoves::balance(Time now, const directory::ServerRecord& own) {
 void SessionMoves::begin(const std::string& session, Entry& entry, const std::string& server, const std::string& why) {
   entry.move.target = server;
   entry.move.steps_until_move = -1;
+  entry.move.handed_over.reset();
   ++begun_;
   sessions_.hand_over(session, entry, "MOVES to server " + server + ", " + why);
 }
 
-void SessionMoves::on_handed_over(const std::string& session) {
+void SessionMoves::on_handed_over(Time now, const std::string& session) {
   const auto found = sessions_.entries().find(session);
-  if (found != sessions_.entries().end() && found->second.session.phase() == MemberSession::Phase::kMoving)
-    found->second.move.steps_until_move = kStepsUntilMove;
+  if (found == sessions_.entries().end() || found->second.session.phase() != MemberSession::Phase::kMoving) return;
+  found->second.move.steps_until_move = kStepsUntilMove;
+  found->second.move.handed_over = now;
 }
 
-void SessionMoves::advance(const std::string& session, Entry& entry) {
+void SessionMoves::advance(Time now, const std::string& session, Entry& entry) {
   if (entry.move.steps_until_move < 0) return;
   if (entry.move.steps_until_move > 0) {
     --entry.move.steps_until_move;
     return;
   }
   // The last snapshot, and the tickets of consoles.
-  if (directory_.writer.pending(session) || directory_.tickets.restoring(session)) return;
+  if (directory_.writer.pending(session) || directory_.tickets.restoring(session)) {
+    if (now - *entry.move.handed_over < kWritingMax) return;
+    entry.move.steps_until_move = -1;
+    return entry.session.set_phase(MemberSession::Phase::kLoading);  // opened here again
+  }
   entry.move.steps_until_move = -1;
   if (!directory_.ownership.move(session, entry.move.target)) entry.session.set_phase(MemberSession::Phase::kLoading);
 }
 
-void SessionMoves::on_standby_refused(Time now, const std::string& session) {
+void SessionMoves::on_standby_refused(Time now, const std::string& session, const std::string& refused) {
   const auto found = sessions_.entries().find(session);
   if (found == sessions_.entries().end()) return;
   Entry& entry = found->second;
   entry.move.next_standby = now + kStandbyPause;
-  if (entry.session.phase() == MemberSession::Phase::kMoving)
+  if (entry.session.phase() == MemberSession::Phase::kMoving && entry.move.handed_over && refused == entry.move.target)
     entry.session.set_phase(MemberSession::Phase::kLoading);  // opened here again
 }
 

@@ -14,7 +14,8 @@ namespace tandem::server {
 
 /// Decides which open sessions of this server move to which others, and their standbys: by order of an operator, to
 /// spread the load, and when this server drains. A session moves when its last snapshot is in the directory and the
-/// tickets of its consoles are valid again.
+/// tickets of its consoles are valid again. If that takes more than 5 s it is opened here again. No move begins while
+/// the directory does not store snapshots.
 class SessionMoves {
  public:
   /// @param directory, sessions  must outlive this
@@ -25,9 +26,10 @@ class SessionMoves {
   /// Sets the loads of the sessions of this server. A session moves by itself only after its load was set.
   void set_loads(const std::vector<SessionLoad>& loads);
   /// A session that moves is over here, and its last snapshot is published.
-  void on_handed_over(const std::string& session);
+  void on_handed_over(Time now, const std::string& session);
   /// The server that was named as standby, or as the target of a move, is not registered.
-  void on_standby_refused(Time now, const std::string& session);
+  /// @param refused  its name
+  void on_standby_refused(Time now, const std::string& session, const std::string& refused);
   /// @param own  record of this server as it is now
   void step(Time now, const directory::ServerRecord& own);
   /// Moves that this server has begun.
@@ -39,7 +41,7 @@ class SessionMoves {
   void follow_orders();
   void balance(Time now, const directory::ServerRecord& own);
   void begin(const std::string& session, Entry& entry, const std::string& server, const std::string& why);
-  void advance(const std::string& session, Entry& entry);
+  void advance(Time now, const std::string& session, Entry& entry);
   void choose_standby(Time now, const std::string& session, Entry& entry, const directory::ServerRecord& own);
   /// All servers as their records have them; this one as it is now.
   [[nodiscard]] std::vector<directory::Candidate> candidates(const directory::ServerRecord& own) const;

@@ -39,7 +39,7 @@ std::optional<SessionEnding> session_ending(const SessionEnding::Times& when, co
                           "required seats not ready: " + waiting_for(status, scene) +
                               format(" within %g s (--start-timeout); the session ends", when.start_timeout_s),
                           true}};
-  if (when.resume_until && when.now > *when.resume_until && none_returned(status, scene))
+  if (when.return_until && when.now > *when.return_until && none_returned(status, scene))
     return SessionEnding{
         EndReason::kStartTimeout,
         {"nobody_came_back", "",

@@ -26,8 +26,8 @@ struct SessionEnding {
   struct Times {
     Time now{}, began{};         ///< began: start of the server
     double start_timeout_s = 0;  ///< [s] for the required seats, since the server began; 0: no limit
-    /// Participants of a restored session can resume until then; nullopt: a new session.
-    std::optional<Time> resume_until{};
+    /// Participants of a restored session must have come back until then; nullopt: there were none.
+    std::optional<Time> return_until{};
     std::optional<Time> ends_at{};  ///< time limit of a created session; nullopt: none
   };
   EndReason why = EndReason::kStartTimeout;

@@ -86,6 +86,19 @@ std::expected<SessionTable::Place, ErrorReply> SessionTable::find_place(const Sc
   return std::unexpected(ErrorReply{ErrorCode::kFull, "all slots of sessions are in use; end one first", 0});
 }
 
+std::optional<ErrorReply> SessionTable::load_problem(double tick_hz) const {
+  double all = 0;
+  for (const auto& shard : shards_.all()) all += shard->load().cpu_share();
+  Load own{};
+  if (const auto shard = least_loaded(expected_loads(), tick_hz)) {
+    const ShardLoad& load = shards_.all()[*shard]->load();
+    own = {load.cpu_share(), load.state().level == ShedLevel::kNewJoins};
+  }
+  std::string why = rejection_reason(own, all, io::available_processors(), options_.control.load_limits);
+  if (why.empty()) return std::nullopt;
+  return ErrorReply{ErrorCode::kFull, std::move(why), 5};
+}
+
 rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
   if (auto problem = creation_problem()) return std::move(*problem);
   const bool configured =
@@ -101,13 +114,7 @@ rpc::Body SessionTable::create_session(const rpc::CreateSession& wanted) {
   const auto options = std::make_shared<const SessionOptions>(std::move(*checked));
   const auto place = find_place(options->scene);
   if (!place) return place.error();
-  double all = 0;
-  for (const auto& shard : shards_.all()) all += shard->load().cpu_share();
-  const ShardLoad& own = shards_.all()[place->shard]->load();
-  if (std::string why = rejection_reason({own.cpu_share(), own.state().level == ShedLevel::kNewJoins}, all,
-                                         io::available_processors(), options_.control.load_limits);
-      !why.empty())
-    return ErrorReply{ErrorCode::kFull, std::move(why), 5};
+  if (auto problem = load_problem(options->scene.tick_hz)) return std::move(*problem);
 
   if (!shards_.assign(place->slot, place->shard))
     return ErrorReply{ErrorCode::kInternal, "the kernel gives no memory for the distribution of datagrams", 5};
@@ -157,6 +164,7 @@ void SessionTable::end_session(SessionOrder order) {
     return reply(order, ErrorReply{ErrorCode::kNoSession, "this server has no such session", 0});
   SessionInstance& session = **found;
   const auth::Id16 id = session.id();
+  if (session.end == EndReason::kGivenUp) return reply(order, goes_on_elsewhere(session));
   if (!session.end) {
     session.end = EndReason::kOperator;
     const std::string text = "ENDED by " + order.who + (wanted.why.empty() ? "" : ": " + wanted.why);
@@ -169,10 +177,19 @@ void SessionTable::end_session(SessionOrder order) {
   endings_.push_back({id, std::move(order)});
 }
 
-void SessionTable::reply_ended(const auth::Id16& id) {
+std::vector<SessionOrder> SessionTable::take_endings(const auth::Id16& id) {
+  std::vector<SessionOrder> taken;
   const auto rest = std::ranges::stable_partition(endings_, [&](const Ending& e) { return e.session != id; });
-  for (const Ending& ending : rest) reply(ending.order, rpc::Ok{});
+  for (Ending& ending : rest) taken.push_back(std::move(ending.order));
   endings_.erase(rest.begin(), rest.end());
+  return taken;
+}
+
+ErrorReply SessionTable::goes_on_elsewhere(const SessionInstance& session) {
+  return {ErrorCode::kNotNow,
+          "session " + session.options().name +
+              " is leaving this server and goes on at another one of the service; join it there and end it again",
+          2};
 }
 
 }  // namespace tandem::server

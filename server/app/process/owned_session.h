@@ -24,6 +24,7 @@ struct OwnedSession {
   std::vector<auth::Id16> consoles{};         ///< tickets of the consoles at its former owner
   /// Of the ownership in the directory. It becomes the session's epoch: higher than that of each former owner.
   std::uint64_t revision = 0;
+  Time act_until{};                  ///< its first limit, as `LiveSession::set_act_until` has it: none of its ticks acts without
   SnapshotKeeper* keeper = nullptr;  ///< must outlive the session
   /// Called on the main loop's thread when the session is over and serves no client any more.
   /// @param given_up  another server may own the session by now; false: it has ended

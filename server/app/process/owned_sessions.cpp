@@ -44,6 +44,7 @@ std::string SessionTable::open_owned(OwnedSession owned) {
   session.keep_options(std::move(owned.options), owned.ends_at);
   session.set_keeper(owned.keeper);
   session.set_owned(std::move(owned.on_over), std::move(owned.consoles));
+  session.live_session().set_act_until(owned.act_until);
   if (!serve_opened(std::move(*opened))) return "the thread of this tick rate takes no sessions at present";
   report_restored(session, found, age_s);
   return {};
@@ -54,8 +55,11 @@ void SessionTable::give_up(const std::string& name) {
            {"given_up", "", "GIVEN UP: this server owns the session no more; its clients join the next owner", true});
 }
 
-void SessionTable::hand_over(const std::string& name, std::string text) {
+bool SessionTable::hand_over(const std::string& name, std::string text) {
+  const auto found = std::ranges::find_if(sessions_, [&](const auto& s) { return s->options().name == name; });
+  if (found == sessions_.end() || ((*found)->end && (*found)->end != EndReason::kGivenUp)) return false;
   end_here(name, {"moves", "", std::move(text), false});
+  return true;
 }
 
 void SessionTable::end_here(const std::string& name, const PresenceTracker::Event& event) {

@@ -121,6 +121,12 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
   return run;
 }
 
+std::optional<Time> SessionInstance::return_until() const noexcept {
+  if (!snapshot_ || !snapshot_->checkpoint.begun) return std::nullopt;
+  const auto seats = std::span(snapshot_->checkpoint.seats).first(options_->scene.seats.size());
+  return std::ranges::any_of(seats, &Checkpoint::Seat::taken) ? std::optional(resume_until_) : std::nullopt;
+}
+
 void SessionInstance::set_keeper(SnapshotKeeper* keeper) {
   keeper_ = keeper;
   if (keeper == nullptr) return;

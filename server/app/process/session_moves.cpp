@@ -50,10 +50,12 @@ std::vector<SessionUse> SessionTable::uses() const {
     if (session.live_session().over()) continue;
     const SceneSpec& scene = session.options().scene;
     const SessionStatus status = session.live_session().status();
+    // It ends 10 s after the last participant has left, which its next owner would not know of.
+    const bool ends_soon = scene.endless() && std::ranges::any_of(status.seats, &SeatStatus::ever_taken);
     uses.push_back({.name = session.options().name,
                     .measured = views[i].cost,
                     .expected = std::max(views[i].cost, expected_cost({scene.tick_hz, scene.seats.size()})),
-                    .waiting = std::ranges::none_of(status.seats, &SeatStatus::taken)});
+                    .waiting = std::ranges::none_of(status.seats, &SeatStatus::taken) && !ends_soon});
   }
   return uses;
 }

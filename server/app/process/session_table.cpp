@@ -169,9 +169,7 @@ void SessionTable::service_session(SessionInstance& session, Time now) {
   for (const PresenceTracker::Event& event : news.events) report(session, status, event);
   if (status.state == wire::SessionState::kWaiting) session.missing_seats = waiting_for(status, scene);
   if (session.end) return;
-  const SessionEnding::Times when{now, began_, options_.start_timeout_s,
-                                  session.snapshot() != nullptr ? std::optional{session.resume_until()} : std::nullopt,
-                                  session.ends_at()};
+  const SessionEnding::Times when{now, began_, options_.start_timeout_s, session.return_until(), session.ends_at()};
   if (const auto ending = session_ending(when, news, status, scene)) {
     report(session, status, ending->event);
     session.end = ending->why;
@@ -238,8 +236,9 @@ bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
   io::log_event(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
                 {.event = "session_over", .session = name, .text = session.outcome_text(verdict.report)});
   if (!verdict.problem.empty()) output_.error(verdict.problem);
-  reply_ended(id);
   if (session.on_over()) session.on_over()(kept);
+  for (const SessionOrder& order : take_endings(id))
+    reply(order, session.end == EndReason::kGivenUp ? rpc::Body(goes_on_elsewhere(session)) : rpc::Ok{});
   if (session.on_over() || !session.options().restart || draining_ || control_.registry().drain().due()) {
     if (!session.created()) exit_code_ = std::max(exit_code_, verdict.code);
     if (draining_) {

@@ -58,15 +58,22 @@ class SessionTable {
   /// Executes an operator's order: creates a session, or begins to end one. Its reply follows on the control thread,
   /// for an end when the session is over.
   void execute(SessionOrder order);
+  /// Takes the orders that ended a session, whose reply is then the caller's. For `OwnedSession::on_over`.
+  [[nodiscard]] std::vector<SessionOrder> take_endings(const auth::Id16& id);
+  /// Has the control thread answer an order.
+  void reply(const SessionOrder& order, rpc::Body body);
   /// Why no operator may create another session now; nullopt: one may.
   [[nodiscard]] std::optional<rpc::ErrorReply> creation_problem() const;
+  /// Why this server has no room for one more session of this rate [Hz]; nullopt: it has.
+  [[nodiscard]] std::optional<rpc::ErrorReply> load_problem(double tick_hz) const;
   /// Opens a session that this server owns in its service, and serves it. @return why it cannot; empty: it is served
   [[nodiscard]] std::string open_owned(OwnedSession owned);
   /// Ends a session of a service that another server may own by now: releases all hands at once and tells the clients
   /// to join again; its snapshot stays. Nothing happens if this server does not serve it.
   void give_up(const std::string& name);
   /// The same, because the session moves to another server. @param text  says so to the operator
-  void hand_over(const std::string& name, std::string text);
+  /// @return false: the session ends already, and does not go on elsewhere; or this server does not serve it
+  bool hand_over(const std::string& name, std::string text);
   /// Use of the processors by each session that is not over.
   [[nodiscard]] std::vector<SessionUse> uses() const;
   /// Reports about recordings, also of sessions that are over, and forgets those that are complete.
@@ -113,9 +120,7 @@ class SessionTable {
   /// Loads of the shards when all clients of their sessions have joined: the greater of measured and expected costs.
   [[nodiscard]] std::vector<ShardView> expected_loads() const;
   [[nodiscard]] std::string shard_text(std::size_t shard) const;
-  void reply(const SessionOrder& order, rpc::Body body);
-  /// Replies to the orders that ended this session.
-  void reply_ended(const auth::Id16& id);
+  [[nodiscard]] static rpc::ErrorReply goes_on_elsewhere(const SessionInstance& session);
 
   [[nodiscard]] std::expected<std::unique_ptr<SessionInstance>, int> open_session(
       const SessionOptions& options, std::size_t slot, std::uint64_t epoch, const SessionSnapshot* snapshot = nullptr);

@@ -115,12 +115,14 @@ void ServiceHost::step(Time now) {
       open_failed(next.event, "its former run on this server does not end");
   }
   set_act_until();
+  ended_.step(now, *thread_, parts_.sessions);
   report(thread_->quietly([this](const ServiceMember& member, Time t) { return news_.update(t, member.status(t)); }));
   if (published_ && now - *published_ < kPublishInterval) return;
   published_ = now;
   publish_lists();
   publish_load();
   report_differences();
+  forget_moved();
   locator_->remember_members();
 }
 
@@ -137,10 +139,19 @@ void ServiceHost::execute(ServiceEvent event, Time now) {
       thread_->with([&](ServiceMember& member, Time) { member.sessions().on_given_up(event.session); });
       return;
     case ServiceEvent::Kind::kHandOver:
+      // A session that ends just now does not go on elsewhere: `on_over` ends it in the directory.
+      if (!parts_.sessions.hand_over(event.session, event.text + "; its clients join there")) return;
       handing_over_.insert(event.session);
       parts_.control.release_consoles(event.session);
-      parts_.sessions.hand_over(event.session, event.text + "; its clients join there");
       return;
+    case ServiceEvent::Kind::kUnreadable: {
+      const std::string text = "session " + event.session +
+                               " is not served here: the directory has it in a form that this release does not read. "
+                               "Another release may; to end it, erase its keys with etcdctl";
+      parts_.output.report(io::Level::kWarn, {.event = "service_unreadable", .session = event.session, .text = text},
+                           text);
+      return;
+    }
     case ServiceEvent::Kind::kRefused:
       reply(event.order, rpc::ErrorReply{rpc::ErrorCode::kNotAllowed, event.text, 0});
       return;
@@ -164,6 +175,7 @@ void ServiceHost::open_session(const ServiceEvent& event) {
       .id = event.spec.id,
       .code = event.spec.code,
       .revision = static_cast<std::uint64_t>(event.revision),
+      .act_until = thread_->quietly([](const ServiceMember& m, Time) { return m.served_until().value_or(Time{}); }),
       .keeper = &snapshots_,
       .on_over = [this, name = event.session, spec = event.spec](bool given_up) { on_over(name, spec, given_up); }};
   if (event.spec.ends_s > 0)
@@ -207,8 +219,12 @@ void ServiceHost::open_failed(const ServiceEvent& event, const std::string& why)
 void ServiceHost::on_over(const std::string& session, const ServiceSession& spec, bool given_up) {
   listed_.erase(session);
   if (handing_over_.erase(session) > 0)
-    return thread_->with([&](ServiceMember& member, Time) { member.moves().on_handed_over(session); });
+    return thread_->with([&](ServiceMember& member, Time now) {
+      member.moves().on_handed_over(now, session);
+      handed_over_.insert(session);
+    });
   if (leaving_ || given_up) return;
+  ended_.add(session, spec.id, parts_.sessions.take_endings(spec.id), io::monotonic_now());
   thread_->with([&](ServiceMember& member, Time) {
     if (!spec.restart) return member.sessions().end(session);
     ServiceSession next = spec;
@@ -223,9 +239,17 @@ void ServiceHost::reply(std::uint64_t order, rpc::Body body) {
   if (found == orders_.end()) return;
   const SessionOrder answered = std::move(found->second);
   orders_.erase(found);
-  parts_.control.change([&](SessionRegistry&, const auto& done) {
-    answered.answer(std::move(body));
-    done();
+  parts_.sessions.reply(answered, std::move(body));
+}
+
+/// A session that has moved leaves nothing here, unless it has come back.
+void ServiceHost::forget_moved() {
+  std::erase_if(handed_over_, [this](const std::string& session) {
+    const auto phase =
+        thread_->quietly([&](const ServiceMember& member, Time) { return member.sessions().phase(session); });
+    if (phase == MemberSession::Phase::kMoving) return false;
+    if (!phase) snapshots_.remove(session);
+    return true;
   });
 }
 
@@ -251,12 +275,13 @@ bool ServiceHost::take(SessionOrder& order) {
       spec = spec_of(*options);
       spec->created = true;
       if (wanted->life_s > 0) spec->ends_s = auth::wall_seconds() + wanted->life_s;
+      problem = parts_.sessions.load_problem(options->scene.tick_hz);
     } else {
       problem = options.error();
     }
   }
   orders_.emplace(number, std::move(order));
-  if (spec && !thread_->with(
+  if (!problem && !thread_->with(
                   [&](ServiceMember& member, Time now) { return member.create(now, name, std::move(*spec), number); }))
     problem =
         rpc::ErrorReply{rpc::ErrorCode::kNotAllowed,

@@ -10,6 +10,7 @@
 
 #include "server/app/process/session_table.h"
 #include "server/app/service/directory_snapshots.h"
+#include "server/app/service/ended_sessions.h"
 #include "server/app/service/registry_mirror.h"
 #include "server/app/service/service_list_file.h"
 #include "server/app/service/service_locator.h"
@@ -73,6 +74,7 @@ class ServiceHost {
   void open_session(const ServiceEvent& event);
   void open_failed(const ServiceEvent& event, const std::string& why);
   void reply(std::uint64_t order, rpc::Body body);
+  void forget_moved();
   void on_over(const std::string& session, const ServiceSession& spec, bool given_up);
   [[nodiscard]] std::optional<rpc::ErrorReply> creation_problem(const rpc::CreateSession& wanted) const;
   [[nodiscard]] std::expected<std::shared_ptr<const SessionOptions>, std::string> options_of(
@@ -98,7 +100,9 @@ class ServiceHost {
   std::vector<Waiting> waiting_;
   std::map<std::uint64_t, SessionOrder> orders_;  ///< creations without a reply, by number
   std::uint64_t newest_order_ = 0;
-  std::set<std::string> handing_over_;         ///< sessions that move to another server
+  EndedSessions ended_;
+  std::set<std::string> handing_over_;         ///< sessions that move to another server, and are not over here
+  std::set<std::string> handed_over_;          ///< the same, once they are over here
   std::map<std::string, std::string> listed_;  ///< as last published
   std::set<std::string> watched_;              ///< sessions with consoles
   std::optional<Time> published_;

@@ -31,7 +31,10 @@ class CuttableDirectory final : public directory::Directory {
  public:
   explicit CuttableDirectory(directory::ModelStore& store) : inner_(store) {}
   void begin(directory::OperationId operation, const directory::Request& request) override {
-    if (cut) return unknown(operation);
+    const auto* const transaction = std::get_if<directory::Transaction>(&request);
+    const auto writes = [](const directory::Step& step) { return std::holds_alternative<directory::Put>(step); };
+    if (cut || (full && transaction != nullptr && std::ranges::any_of(transaction->then, writes)))
+      return unknown(operation);
     if (std::holds_alternative<directory::Watch>(request)) watches_.push_back(operation);
     inner_.begin(operation, request);
   }
@@ -51,6 +54,7 @@ class CuttableDirectory final : public directory::Directory {
     return reply;
   }
   bool cut = false, answers_lost = false;
+  bool full = false;  ///< as etcd at its quota: it renews leases and answers reads, and writes nothing
 
  private:
   void unknown(directory::OperationId operation) {
@@ -106,7 +110,7 @@ class ServiceTest : public testing::Test {
         server.open.erase(event->session);
         if (on_hand_over) on_hand_over(server);
         server.member.sessions().set_snapshot(event->session, "state at the hand-over");
-        server.member.moves().on_handed_over(event->session);
+        server.member.moves().on_handed_over(now_, event->session);
       } else if (event->kind == ServiceEvent::Kind::kOpen && !server.opens) {
         server.member.sessions().on_open_failed(now_, event->session);
       } else if (event->kind == ServiceEvent::Kind::kOpen) {

@@ -117,7 +117,7 @@ class ServiceRun final : public directory::test::SimulatedService {
       case ServiceEvent::Kind::kHandOver:
         process.serves.erase(event.session);
         process.member->sessions().set_snapshot(event.session, "state at the hand-over");
-        return process.member->moves().on_handed_over(event.session);
+        return process.member->moves().on_handed_over(clock(nodes_[n]), event.session);
       case ServiceEvent::Kind::kRefused:
         return;
     }

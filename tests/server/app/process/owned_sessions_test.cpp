@@ -51,6 +51,7 @@ struct Member {
             .id = {std::byte{7}},
             .code = "ABCDEFGHJK",
             .revision = revision,
+            .act_until = io::boottime_now() + 1h,
             .keeper = &kept,
             .on_over = [this](bool given_up) { overs.push_back(given_up); }};
   }
@@ -156,6 +157,7 @@ TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
   snapshot.checkpoint = m.checkpoint();
   snapshot.checkpoint.session_tick = 1234;
   snapshot.checkpoint.begun = true;
+  snapshot.checkpoint.seats[0].taken = true;
   snapshot.written_s = 1;  // by a machine whose clock is wrong by decades
   m.rig.table->give_up("exam");
   m.service_until_over();
@@ -167,16 +169,39 @@ TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
   EXPECT_EQ(m.checkpoint().session_tick, 1234U);
   m.rig.table->service(io::monotonic_now() + 599s);
   EXPECT_FALSE(m.only().end) << "participants have the whole time to come back";
+  m.rig.table->service(io::monotonic_now() + 601s);
+  EXPECT_EQ(m.only().end, EndReason::kStartTimeout);
+  m.service_until_over();
 
   // A snapshot of another scene is not used, and the epoch is the revision nevertheless.
-  m.rig.table->give_up("exam");
-  m.service_until_over();
   snapshot.checkpoint.scene = {};
   again = m.owned(600);
   again.snapshot = snapshot;
   ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
   EXPECT_EQ(m.only().snapshot(), nullptr);
   EXPECT_EQ(m.only().epoch(), 600U);
+}
+
+/// A move, an upgrade or a restart must not end what was prepared for later: its tickets and its code are in use.
+TEST(OwnedSessions, WaitForTheirFirstParticipantForAsLongAsBeforeTheMove) {
+  for (const bool begun : {false, true}) {
+    Member m;
+    m.rig.start();
+    ASSERT_EQ(m.rig.table->open_owned(m.owned(10)), "");
+    SessionSnapshot snapshot = m.kept.last;
+    snapshot.checkpoint = m.checkpoint();
+    snapshot.checkpoint.begun = begun;                   // true: in a scene without required seats
+    snapshot.checkpoint.seats[0].taken = !begun;         // a participant who has waited
+    snapshot.checkpoint.seats[0].resume = {std::byte{1}};
+    m.rig.table->give_up("exam");
+    m.service_until_over();
+    OwnedSession again = m.owned(500);
+    again.snapshot = snapshot;
+    ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
+    ASSERT_NE(m.only().snapshot(), nullptr);
+    m.rig.table->service(io::monotonic_now() + 24h);
+    EXPECT_FALSE(m.only().end) << begun;
+  }
 }
 
 /// Its own clock has written the time of a snapshot; another machine's clock may be wrong.
@@ -241,6 +266,36 @@ TEST(OwnedSessions, KeepTheirSnapshotWhenTheyAreGivenUp) {
   EXPECT_EQ(m.rig.table->exit_code(), 0);
 }
 
+TEST(OwnedSessions, AreNotHandedOverOnceTheyEnd) {
+  Member m;
+  m.rig.start();
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(3)), "");
+  EXPECT_FALSE(m.rig.table->hand_over("another", "MOVES"));
+  m.rig.table->service(io::monotonic_now());
+  m.only().end = EndReason::kTimeLimit;  // its clients are being closed
+  EXPECT_FALSE(m.rig.table->hand_over("exam", "MOVES"));
+  EXPECT_EQ(m.only().end, EndReason::kTimeLimit);
+  m.only().end.reset();
+  EXPECT_TRUE(m.rig.table->hand_over("exam", "MOVES"));
+  EXPECT_EQ(m.only().end, EndReason::kGivenUp);
+}
+
+/// Otherwise the operator would believe the lesson closed that goes on at the next server.
+TEST(OwnedSessions, RefuseTheOrderToEndThemWhileTheyMove) {
+  Member m;
+  m.rig.start();
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(3)), "");
+  const auth::Id16 id = m.only().id();
+  ASSERT_TRUE(m.rig.table->hand_over("exam", "MOVES"));
+  const rpc::Body reply = m.rig.order(rpc::EndSession{.session_id = id});
+  const auto* const refused = std::get_if<rpc::ErrorReply>(&reply);
+  ASSERT_NE(refused, nullptr);
+  EXPECT_EQ(*refused, (rpc::ErrorReply{rpc::ErrorCode::kNotNow,
+                                       "session exam is leaving this server and goes on at another one of the service; "
+                                       "join it there and end it again",
+                                       2}));
+}
+
 TEST(OwnedSessions, TakeTheirSnapshotAlongWhenTheyEnd) {
   Member m;
   m.rig.start();
@@ -267,12 +322,17 @@ TEST(OwnedSessions, AreGivenUpByADrain) {
 TEST(OwnedSessions, HoldFromTheTimeThatWasSet) {
   Member m;
   m.rig.start();
-  ASSERT_EQ(m.rig.table->open_owned(m.owned(3)), "");
+  OwnedSession expired = m.owned(3);
+  expired.act_until = Time{};
+  ASSERT_EQ(m.rig.table->open_owned(std::move(expired)), "");
   LiveSession& live = m.only().live_session();
+  for (int i = 0; i < 1000 && live.status().time == 0 && live.status().may_act; ++i) poll(nullptr, 0, 10);
+  EXPECT_FALSE(live.status().may_act) << "not even in its first tick";
   const auto acts = [&](bool wanted) {
     for (int i = 0; i < 1000 && live.status().may_act != wanted; ++i) poll(nullptr, 0, 10);
     return live.status().may_act;
   };
+  live.set_act_until(io::boottime_now() + 1h);
   EXPECT_TRUE(acts(true));
   live.set_act_until(io::boottime_now() + 50ms);
   EXPECT_FALSE(acts(false));

@@ -1,0 +1,147 @@
+// Moves that meet an end of the session, a full directory, or the loss of their target. In virtual time.
+#include "server/service/session_moves.h"
+
+#include "tests/server/service/service_fixture.h"
+
+namespace tandem::server::test {
+namespace {
+
+/// Runs `a`, but not its main loop, until its hand-over was ordered.
+class ServiceMoves : public ServiceTest {
+ protected:
+  void until_ordered(Server& a) {
+    a.runs = false;
+    for (int n = 0; n < 100 && !a.member.sessions().has_event(); ++n) {
+      pass(20ms);
+      a.member.step(now_);
+    }
+    ASSERT_TRUE(a.member.sessions().has_event());
+  }
+  /// The session ends before its server has begun the hand-over, which it then leaves out.
+  void ignore_order(Server& a) {
+    const auto event = a.member.sessions().poll_event();
+    ASSERT_TRUE(event);
+    EXPECT_EQ(event->kind, ServiceEvent::Kind::kHandOver);
+    a.runs = true;
+  }
+};
+
+TEST_F(ServiceMoves, SessionThatEndsBeforeItsHandOverBeginsEndsInTheDirectoryToo) {
+  Server& a = start("a", {{"lab", session_spec(1)}, {"other", session_spec(2)}});
+  Server& b = start("b");
+  pass(3s);
+  order_move("lab", "b");
+  until_ordered(a);
+  a.member.sessions().end("lab");
+  ignore_order(a);
+  pass(3s);
+  EXPECT_FALSE(has("catalogue/lab/spec"));
+  EXPECT_FALSE(has("live/sessions/lab/owner"));
+  EXPECT_FALSE(b.open.contains("lab"));
+  order_move("other", "b");
+  pass(2s);
+  EXPECT_TRUE(b.open.contains("other")) << "the next session moves";
+}
+
+TEST_F(ServiceMoves, SessionThatEndsBeforeItsHandOverBeginsIsReplaced) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  start("b");
+  pass(3s);
+  order_move("lab", "b");
+  until_ordered(a);
+  a.member.sessions().replace("lab", session_spec(2));
+  ignore_order(a);
+  pass(3s);
+  ASSERT_TRUE(a.open.contains("lab"));
+  EXPECT_EQ(a.open["lab"].spec.id[0], std::byte{2});
+}
+
+TEST_F(ServiceMoves, SessionThatIsHandedOverIsNotEnded) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  order_move("lab", "b");
+  on_hand_over = [&](Server&) { a.member.moves().on_handed_over(now_, "lab"); };
+  until_ordered(a);
+  act(a);
+  a.member.sessions().end("lab");
+  a.runs = true;
+  pass(3s);
+  EXPECT_TRUE(b.open.contains("lab"));
+}
+
+TEST_F(ServiceMoves, HandsActOnWhileASessionOpens) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  pass(3s);
+  a.runs = false;  // its main loop is busy
+  ASSERT_TRUE(a.member.create(now_, "exam", session_spec(2), 7));
+  for (int n = 0; n < 100 && !a.member.sessions().has_event(); ++n) {
+    pass(20ms);
+    a.member.step(now_);
+  }
+  ASSERT_TRUE(a.member.sessions().has_event());
+  EXPECT_EQ(a.member.served_until(), a.member.act_until());
+}
+
+/// Otherwise a lesson that runs would be without a server until somebody has mended etcd.
+TEST_F(ServiceMoves, NoneBeginsWhileTheDirectoryStoresNoSnapshots) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  a.directory.full = true;
+  a.member.sessions().set_snapshot("lab", "newer");
+  pass(1s);
+  ASSERT_NE(a.member.storage_problem(), "");
+  order_move("lab", "b");
+  pass(20s);
+  EXPECT_TRUE(a.open.contains("lab"));
+  EXPECT_EQ(a.member.status(now_).moves, 0U);
+  a.directory.full = false;
+  pass(3s);
+  EXPECT_TRUE(b.open.contains("lab")) << "the order is carried out then";
+  EXPECT_EQ(b.open["lab"].snapshot, "state at the hand-over");
+}
+
+TEST_F(ServiceMoves, SessionWhoseLastSnapshotIsNotStoredComesBack) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  on_hand_over = [](Server& server) { server.directory.full = true; };
+  order_move("lab", "b");
+  pass(2s);
+  ASSERT_FALSE(a.open.contains("lab")) << "it is handed over";
+  pass(5s);
+  EXPECT_TRUE(a.open.contains("lab"));
+  EXPECT_FALSE(b.open.contains("lab"));
+}
+
+/// A standby may be gone at the moment of a move to another server.
+TEST_F(ServiceMoves, GoOnWhenAnotherServerIsRefusedAsStandby) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  on_hand_over = [&](Server&) { a.member.moves().on_standby_refused(now_, "lab", "c"); };
+  order_move("lab", "b");
+  pass(2s);
+  EXPECT_TRUE(b.open.contains("lab"));
+  EXPECT_EQ(std::ranges::count(a.events, ServiceEvent::Kind::kOpen, &ServiceEvent::kind), 1);
+}
+
+/// Of a later release, or damaged: another server of the service may read it.
+TEST_F(ServiceMoves, SpecThatCannotBeReadStaysInTheDirectory) {
+  start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  static_cast<void>(
+      store_.execute(0, directory::Transaction{{}, {directory::Put{"/tandem/v1/catalogue/lab/spec", "{}", 0}}, {}}));
+  order_move("lab", "b");
+  pass(3s);
+  EXPECT_FALSE(b.open.contains("lab"));
+  EXPECT_EQ(value("catalogue/lab/spec"), "{}");
+  EXPECT_EQ(value("snapshots/lab"), "state at the hand-over");
+  EXPECT_EQ(b.events.back().kind, ServiceEvent::Kind::kUnreadable);
+  EXPECT_FALSE(has("live/sessions/lab/owner"));
+}
+
+}  // namespace
+}  // namespace tandem::server::test
