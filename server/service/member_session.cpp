@@ -49,13 +49,17 @@ void MemberSession::abandon() {
 }
 
 void MemberSession::replace(ServiceSession spec) {
+  served_ = spec;  // if the directory is lost now, this run begins, not the one before
   spec_ = std::move(spec);
   snapshot_.clear();
   consoles_.clear();
   enter(Phase::kWriting);
 }
 
-void MemberSession::end() { enter(Phase::kEnding); }
+void MemberSession::end() {
+  served_.reset();
+  enter(Phase::kEnding);
+}
 
 Transaction MemberSession::write(Condition owned, const ServiceDirectory& directory) const {
   const ServiceKeys& keys = directory.keys;

@@ -19,10 +19,8 @@ std::optional<ServiceEvent> MemberSessions::poll_event() {
   return event;
 }
 
-bool MemberSessions::takes_away() const noexcept {
-  return std::ranges::any_of(events_, [](const ServiceEvent& event) {
-    return event.kind == ServiceEvent::Kind::kGiveUp || event.kind == ServiceEvent::Kind::kHandOver;
-  });
+bool MemberSessions::loses() const noexcept {
+  return std::ranges::any_of(entries_, [](const auto& e) { return e.second.session.phase() == Phase::kLosing; });
 }
 
 std::optional<MemberSession::Phase> MemberSessions::phase(std::string_view session) const {
@@ -180,7 +178,7 @@ std::optional<MemberSession::Run> MemberSessions::on_lost(const std::string& ses
   refuse(session, entry, "this server has lost the session to another one");
   auto run = entry.session.take_run();
   const Phase before = entry.session.phase();
-  if (before == Phase::kOpening || before == Phase::kOpen) {
+  if (before == Phase::kOpening || before == Phase::kOpen || (before == Phase::kMoving && !entry.move.handed_over)) {
     entry.session.set_phase(Phase::kLosing);
     events_.push_back({.kind = ServiceEvent::Kind::kGiveUp, .session = session, .revision = entry.session.revision()});
   } else if (before != Phase::kLosing) {

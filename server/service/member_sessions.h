@@ -54,8 +54,8 @@ class MemberSessions {
 
   [[nodiscard]] std::optional<ServiceEvent> poll_event();
   [[nodiscard]] bool has_event() const noexcept { return !events_.empty(); }
-  /// Whether an order waits after which this server serves a session no more.
-  [[nodiscard]] bool takes_away() const noexcept;
+  /// Whether the server may still serve a session that it has lost: the order to give it up is not answered.
+  [[nodiscard]] bool loses() const noexcept;
 
   /// Claims a session that no server owns, unless it could not be opened here a short time ago.
   void want(const std::string& session);

@@ -88,10 +88,10 @@ class ServiceMember {
   [[nodiscard]] RegistryAgreement agreement(Time now) const;
   /// Time from which no hand of any session of this server may be engaged.
   [[nodiscard]] Time act_until() const noexcept { return directory_.ownership.keeper().hold_at(); }
-  /// The same for the sessions that this server serves now; nullopt while an order waits to give one up or hand it over:
+  /// The same for the sessions that this server serves now; nullopt until it has given up each one that it has lost:
   /// hands of that session must not act by the time of a newer lease.
   [[nodiscard]] std::optional<Time> served_until() const noexcept {
-    return sessions_.takes_away() ? std::nullopt : std::optional(act_until());
+    return sessions_.loses() ? std::nullopt : std::optional(act_until());
   }
 
  private:

@@ -161,9 +161,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           member.sessions().on_given_up(event->session);
           break;
         case server::ServiceEvent::Kind::kHandOver:
-          member.moves().on_handed_over(event->session);
+          member.moves().on_handed_over(now, event->session);
           break;
         case server::ServiceEvent::Kind::kRefused:
+        case server::ServiceEvent::Kind::kUnreadable:
           break;
       }
     }

@@ -62,8 +62,8 @@ Time LiveSession::tick(Time now, Time due, std::uint32_t missed, const MachineSt
   late_ticks_ += machine.late ? 1 : 0;
   missed_ticks_ += missed;
   session_.lifecycle().set_load_state(machine.load_state);
-  const std::int64_t act_until = act_until_.load(std::memory_order_relaxed);
-  session_.lifecycle().set_may_act(act_until == kAlways || io::boottime_now() < Time{Duration{act_until}});
+  session_.lifecycle().set_may_act(acts_.load(std::memory_order_relaxed) &&
+                                   (act_limit_ == nullptr || io::boottime_now() < act_limit_->until()));
   const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
   const bool every_tick = reported_ || recording_.load(std::memory_order_relaxed);
   session_.set_telemetry_every_tick(every_tick);

@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "common/io/published.h"
 #include "common/io/spsc_queue.h"
 #include "server/app/monitor/session_status.h"
+#include "server/app/process/act_limit.h"
 #include "server/app/process/checkpoint_publisher.h"
 #include "server/app/process/local_slaves.h"
 #include "server/app/process/tick_queue.h"
@@ -65,12 +65,11 @@ class LiveSession {
   /// Sets whether a recording is made of the records, from one of the next ticks on; as `set_recorded`.
   void set_recording(bool on) noexcept { recording_.store(on, std::memory_order_relaxed); }
 
-  /// Sets the time of CLOCK_BOOTTIME from which this server may not act any more, unless a later time is set before:
-  /// the ticks from then on disengage all hands, and engage them again after a later time was set. Default: never. The
-  /// tick itself reads the clock, so that no other thread has to run for that.
-  void set_act_until(Time until) noexcept {
-    act_until_.store(until.time_since_epoch().count(), std::memory_order_relaxed);
-  }
+  /// Has the ticks disengage all hands from a time on, and engage them again when it was set to a later one. Each tick
+  /// reads the clock. Before the first tick. Default: none.
+  void set_act_limit(std::shared_ptr<const ActLimit> limit) noexcept { act_limit_ = std::move(limit); }
+  /// Has the next ticks disengage all hands for ever: another server may own the session.
+  void stop_acting() noexcept { acts_.store(false, std::memory_order_relaxed); }
 
   /// Queue of audit events for one reading thread. If it is full, events are dropped and counted.
   [[nodiscard]] AuditEventQueue& audit() noexcept { return audit_; }
@@ -118,9 +117,9 @@ class LiveSession {
   std::uint32_t seldom_interval_;       ///< [ticks] between records that nothing needs
   bool reported_ = true;                ///< every tick is needed: for a report or a trace
   std::atomic<bool> recording_{false};  ///< likewise: for a recording
-  static constexpr std::int64_t kAlways = std::numeric_limits<std::int64_t>::max();
-  std::atomic<std::int64_t> act_until_{kAlways};  ///< [ns] of CLOCK_BOOTTIME
-  std::atomic<std::int64_t> first_tick_{0};       ///< [ns]; 0: none
+  std::shared_ptr<const ActLimit> act_limit_;  ///< nullptr: none
+  std::atomic<bool> acts_{true};
+  std::atomic<std::int64_t> first_tick_{0};  ///< [ns]; 0: none
   std::uint64_t ticks_ = 0, skipped_records_ = 0;
   std::uint64_t last_tick_ = 0;  ///< in the numbering of the shards
   std::uint64_t late_ticks_ = 0, missed_ticks_ = 0;

@@ -9,6 +9,7 @@
 
 #include "common/auth/ticket.h"
 #include "common/base/time.h"
+#include "server/app/process/act_limit.h"
 #include "server/app/process/session_instance.h"
 #include "server/app/process/snapshot_keeper.h"
 
@@ -24,7 +25,7 @@ struct OwnedSession {
   std::vector<auth::Id16> consoles{};         ///< tickets of the consoles at its former owner
   /// Of the ownership in the directory. It becomes the session's epoch: higher than that of each former owner.
   std::uint64_t revision = 0;
-  Time act_until{};                  ///< its first limit, as `LiveSession::set_act_until` has it: none of its ticks acts without
+  std::shared_ptr<const ActLimit> act_limit{};  ///< of all that the server owns; nullptr: none
   SnapshotKeeper* keeper = nullptr;  ///< must outlive the session
   /// Called on the main loop's thread when the session is over and serves no client any more.
   /// @param given_up  another server may own the session by now; false: it has ended

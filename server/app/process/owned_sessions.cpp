@@ -44,7 +44,7 @@ std::string SessionTable::open_owned(OwnedSession owned) {
   session.keep_options(std::move(owned.options), owned.ends_at);
   session.set_keeper(owned.keeper);
   session.set_owned(std::move(owned.on_over), std::move(owned.consoles));
-  session.live_session().set_act_until(owned.act_until);
+  session.live_session().set_act_limit(std::move(owned.act_limit));
   if (!serve_opened(std::move(*opened))) return "the thread of this tick rate takes no sessions at present";
   report_restored(session, found, age_s);
   return {};
@@ -67,7 +67,7 @@ void SessionTable::end_here(const std::string& name, const PresenceTracker::Even
       sessions_, [&](const auto& s) { return s->options().name == name && s->on_over() != nullptr; });
   if (found == sessions_.end()) return;
   SessionInstance& session = **found;
-  session.live_session().set_act_until(Time{});
+  session.live_session().stop_acting();
   if (session.end == EndReason::kGivenUp) return;
   session.end = EndReason::kGivenUp;
   report(session, session.live_session().status(), event);

@@ -114,7 +114,6 @@ void ServiceHost::step(Time now) {
     else
       open_failed(next.event, "its former run on this server does not end");
   }
-  set_act_until();
   ended_.step(now, *thread_, parts_.sessions);
   report(thread_->quietly([this](const ServiceMember& member, Time t) { return news_.update(t, member.status(t)); }));
   if (published_ && now - *published_ < kPublishInterval) return;
@@ -175,7 +174,7 @@ void ServiceHost::open_session(const ServiceEvent& event) {
       .id = event.spec.id,
       .code = event.spec.code,
       .revision = static_cast<std::uint64_t>(event.revision),
-      .act_until = thread_->quietly([](const ServiceMember& m, Time) { return m.served_until().value_or(Time{}); }),
+      .act_limit = thread_->act_limit(),
       .keeper = &snapshots_,
       .on_over = [this, name = event.session, spec = event.spec](bool given_up) { on_over(name, spec, given_up); }};
   if (event.spec.ends_s > 0)
@@ -191,7 +190,6 @@ void ServiceHost::open_session(const ServiceEvent& event) {
       tickets_for_next_owner(event.consoles, event.spec.id, owned.snapshot ? owned.snapshot->checkpoint.epoch : 0);
   if (const std::string why = parts_.sessions.open_owned(std::move(owned)); !why.empty())
     return open_failed(event, why);
-  set_act_until();
   thread_->with([&](ServiceMember& member, Time) { member.sessions().on_opened(event.session); });
   published_.reset();
   if (event.order == 0) return;
@@ -288,13 +286,6 @@ bool ServiceHost::take(SessionOrder& order) {
                         "a session " + name + " exists already; choose another name, or end that session first", 0};
   if (problem) reply(number, std::move(*problem));
   return true;
-}
-
-void ServiceHost::set_act_until() {
-  const auto until = thread_->quietly([](const ServiceMember& member, Time) { return member.served_until(); });
-  if (!until) return;
-  for (const auto& session : parts_.sessions.all())
-    if (session->on_over() && session->end != EndReason::kGivenUp) session->live_session().set_act_until(*until);
 }
 
 void ServiceHost::publish_load() {

@@ -79,7 +79,6 @@ class ServiceHost {
   [[nodiscard]] std::optional<rpc::ErrorReply> creation_problem(const rpc::CreateSession& wanted) const;
   [[nodiscard]] std::expected<std::shared_ptr<const SessionOptions>, std::string> options_of(
       const std::string& session, const ServiceSession& spec) const;
-  void set_act_until();
   void publish_load();
   void publish_lists();
   void report(const std::vector<ServiceNews::Line>& lines);

@@ -61,8 +61,8 @@ void ServiceThread::run() {
       while (const auto result = member_.tickets().poll_result()) results.push_back(*result);
       while (const auto mark = member_.poll_stored()) snapshots_.set_stored(*mark);
       snapshots_.set_problem(member_.storage_problem());
-      if (member_.sessions().has_event() || std::exchange(acted_until_, member_.act_until()) != member_.act_until())
-        changed_.signal();
+      if (const auto until = member_.served_until()) act_limit_->set(*until);
+      if (member_.sessions().has_event()) changed_.signal();
       if (member_.calm()) pause = kCalmPause;
     }
     for (const ServiceTickets::Result& result : results) on_ticket_(result);

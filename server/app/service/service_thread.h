@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/io/event_fd.h"
+#include "server/app/process/act_limit.h"
 #include "server/app/service/directory_snapshots.h"
 #include "server/service/service_member.h"
 
@@ -43,7 +44,9 @@ class ServiceThread {
   }
   /// Next order of the member. From the main loop's thread.
   [[nodiscard]] std::optional<ServiceEvent> take_event();
-  /// Descriptor that is readable while an order waits, or the time `act_until` has changed.
+  /// For all sessions of this server: set by this thread, also while the main loop waits for a disk.
+  [[nodiscard]] std::shared_ptr<const ActLimit> act_limit() const noexcept { return act_limit_; }
+  /// Descriptor that is readable while an order waits.
   [[nodiscard]] int fd() const noexcept { return changed_.get(); }
   void clear_fd() const noexcept { changed_.clear(); }
   /// Ends all ownerships, for the end of the server: writes the last snapshots and ends the lease, for at most `limit`
@@ -71,9 +74,9 @@ class ServiceThread {
   std::unique_ptr<directory::Directory> store_;
   std::function<void(const ServiceTickets::Result&)> on_ticket_;
   DirectorySnapshots& snapshots_;
-  std::mutex mutex_;  ///< guards `member_` and `acted_until_`
+  std::mutex mutex_;  ///< guards `member_`
   ServiceMember member_;
-  Time acted_until_{};
+  std::shared_ptr<ActLimit> act_limit_ = std::make_shared<ActLimit>();
   io::EventFd changed_;
   io::EventFd wake_;
   std::atomic<bool> stopping_{false};

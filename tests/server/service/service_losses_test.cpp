@@ -44,6 +44,26 @@ class ServiceLosses : public ServiceTest {
   }
 };
 
+// An operator's `end` must not be undone by servers that put back the sessions that they had.
+TEST_F(ServiceLosses, SessionsThatWereOverDoNotComeBack) {
+  Server& a = begin("a", {{"lab", session_spec(1)}});
+  ASSERT_TRUE(a.member.create(now_, "made", session_spec(3), 7));
+  pass(1s);
+  ASSERT_TRUE(a.open.contains("made"));
+  a.directory.cut = true;
+  a.open.clear();
+  a.member.sessions().end("made");
+  a.member.sessions().replace("lab", session_spec(2));
+  pass(100ms);
+  store_ = empty(1000);
+  a.directory.cut = false;
+  pass(20s);
+  EXPECT_FALSE(has("live/sessions/made/owner"));
+  EXPECT_FALSE(a.open.contains("made"));
+  ASSERT_TRUE(a.open.contains("lab"));
+  EXPECT_EQ(a.open["lab"].spec.id[0], std::byte{2}) << "its next run";
+}
+
 // Sessions of the configuration, and one that an operator created: all go on from their state, with a higher epoch.
 TEST_F(ServiceLosses, AllSessionsGoOnFromTheirStateWhenTheDirectoryIsBegunFromNothing) {
   const std::uint64_t count = tandem::test::seeds(60);

@@ -41,6 +41,8 @@ struct Process {
   RemoteDirectory directory;
   std::unique_ptr<ServiceMember> member;
   std::map<std::string, std::int64_t, std::less<>> serves;  ///< sessions that it serves, with their epochs
+  std::map<std::string, ServiceSession> specs;              ///< as opened
+  Time limit{};                                             ///< as ActLimit
 };
 
 class ServiceRun final : public directory::test::SimulatedService {
@@ -92,7 +94,15 @@ class ServiceRun final : public directory::test::SimulatedService {
     Process& process = *processes_[n];
     ServiceMember& member = *process.member;
     member.step(clock(nodes_[n]));
-    while (auto event = member.sessions().poll_event()) on_event(n, *event);
+    if (const auto until = member.served_until()) process.limit = *until;
+    const bool calm = now() >= Time{} + schedule_.calm;
+    if (!calm && !process.serves.empty() && chance(0.002)) end_run(n);
+    // The main loop may be late, at each event.
+    while (calm || !chance(0.1)) {
+      const auto event = member.sessions().poll_event();
+      if (!event) break;
+      on_event(n, *event);
+    }
     while (const auto result = member.tickets().poll_result())
       if (result->outcome == ServiceTickets::Outcome::kAccepted) {
         const auto& [session, ticket] = presented_.at(result->order);
@@ -100,6 +110,15 @@ class ServiceRun final : public directory::test::SimulatedService {
       }
     if (RegistryAgreement agreed = member.agreement(clock(nodes_[n])); !agreed.mark.empty())
       stored_[n] = std::move(agreed);
+  }
+  /// A session of the configuration is over, and its next run replaces it.
+  void end_run(std::size_t n) {
+    Process& process = *processes_[n];
+    const std::string session = process.serves.begin()->first;
+    process.serves.erase(session);
+    ServiceSession next = process.specs.at(session);
+    next.id[1] = static_cast<std::byte>(++runs_);
+    process.member->sessions().replace(session, std::move(next));
   }
   void on_event(std::size_t n, const ServiceEvent& event) {
     Process& process = *processes_[n];
@@ -110,15 +129,17 @@ class ServiceRun final : public directory::test::SimulatedService {
         if (now() + MemberSessions::kRefusalPause < Time{} + schedule_.calm && chance(0.05))
           return process.member->sessions().on_open_failed(clock(nodes_[n]), event.session);
         process.serves[event.session] = event.revision;
+        process.specs[event.session] = event.spec;
         return process.member->sessions().on_opened(event.session);
       case ServiceEvent::Kind::kGiveUp:
         process.serves.erase(event.session);
         return process.member->sessions().on_given_up(event.session);
       case ServiceEvent::Kind::kHandOver:
-        process.serves.erase(event.session);
+        if (process.serves.erase(event.session) == 0) return;  // its run is over
         process.member->sessions().set_snapshot(event.session, "state at the hand-over");
         return process.member->moves().on_handed_over(clock(nodes_[n]), event.session);
       case ServiceEvent::Kind::kRefused:
+      case ServiceEvent::Kind::kUnreadable:
         return;
     }
   }
@@ -131,7 +152,7 @@ class ServiceRun final : public directory::test::SimulatedService {
   bool acts(const Node& node, std::size_t s) const override {
     if (!runs(node)) return false;
     const Process& process = *processes_[index(node)];
-    return process.serves.contains(session_name(s)) && clock(node) < process.member->act_until() + times_.ramp;
+    return process.serves.contains(session_name(s)) && clock(node) < process.limit + times_.ramp;
   }
   directory::Revision acting_revision(std::size_t n, std::size_t s) const override {
     return processes_[n]->serves.at(session_name(s));
@@ -168,7 +189,7 @@ class ServiceRun final : public directory::test::SimulatedService {
   std::vector<RegistryAgreement> stored_;  ///< files of each server
   std::map<std::uint64_t, std::pair<std::string, std::string>> presented_;
   std::uint64_t presentations_ = 0, noticed_ = 0;
-  int marks_ = 0;
+  int marks_ = 0, runs_ = 0;
 };
 
 }  // namespace

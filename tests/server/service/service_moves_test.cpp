@@ -70,6 +70,28 @@ TEST_F(ServiceMoves, SessionThatIsHandedOverIsNotEnded) {
   EXPECT_TRUE(b.open.contains("lab"));
 }
 
+/// Its hands must not act by a newer lease until the server has given it up.
+TEST_F(ServiceMoves, SessionThatIsLostBeforeItsHandOverBeginsIsGivenUp) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  order_move("lab", "b");
+  until_ordered(a);
+  a.directory.cut = true;
+  pass(6s);
+  a.directory.cut = false;
+  for (int n = 0; n < 150; ++n) {
+    pass(20ms);
+    a.member.step(now_);
+  }
+  ASSERT_TRUE(b.open.contains("lab"));
+  EXPECT_GT(a.member.act_until(), now_) << "it has a lease again";
+  EXPECT_FALSE(a.member.served_until());
+  act(a);
+  EXPECT_EQ(a.events.back().kind, ServiceEvent::Kind::kGiveUp);
+  EXPECT_EQ(a.member.served_until(), a.member.act_until());
+}
+
 TEST_F(ServiceMoves, HandsActOnWhileASessionOpens) {
   Server& a = start("a", {{"lab", session_spec(1)}});
   pass(3s);

@@ -90,7 +90,7 @@ TEST(SessionCommands, StopAndResumeWithNameAndReason) {
 TEST(SessionCommands, ReportASessionWithoutTheDirectoryAsHeldWithTheReason) {
   Commanding c;
   c.serve();
-  c.lesson.session().set_act_until(Time{});
+  c.lesson.session().stop_acting();
   const auto status = [&] { return std::get<rpc::Status>(c.ask(rpc::StatusRequest{id_of(1)})); };
   for (int asked = 0; asked < 1000 && status().phase != rpc::SessionPhase::kHeld;) ++asked;  // until the next tick
   EXPECT_EQ(status().phase, rpc::SessionPhase::kHeld);

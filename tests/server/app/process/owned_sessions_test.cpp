@@ -51,7 +51,6 @@ struct Member {
             .id = {std::byte{7}},
             .code = "ABCDEFGHJK",
             .revision = revision,
-            .act_until = io::boottime_now() + 1h,
             .keeper = &kept,
             .on_over = [this](bool given_up) { overs.push_back(given_up); }};
   }
@@ -322,22 +321,24 @@ TEST(OwnedSessions, AreGivenUpByADrain) {
 TEST(OwnedSessions, HoldFromTheTimeThatWasSet) {
   Member m;
   m.rig.start();
-  OwnedSession expired = m.owned(3);
-  expired.act_until = Time{};
-  ASSERT_EQ(m.rig.table->open_owned(std::move(expired)), "");
+  const auto limit = std::make_shared<ActLimit>();
+  OwnedSession owned = m.owned(3);
+  owned.act_limit = limit;
+  ASSERT_EQ(m.rig.table->open_owned(std::move(owned)), "");
   LiveSession& live = m.only().live_session();
-  for (int i = 0; i < 1000 && live.status().time == 0 && live.status().may_act; ++i) poll(nullptr, 0, 10);
-  EXPECT_FALSE(live.status().may_act) << "not even in its first tick";
   const auto acts = [&](bool wanted) {
     for (int i = 0; i < 1000 && live.status().may_act != wanted; ++i) poll(nullptr, 0, 10);
     return live.status().may_act;
   };
-  live.set_act_until(io::boottime_now() + 1h);
+  EXPECT_FALSE(acts(false)) << "a limit that was never set is over";
+  limit->set(io::boottime_now() + 1h);
   EXPECT_TRUE(acts(true));
-  live.set_act_until(io::boottime_now() + 50ms);
+  limit->set(io::boottime_now() + 50ms);
   EXPECT_FALSE(acts(false));
-  live.set_act_until(io::boottime_now() + 1h);
+  limit->set(io::boottime_now() + 1h);
   EXPECT_TRUE(acts(true));
+  m.rig.table->give_up("exam");
+  EXPECT_FALSE(acts(false)) << "another server may own it";
 }
 
 }  // namespace
