@@ -165,6 +165,24 @@ TEST_F(Service, HandsInContactComeBackFromZeroForceAtTheStandbyOfAKilledServer) 
   print("force in the first tick [N], asked <= 0.05", values(all, &Absence::first_n));
 }
 
+/// The lease is renewed by a thread of its own: whatever the server writes meanwhile, its hands act on.
+TEST_F(Service, HandsInContactActOnWhileTheDiskOfTheirServerIsStuck) {
+  PressingService pressed;
+  const std::string word = pressed.service().folder().write("disk", "ok");
+  pressed.service().set(
+      "a", {.under = {"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + word}});
+  pressed.start({"a"});
+  pressed.join(pressed.service().address("a"));
+  const std::string used = pressed.service().folder().file("trainer.ticket");
+  const Words words{"--session", "lab", "--ticket-file", used, "--state", pressed.service().enrolled("other")};
+  pressed.service().folder().write("disk", "audit");
+  Process refused = client(pressed.service().address("a"), "trainer", words);
+  std::this_thread::sleep_for(milliseconds(6000));  // a sync takes 4 s, a lease 3 s
+  pressed.service().folder().write("disk", "ok");
+  EXPECT_NE(refused.wait(), 0);
+  EXPECT_EQ(pressed.expect_safe(0).size(), 0u) << "hands were free";
+}
+
 TEST_F(Service, HandsInContactAreFreeWithoutTheDirectoryAndEngageAgainFromZeroForce) {
   PressingService pressed;
   pressed.start({"a"});

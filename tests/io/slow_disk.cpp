@@ -1,7 +1,8 @@
 // A disk that a test makes slow or full while a program runs: a library for LD_PRELOAD. It reads one word from the file
 // that TANDEM_SLOW_DISK names before each write and sync of a recording: ok, slow or full. With the word inputs it is
 // full for files without a name, in which a server keeps inputs, and for no other. With the word nospace it is full for
-// checkpoints, and with the word stuck each of their syncs takes seconds; no other word concerns them.
+// checkpoints, and with the word stuck each of their syncs takes seconds; no other word concerns them. With the word
+// audit each sync of the audit log takes seconds.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr useconds_t kSlow = 1'500'000, kStuck = 4'000'000;  // [us] of each call
 
-enum class File { kOther, kRecording, kInputs, kCheckpoint };
+enum class File { kOther, kRecording, kInputs, kCheckpoint, kAudit };
 
 File kind_of(int file) {
   char link[4096];
@@ -27,6 +28,7 @@ File kind_of(int file) {
   return name.ends_with(".mcap.part")        ? File::kRecording
          : name.ends_with("(deleted)")       ? File::kInputs
          : name.ends_with(".checkpoint.new") ? File::kCheckpoint
+         : name.ends_with("/audit.log")      ? File::kAudit
                                              : File::kOther;
 }
 
@@ -41,12 +43,13 @@ bool pass(int file) {
     [[maybe_unused]] const long n = syscall(SYS_read, in, word, sizeof word - 1);
     syscall(SYS_close, in);
   }
-  constexpr const char* kFull[] = {"", "full", "inputs", "nospace"};
-  if (std::strncmp(word, kFull[static_cast<int>(kind)], 4) == 0) {
+  constexpr const char* kFull[] = {"", "full", "inputs", "nospace", ""};
+  if (*kFull[static_cast<int>(kind)] != 0 && std::strncmp(word, kFull[static_cast<int>(kind)], 4) == 0) {
     errno = ENOSPC;
     return false;
   }
   if (kind == File::kRecording && std::strncmp(word, "slow", 4) == 0) usleep(kSlow);
+  if (kind == File::kAudit && std::strncmp(word, "audit", 5) == 0) usleep(kStuck);
   if (kind == File::kCheckpoint && std::strncmp(word, "stuck", 4) == 0) usleep(kStuck);
   return true;
 }
