@@ -193,7 +193,7 @@ std::string ServiceMember::storage_problem() const {
   const std::string& problem = directory_.writer.problem();
   if (problem.empty()) return {};
   return "the directory of the service does not store it: " + problem +
-         "; check that etcd runs and has space, hands are released while it is silent";
+         "; check that etcd runs and has space (`etcdctl alarm list`), hands are released while it is silent";
 }
 
 bool ServiceMember::all_written() const {

@@ -84,6 +84,13 @@ class Etcd {
   }
   /// Starts the member with its old data, after it was ended.
   void start() { process_.emplace(command_); }
+  /// Ends the member, and starts it with its old data and further arguments.
+  void restart_with(const Words& more) {
+    process_->signal(SIGTERM);
+    EXPECT_TRUE(process_->wait());
+    command_.insert(command_.end(), more.begin(), more.end());
+    start();
+  }
   /// Ends the member, which is alone, and starts it with the data of a backup. @param file  of `etcdctl snapshot save`
   void restore(const std::string& file) {
     process_->signal(SIGTERM);

@@ -183,6 +183,38 @@ TEST_F(Service, HandsInContactActOnWhileTheDiskOfTheirServerIsStuck) {
   EXPECT_EQ(pressed.expect_safe(0).size(), 0u) << "hands were free";
 }
 
+/// At its quota etcd renews leases, answers reads and refuses every write.
+TEST_F(Service, SessionsStayWhereTheyAreAndGoOnWhileEtcdIsFull) {
+  LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
+  service.etcd().restart_with({"--quota-backend-bytes", "8388608"});
+  Process& a = service.start("a");
+  service.wait_for_sessions("a", 1);
+  Process& b = service.start("b");
+  ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  const std::string filler(120'000, 'x');
+  bool full = false;
+  for (int n = 0; n < 200 && !full; ++n) {
+    Process put({etcd_program("etcdctl"), "--endpoints", service.etcd().endpoint(), "put", "filler" + std::to_string(n),
+                 filler});
+    full = put.wait() != 0;
+  }
+  ASSERT_TRUE(full);
+  std::this_thread::sleep_for(milliseconds(5000));  // longer than the lease
+  ASSERT_EQ(service.sessions("a").size(), 1u);
+  EXPECT_NE(service.sessions("a")[0]["phase"], "held");
+  Process drain = server({"stop", "--grace", "60", "--state", service.folder().file("a")});
+  ASSERT_TRUE(a.wait_for("MOVES to server b, because this server drains")) << a.err();
+  EXPECT_TRUE(a.wait_for("session lab RESTORED from its checkpoint")) << "it is served again: " << a.err();
+  service.etcd().etcdctl({"del", "--prefix", "filler"});
+  const Json status = Json::parse(service.etcd().etcdctl({"endpoint", "status", "-w", "json"}));
+  service.etcd().etcdctl({"compact", std::to_string(status[0]["Status"]["header"]["revision"].get<long>())});
+  service.etcd().etcdctl({"defrag"});
+  service.etcd().etcdctl({"alarm", "disarm"});
+  service.wait_for_sessions("b", 1);
+  EXPECT_TRUE(a.wait()) << "all its sessions have moved";
+  drain.wait();
+}
+
 TEST_F(Service, HandsInContactAreFreeWithoutTheDirectoryAndEngageAgainFromZeroForce) {
   PressingService pressed;
   pressed.start({"a"});

@@ -216,11 +216,10 @@ void ServiceHost::open_failed(const ServiceEvent& event, const std::string& why)
 
 void ServiceHost::on_over(const std::string& session, const ServiceSession& spec, bool given_up) {
   listed_.erase(session);
-  if (handing_over_.erase(session) > 0)
-    return thread_->with([&](ServiceMember& member, Time now) {
-      member.moves().on_handed_over(now, session);
-      handed_over_.insert(session);
-    });
+  if (handing_over_.erase(session) > 0) {
+    handed_over_.insert(session);
+    return thread_->with([&](ServiceMember& member, Time now) { member.moves().on_handed_over(now, session); });
+  }
   if (leaving_ || given_up) return;
   ended_.add(session, spec.id, parts_.sessions.take_endings(spec.id), io::monotonic_now());
   thread_->with([&](ServiceMember& member, Time) {
