@@ -99,12 +99,18 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   return j.dump(2) + "\n";
 }
 
-std::string server_lost_text(bool announced, double waited_s) {
+std::string server_lost_text(bool announced, double waited_s, const std::string& answer) {
+  const std::string newest = answer.empty() ? "" : "Newest reason: " + answer + ". ";
   if (announced)
     return format(
-        "server lost: it ended or gave the session away, and no server has given the seat back for %.0f s. Ask its "
+        "server lost: it ended or gave the session away, and no server has given the seat back for %.0f s. %sAsk its "
         "operator when it serves the session again, then join again",
-        waited_s);
+        waited_s, newest.c_str());
+  if (!answer.empty())
+    return format(
+        "server lost: a server was reached, but none has given the seat back for %.0f s. %sAsk its operator, then join "
+        "again",
+        waited_s, newest.c_str());
   return format(
       "server lost: no news for %.0f s; the force was released after the first losses. Check the network and the "
       "server, then join again",

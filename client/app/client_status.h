@@ -126,7 +126,8 @@ struct ClientReport {
 
 /// Returns why a seat ended that waited for its server in vain. @param announced  the server had said that it ends here
 /// @param waited_s  for which the seat waited [s]
-[[nodiscard]] std::string server_lost_text(bool announced, double waited_s);
+/// @param answer    newest reason of a server that was reached meanwhile; empty: none was reached
+[[nodiscard]] std::string server_lost_text(bool announced, double waited_s, const std::string& answer = {});
 
 /// Returns the JSON report of a failed join. @param why  reason as shown to the user
 [[nodiscard]] std::string join_failure_json(const std::string& seat, const std::string& server,

@@ -241,11 +241,19 @@ std::expected<JoinedWatcher, JoinError> join_watcher(const JoinOptions& options)
 
 namespace {
 
+/// The failure of a resume at a server that was reached.
+std::unexpected<ResumeError> failed_at_server(ResumeError why, SeatAnswer heard) {
+  why.heard = heard;
+  why.answer = why.reason;
+  return std::unexpected(std::move(why));
+}
+
 /// Tries to resume a seat at one address.
 std::expected<JoinedSeat, ResumeError> resume_at(const io::SocketAddress& at, const JoinOptions& options,
                                                  const ResumeState& own, const std::function<bool()>& wanted) {
   ServerConnection server{options};
   ResumeError last;
+  SeatAnswer heard = SeatAnswer::kOther;
   for (const Secret<32>& secret : own.secrets) {
     if (auto connected = server.connect_to(own, at); !connected) return std::unexpected(connected.error());
     if (!wanted()) return std::unexpected(ResumeError{.kind = ResumeError::Kind::kNotNeeded, .reason = {}});
@@ -254,22 +262,28 @@ std::expected<JoinedSeat, ResumeError> resume_at(const io::SocketAddress& at, co
     hello.credential = rpc::ResumeCredential{secret};
     const auto reply = ask_owner(server, hello, own.epoch, io::monotonic_now() + kComingMax, wanted);
     if (!reply)
-      return std::unexpected(
-          ResumeError{.kind = reply.error().interrupted ? ResumeError::Kind::kInterrupted : ResumeError::Kind::kAgain,
-                      .reason = reply.error().reason});
+      return failed_at_server(
+          {.kind = reply.error().interrupted ? ResumeError::Kind::kInterrupted : ResumeError::Kind::kAgain,
+           .reason = reply.error().reason},
+          SeatAnswer::kOther);
     const auto* rejected = std::get_if<rpc::ErrorReply>(&*reply);
     if (rejected == nullptr) {
       auto given = accept_resume(server, *reply, hello, own);
-      if (given) server.remember(given->welcome.members);
+      if (!given) return failed_at_server(std::move(given.error()), SeatAnswer::kOther);
+      server.remember(given->welcome.members);
       return given;
     }
     last = to_resume_error(*rejected);
     last.answered = at;
-    // A server of a service that does not know the session may have an old copy of the directory: others decide.
-    if (own.service && rejected->code == rpc::ErrorCode::kNoSession) last.kind = ResumeError::Kind::kAgain;
+    // A server of a service that does not know the session may have an old copy of the directory: others decide, and
+    // `MissingSession`.
+    if (own.service && rejected->code == rpc::ErrorCode::kNoSession) {
+      last.kind = ResumeError::Kind::kAgain;
+      heard = SeatAnswer::kMissing;
+    }
     if (rejected->code != rpc::ErrorCode::kResume) break;
   }
-  return std::unexpected(std::move(last));
+  return failed_at_server(std::move(last), heard);
 }
 
 /// Addresses at which the seat may be resumed, the likeliest first.
@@ -306,6 +320,10 @@ std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, c
       if (failed.coming || !all->answered) all->answered = failed.answered;
       all->coming = failed.coming;
       if (all->distrust.empty()) all->distrust = failed.distrust;
+      if (failed.heard > all->heard) {
+        all->heard = failed.heard;
+        all->answer = failed.answer;
+      }
     }
     if (all->coming) break;
   }

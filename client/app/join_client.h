@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "client/app/missing_session.h"
 #include "common/auth/key_fingerprint.h"
 #include "common/base/time.h"
 #include "common/io/socket_address.h"
@@ -123,6 +124,8 @@ struct ResumeError {
   Duration wait{};         ///< kAgain: shortest wait before the next attempt
   bool coming = false;     ///< a server of the service is about to serve the session: no other one needs to be asked
   std::optional<io::SocketAddress> answered{};  ///< server that replied, for `ResumeState::first`
+  SeatAnswer heard = SeatAnswer::kNone;         ///< of all servers that were asked
+  std::string answer{};  ///< reason at a server that was reached, one with `heard`; empty: none was reached
 };
 /// Tries once to resume a seat over a new TLS connection: at the server that had it, then at the other servers of its
 /// service, each for 1 s at most. Follows them to the owner of the session. Accepts only the same server or one of the

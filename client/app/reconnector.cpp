@@ -54,6 +54,7 @@ Reconnector::~Reconnector() {
 
 void Reconnector::work() {
   Duration timeout = kTimeoutFirst;
+  MissingSession session;
   while (true) {
     const Time began = io::monotonic_now();
     auto back = attempt(timeout);
@@ -64,10 +65,15 @@ void Reconnector::work() {
     {
       const std::lock_guard lock(mutex_);
       distrust_ = std::move(back.error().distrust);
+      if (back.error().heard != SeatAnswer::kNone) answer_ = back.error().answer;
+    }
+    if (session.on_attempt(io::monotonic_now(), back.error().heard)) {
+      result_ = std::unexpected(ResumeError{.kind = ResumeError::Kind::kGone, .reason = back.error().answer});
+      break;
     }
     if (back.error().answered) resume_state_.first = back.error().answered;
     if (io::monotonic_now() - began >= timeout) timeout = std::min(2 * timeout, kTimeoutMax);
-    const Duration wait = std::max(back.error().wait, draw(kAgain, kAgainSpread));
+    const Duration wait = std::max({back.error().wait, session.wait(), draw(kAgain, kAgainSpread)});
     pollfd cancelled{cancel_.get(), POLLIN, 0};
     if (poll(&cancelled, 1, static_cast<int>(wait / 1ms)) > 0) {
       result_ = std::unexpected(ResumeError{.kind = ResumeError::Kind::kInterrupted, .reason = {}});

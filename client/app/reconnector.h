@@ -16,8 +16,9 @@
 namespace tandem::client {
 
 /// Reconnects a seat to a silent server on its own thread. It retries until the server returns the seat, rejects it
-/// permanently, or answers on the old connection again. Meanwhile the servo thread runs on; its force gate has
-/// released the force and the motors receive zeros.
+/// permanently, or answers on the old connection again. It also ends when the servers of a service have answered for
+/// long enough that they do not have the session (`MissingSession`). Meanwhile the servo thread runs on; its force gate
+/// has released the force and the motors receive zeros.
 class Reconnector {
  public:
   /// Starts the thread.
@@ -41,6 +42,12 @@ class Reconnector {
     const std::lock_guard lock(mutex_);
     return distrust_;
   }
+  /// Returns why a server did not give the seat back, in the newest attempt that reached one, for any thread; empty:
+  /// none was reached.
+  [[nodiscard]] std::string answer() const {
+    const std::lock_guard lock(mutex_);
+    return answer_;
+  }
   struct Resumed {
     JoinedSeat joined;
     std::unique_ptr<ConnectionSwap> swap;
@@ -61,7 +68,7 @@ class Reconnector {
   std::optional<std::expected<Resumed, ResumeError>> result_;
   std::atomic<bool> done_{false};
   mutable std::mutex mutex_;
-  std::string distrust_;
+  std::string distrust_, answer_;
   std::thread thread_;
 };
 

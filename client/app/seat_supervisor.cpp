@@ -148,7 +148,10 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
   if (o_.options.reconnect_timeout_s <= 0)
     return status.silence_s > kServerLost ? std::optional(ExitReason::kServerLost) : std::nullopt;
   if (reconnector_ && reconnector_->done()) return finish_reconnect();
-  if (reconnector_) note_distrust(reconnector_->distrust());
+  if (reconnector_) {
+    note_distrust(reconnector_->distrust());
+    answer_ = reconnector_->answer();
+  }
   if (server_.absence(now) > o_.options.reconnect_timeout_s) return ExitReason::kServerLost;
   // The session goes on at another server of the service, perhaps at once.
   if (server_restarts(status) && resume_state_.service) server_.hasten(hastened_backoff());
@@ -206,6 +209,7 @@ std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
   status_poller_ = std::make_unique<SessionStatusPoller>(connection_, resume_state_.session);
   reconnector_.reset();
   distrust_.clear();
+  answer_.clear();
   return std::nullopt;
 }
 
@@ -281,7 +285,8 @@ std::string SeatSupervisor::exit_message(ExitReason end) const {
         return "server lost: the one that answers is not accepted for this seat: " + distrust_ +
                ". Then join again by a new ticket or the session's code";
       return server_lost_text(server_restarts(o_.runner.status()),
-                              o_.options.reconnect_timeout_s > 0 ? o_.options.reconnect_timeout_s : kServerLost);
+                              o_.options.reconnect_timeout_s > 0 ? o_.options.reconnect_timeout_s : kServerLost,
+                              answer_);
     case ExitReason::kDeviceLost:
       return "device lost: it is unplugged or stopped answering; plug it in and join again";
     case ExitReason::kSeatGone:

@@ -75,6 +75,7 @@ class SeatSupervisor {
   std::string key_message_;                 ///< last shown reason why a key had no effect
   Time key_message_at_{};
   std::string exit_detail_;  ///< reason of ExitReason::kSeatGone
+  std::string answer_;       ///< newest reason why a server did not give the seat back; empty: none was reached
   std::string distrust_;     ///< why the key of a server that answers is rejected, as reported; empty: none is
   Time begin_, shown_at_;
   ServerWatch server_;

@@ -82,10 +82,10 @@ class MemberSession {
   /// Next step of the caller.
   enum class Next : std::uint8_t {
     kNothing,
-    kOpen,     ///< `run` is to be opened
-    kRelease,  ///< the ownership is to be released: no key is left
+    kOpen,        ///< `run` is to be opened
+    kRelease,     ///< the ownership is to be released: no key is left
     kUnreadable,  ///< the same, and its keys stay: another release may have written them
-    kTaken,    ///< the same: the name of the creation belongs to a session without owner
+    kTaken,       ///< the same: the name of the creation belongs to a session without owner
   };
   /// Takes the reply that it waits for.
   [[nodiscard]] Next on_reply(Time now, const directory::Reply& reply, EpochBase& base);

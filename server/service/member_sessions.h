@@ -14,10 +14,10 @@ namespace tandem::server {
 /// An order of the member to its server; orders are carried out in sequence.
 struct ServiceEvent {
   enum class Kind : std::uint8_t {
-    kOpen,      ///< serve the session; answer with `on_opened` or `on_open_failed`
-    kGiveUp,    ///< end it here, its state stays; answer with `on_given_up`
-    kHandOver,  ///< the same, because it moves, `text` says why; answer with `on_handed_over` when it is over
-    kRefused,   ///< a creation is refused: `text` says why
+    kOpen,        ///< serve the session; answer with `on_opened` or `on_open_failed`
+    kGiveUp,      ///< end it here, its state stays; answer with `on_given_up`
+    kHandOver,    ///< the same, because it moves, `text` says why; answer with `on_handed_over` when it is over
+    kRefused,     ///< a creation is refused: `text` says why
     kUnreadable,  ///< the session cannot be opened: its spec in the directory is damaged, or of another release
   };
   Kind kind{};

@@ -18,10 +18,10 @@ struct SessionLoad {
 /// Notes of SessionMoves on a session of this server. They end with the session.
 struct MoveNotes {
   std::optional<SessionLoad> load{};
-  std::string target{};       ///< of the newest move
-  int steps_until_move = -1;  ///< after the hand-over; -1: not handed over, or the ownership is moving
+  std::string target{};               ///< of the newest move
+  int steps_until_move = -1;          ///< after the hand-over; -1: not handed over, or the ownership is moving
   std::optional<Time> handed_over{};  ///< of the newest move; nullopt: the session still runs here
-  Time next_standby{};        ///< then a standby is chosen
+  Time next_standby{};                ///< then a standby is chosen
 };
 
 }  // namespace tandem::server

@@ -61,7 +61,7 @@ std::string to_text(const ServiceSession& session) {
 std::optional<ServiceSession> parse_service_session(std::string_view text) {
   constexpr std::size_t kTextMax = 255;
   constexpr double kDurationMax = 3e6;
-  constexpr std::int64_t kEndsMax = 8'000'000'000;  // in the year 2223: still a time in nanoseconds
+  constexpr std::int64_t kEndsMax = 8'000'000'000;               // in the year 2223: still a time in nanoseconds
   constexpr std::int64_t kEpochBaseMax = std::int64_t{1} << 62;  // half of what an epoch can be
   if (text.size() > kServiceSessionMax) return std::nullopt;
   const Json in = Json::parse(text, nullptr, false);

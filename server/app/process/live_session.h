@@ -114,9 +114,9 @@ class LiveSession {
   Violations violations_;
   std::atomic<bool> over_{false};
   io::EventFd over_event_;
-  std::uint32_t seldom_interval_;       ///< [ticks] between records that nothing needs
-  bool reported_ = true;                ///< every tick is needed: for a report or a trace
-  std::atomic<bool> recording_{false};  ///< likewise: for a recording
+  std::uint32_t seldom_interval_;              ///< [ticks] between records that nothing needs
+  bool reported_ = true;                       ///< every tick is needed: for a report or a trace
+  std::atomic<bool> recording_{false};         ///< likewise: for a recording
   std::shared_ptr<const ActLimit> act_limit_;  ///< nullptr: none
   std::atomic<bool> acts_{true};
   std::atomic<std::int64_t> first_tick_{0};  ///< [ns]; 0: none

@@ -26,7 +26,7 @@ struct OwnedSession {
   /// Of the ownership in the directory. It becomes the session's epoch: higher than that of each former owner.
   std::uint64_t revision = 0;
   std::shared_ptr<const ActLimit> act_limit{};  ///< of all that the server owns; nullptr: none
-  SnapshotKeeper* keeper = nullptr;  ///< must outlive the session
+  SnapshotKeeper* keeper = nullptr;             ///< must outlive the session
   /// Called on the main loop's thread when the session is over and serves no client any more.
   /// @param given_up  another server may own the session by now; false: it has ended
   std::function<void(bool given_up)> on_over = [](bool) {};

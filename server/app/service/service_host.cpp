@@ -278,8 +278,9 @@ bool ServiceHost::take(SessionOrder& order) {
     }
   }
   orders_.emplace(number, std::move(order));
-  if (!problem && !thread_->with(
-                  [&](ServiceMember& member, Time now) { return member.create(now, name, std::move(*spec), number); }))
+  if (!problem && !thread_->with([&](ServiceMember& member, Time now) {
+        return member.create(now, name, std::move(*spec), number);
+      }))
     problem =
         rpc::ErrorReply{rpc::ErrorCode::kNotAllowed,
                         "a session " + name + " exists already; choose another name, or end that session first", 0};

@@ -51,6 +51,15 @@ TEST(ServerLost, TellsAnAnnouncedEndFromASilence) {
   EXPECT_NE(server_lost_text(false, 60).find("no news for 60 s"), std::string::npos);
 }
 
+TEST(ServerLost, GivesTheNewestReasonOfAServerThatWasReached) {
+  EXPECT_EQ(server_lost_text(false, 60, "this service has no such session"),
+            "server lost: a server was reached, but none has given the seat back for 60 s. Newest reason: this service "
+            "has no such session. Ask its operator, then join again");
+  EXPECT_EQ(server_lost_text(true, 4, "this server is draining"),
+            "server lost: it ended or gave the session away, and no server has given the seat back for 4 s. Newest "
+            "reason: this server is draining. Ask its operator when it serves the session again, then join again");
+}
+
 TEST(AuthorityTransfer, ReportsGiverReceiverShareStartAndDuration) {
   ScreenTexts said;
   EXPECT_EQ(said({.by = wire::TransferParties::kScene, .to = 2, .percent = 100}),

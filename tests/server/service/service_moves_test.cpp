@@ -1,6 +1,5 @@
 // Moves that meet an end of the session, a full directory, or the loss of their target. In virtual time.
 #include "server/service/session_moves.h"
-
 #include "tests/server/service/service_fixture.h"
 
 namespace tandem::server::test {

@@ -189,8 +189,8 @@ TEST(OwnedSessions, WaitForTheirFirstParticipantForAsLongAsBeforeTheMove) {
     ASSERT_EQ(m.rig.table->open_owned(m.owned(10)), "");
     SessionSnapshot snapshot = m.kept.last;
     snapshot.checkpoint = m.checkpoint();
-    snapshot.checkpoint.begun = begun;                   // true: in a scene without required seats
-    snapshot.checkpoint.seats[0].taken = !begun;         // a participant who has waited
+    snapshot.checkpoint.begun = begun;            // true: in a scene without required seats
+    snapshot.checkpoint.seats[0].taken = !begun;  // a participant who has waited
     snapshot.checkpoint.seats[0].resume = {std::byte{1}};
     m.rig.table->give_up("exam");
     m.service_until_over();
