@@ -205,11 +205,11 @@ TEST_F(Service, SessionsStayWhereTheyAreAndGoOnWhileEtcdIsFull) {
   Process drain = server({"stop", "--grace", "60", "--state", service.folder().file("a")});
   ASSERT_TRUE(a.wait_for("MOVES to server b, because this server drains")) << a.err();
   EXPECT_TRUE(a.wait_for("session lab RESTORED from its checkpoint")) << "it is served again: " << a.err();
-  service.etcd().etcdctl({"del", "--prefix", "filler"});
+  static_cast<void>(service.etcd().etcdctl({"del", "--prefix", "filler"}));
   const Json status = Json::parse(service.etcd().etcdctl({"endpoint", "status", "-w", "json"}));
-  service.etcd().etcdctl({"compact", std::to_string(status[0]["Status"]["header"]["revision"].get<long>())});
-  service.etcd().etcdctl({"defrag"});
-  service.etcd().etcdctl({"alarm", "disarm"});
+  static_cast<void>(service.etcd().etcdctl({"compact", std::to_string(status[0]["Status"]["header"]["revision"].get<long>())}));
+  static_cast<void>(service.etcd().etcdctl({"defrag"}));
+  static_cast<void>(service.etcd().etcdctl({"alarm", "disarm"}));
   service.wait_for_sessions("b", 1);
   EXPECT_TRUE(a.wait()) << "all its sessions have moved";
   drain.wait();

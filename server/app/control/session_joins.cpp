@@ -133,11 +133,10 @@ void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, st
   if (resume != nullptr && match == ResumeMatch::kNone) return answer(nothing_to_resume());
   if (reservation.joining()) return answer(taken_or_used(entry, request, *seat));
   if (resume == nullptr && reservation.reserved(io::monotonic_now()))
-    return answer(
-        ErrorReply{ErrorCode::kSeatTaken,
-                   "seat " + catalogue.scene().seats[*seat].name +
-                       " is reserved for 2 s for the client that had it before the session was moved or restored",
-                   2});
+    return answer(ErrorReply{ErrorCode::kSeatTaken,
+                             "seat " + catalogue.scene().seats[*seat].name +
+                                 " is reserved for 2 s for its client of before the restart or move",
+                             2});
 
   reservation.begin_join();
   ShardRequest query{.what = ShardRequest::What::kQuerySeat, .seat = *seat, .same_owner = resume != nullptr};

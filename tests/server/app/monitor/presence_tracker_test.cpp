@@ -150,7 +150,7 @@ struct Restored : Running {
   Restored() {
     for (std::size_t i = 0; i < 2; ++i) status.seats[i] = {};
     status.state = wire::SessionState::kWaiting;
-    when.resume_until = now + 10min;
+    when.return_until = now + 10min;
   }
   std::optional<SessionEnding> after_restart(Duration time) {
     when.now = now + time;
@@ -166,7 +166,7 @@ TEST(SessionEnding, EndsARestoredSessionWithoutParticipantsAfterTheTimeout) {
   ASSERT_TRUE(over);
   EXPECT_EQ(over->why, EndReason::kStartTimeout);
   EXPECT_TRUE(over->event.warning);
-  s.when.resume_until.reset();
+  s.when.return_until.reset();
   EXPECT_FALSE(s.after_restart(11min)) << "a new session waits for participants without a limit";
 }
 
