@@ -186,11 +186,11 @@ TEST_F(Service, HandsInContactActOnWhileTheDiskOfTheirServerIsStuck) {
 /// At its quota etcd renews leases, answers reads and refuses every write.
 TEST_F(Service, SessionsStayWhereTheyAreAndGoOnWhileEtcdIsFull) {
   LiveService service("session { name: \"lab\" scene: \"free_motion\" }");
-  service.etcd().restart_with({"--quota-backend-bytes", "8388608"});
   Process& a = service.start("a");
   service.wait_for_sessions("a", 1);
   Process& b = service.start("b");
   ASSERT_TRUE(b.wait_for("is a member of the service")) << b.err();
+  service.etcd().restart_with({"--quota-backend-bytes", "8388608"});
   const std::string filler(120'000, 'x');
   bool full = false;
   for (int n = 0; n < 200 && !full; ++n) {
@@ -207,7 +207,8 @@ TEST_F(Service, SessionsStayWhereTheyAreAndGoOnWhileEtcdIsFull) {
   EXPECT_TRUE(a.wait_for("session lab RESTORED from its checkpoint")) << "it is served again: " << a.err();
   static_cast<void>(service.etcd().etcdctl({"del", "--prefix", "filler"}));
   const Json status = Json::parse(service.etcd().etcdctl({"endpoint", "status", "-w", "json"}));
-  static_cast<void>(service.etcd().etcdctl({"compact", std::to_string(status[0]["Status"]["header"]["revision"].get<long>())}));
+  static_cast<void>(
+      service.etcd().etcdctl({"compact", std::to_string(status[0]["Status"]["header"]["revision"].get<long>())}));
   static_cast<void>(service.etcd().etcdctl({"defrag"}));
   static_cast<void>(service.etcd().etcdctl({"alarm", "disarm"}));
   service.wait_for_sessions("b", 1);

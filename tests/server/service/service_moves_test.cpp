@@ -104,7 +104,7 @@ TEST_F(ServiceMoves, HandsActOnWhileASessionOpens) {
   EXPECT_EQ(a.member.served_until(), a.member.act_until());
 }
 
-/// Otherwise a lesson that runs would be without a server until somebody has mended etcd.
+/// Otherwise a lesson that runs would be without a server until etcd has space.
 TEST_F(ServiceMoves, NoneBeginsWhileTheDirectoryStoresNoSnapshots) {
   Server& a = start("a", {{"lab", session_spec(1)}});
   Server& b = start("b");
