@@ -160,6 +160,7 @@ TEST_F(ServiceMoves, SpecThatCannotBeReadStaysInTheDirectory) {
   EXPECT_FALSE(b.open.contains("lab"));
   EXPECT_EQ(value("catalogue/lab/spec"), "{}");
   EXPECT_EQ(value("snapshots/lab"), "state at the hand-over");
+  ASSERT_FALSE(b.events.empty());
   EXPECT_EQ(b.events.back().kind, ServiceEvent::Kind::kUnreadable);
   EXPECT_FALSE(has("live/sessions/lab/owner"));
 }
