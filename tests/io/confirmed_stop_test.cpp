@@ -9,6 +9,7 @@
 #include "tests/io/free_address.h"
 #include "tests/io/operator_console.h"
 #include "tests/io/programs.h"
+#include "tests/io/slow_disk.h"
 
 namespace tandem::test {
 namespace {
@@ -96,8 +97,7 @@ TEST_F(ConfirmedStop, SurvivesAKillWhileHandsAreEngagedAndSoDoesItsEnd) {
 
 TEST_F(ConfirmedStop, IsAtOnceAndSaysSoWhereTheDiskIsFullOrStuck) {
   const std::string disk = folder.write("disk", "ok");
-  Process host({"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + disk, TANDEM_SERVER,
-                "run", "free_motion", "--listen", address});
+  Process host(on_slow_disk(disk, {TANDEM_SERVER, "run", "free_motion", "--listen", address}));
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   Operator console(at(address)), other(at(address));
   ASSERT_EQ(console.order(rpc::StopSession{console.session(), "test"}), "");

@@ -14,6 +14,7 @@
 #include "tests/io/machine_witness.h"
 #include "tests/io/metrics_page.h"
 #include "tests/io/multi_client_fixture.h"
+#include "tests/io/slow_disk.h"
 #include "tests/io/web_fixture.h"
 
 namespace tandem::test {
@@ -64,8 +65,7 @@ TEST(GatewayLive, ShowsHandsAndToolAndTakesOrders) {
 TEST(GatewayLive, WarnsThatAStopWasCarriedOutAndIsNotStored) {
   const Folder folder;
   const std::string disk = folder.write("disk", "nospace");
-  Process host({"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + disk, TANDEM_SERVER,
-                "run", "one_axis", "--listen", free_address()});
+  Process host(on_slow_disk(disk, {TANDEM_SERVER, "run", "one_axis", "--listen", free_address()}));
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   WebGateway gateway(address_of(host));
   gateway.open_url();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/io/live_recordings.h"
+#include "tests/io/slow_disk.h"
 
 namespace tandem::test {
 namespace {
@@ -205,8 +206,8 @@ TEST(LiveLateRecording, SaysWhyItHasNoInputs) {
 TEST(LiveLateRecording, AFullDiskForKeptInputsDisturbsNoSessionAndNoRecording) {
   const Folder folder, films;
   const std::string disk = folder.write("disk", "ok");
-  Process host({"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + disk, TANDEM_SERVER,
-                "run", "free_motion", "--duration", "10", "--record", films.file(""), "--json", folder.file("s.json")});
+  Process host(on_slow_disk(disk, {TANDEM_SERVER, "run", "free_motion", "--duration", "10", "--record", films.file(""),
+                                   "--json", folder.file("s.json")}));
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer"), trainee = client(address, "trainee");

@@ -14,6 +14,7 @@
 #include "tests/common/base/counts.h"
 #include "tests/io/live_recordings.h"
 #include "tests/io/metrics_page.h"
+#include "tests/io/slow_disk.h"
 
 namespace tandem::test {
 namespace {
@@ -228,9 +229,9 @@ double share(const Ticks& from, const Ticks& to) { return (to.late - from.late) 
 TEST(LiveRecording, DisturbsNoSessionOnASlowOrFullDisk) {
   const Folder folder;
   const std::string disk = folder.write("disk", "ok");
-  Process host({"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + disk, TANDEM_SERVER,
-                "run", "free_motion", "--duration", "14", "--record", folder.file("a.mcap"), "--json",
-                folder.file("s.json"), "--metrics", "127.0.0.1:0"});
+  Process host(
+      on_slow_disk(disk, {TANDEM_SERVER, "run", "free_motion", "--duration", "14", "--record", folder.file("a.mcap"),
+                          "--json", folder.file("s.json"), "--metrics", "127.0.0.1:0"}));
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   const std::string metrics = host.after("metrics on http://");
   const std::string at = metrics.substr(0, metrics.find('/'));

@@ -3,6 +3,7 @@
 #include "tests/common/base/counts.h"
 #include "tests/io/metrics_page.h"
 #include "tests/io/pressing_service.h"
+#include "tests/io/slow_disk.h"
 
 namespace tandem::test {
 namespace {
@@ -169,8 +170,7 @@ TEST_F(Service, HandsInContactComeBackFromZeroForceAtTheStandbyOfAKilledServer) 
 TEST_F(Service, HandsInContactActOnWhileTheDiskOfTheirServerIsStuck) {
   PressingService pressed;
   const std::string word = pressed.service().folder().write("disk", "ok");
-  pressed.service().set(
-      "a", {.under = {"/usr/bin/env", "LD_PRELOAD=" TANDEM_SLOW_DISK_LIBRARY, "TANDEM_SLOW_DISK=" + word}});
+  pressed.service().set("a", {.under = on_slow_disk(word, {})});
   pressed.start({"a"});
   pressed.join(pressed.service().address("a"));
   const std::string used = pressed.service().folder().file("trainer.ticket");
