@@ -34,6 +34,12 @@ void FencedWriter::hurry(const std::string& key) {
 void FencedWriter::drop(const std::string& session) {
   std::erase_if(waiting_, [&](const auto& entry) { return entry.second.session == session; });
   std::erase_if(sent_, [&](const auto& entry) { return entry.second.session == session; });
+  forget_solved_problem();
+}
+
+/// A directory that is full accepts nothing, so a problem ends with the values that it concerned.
+void FencedWriter::forget_solved_problem() {
+  if (waiting_.empty() && sent_.empty()) problem_.clear();
 }
 
 bool FencedWriter::pending(const std::string& session) const {
@@ -121,6 +127,7 @@ bool FencedWriter::on_reply(const directory::Reply& reply) {
     counters_.refused += sent_.size();  // another server owns the session, or it has ended
     sent_.clear();
   }
+  forget_solved_problem();
   return true;
 }
 

@@ -59,8 +59,8 @@ class FencedWriter {
   bool on_reply(const directory::Reply& reply);
   /// Returns the mark of a value that is in the directory now, each once. A value that lost its session has none.
   [[nodiscard]] std::optional<std::uint64_t> poll_written();
-  /// Why the newest transaction is not written: an error of the store, or no answer in time. Empty: it is, or none was
-  /// begun.
+  /// Why the newest transaction is not written: an error of the store, or no answer in time. Empty: it is, or no value
+  /// waits.
   [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
 
@@ -74,6 +74,7 @@ class FencedWriter {
   };
 
   void again(bool alone);
+  void forget_solved_problem();
   void collect(bool first, directory::Transaction& transaction, std::size_t& bytes);
 
   directory::DirectoryKeys keys_;

@@ -39,6 +39,7 @@ void MemberSession::enter(Phase phase) noexcept {
 
 void MemberSession::on_owned(directory::Revision revision) {
   revision_ = revision;
+  has_newest_ = false;
   enter(origin_ == Origin::kCreated ? Phase::kWriting : Phase::kLoading);
 }
 
@@ -46,6 +47,11 @@ void MemberSession::abandon() {
   phase_ = Phase::kLoading;
   abandoned_ = true;
   operation_ = 0;
+}
+
+void MemberSession::open_again() {
+  has_newest_ = true;
+  enter(Phase::kLoading);
 }
 
 void MemberSession::replace(ServiceSession spec) {
@@ -147,14 +153,16 @@ MemberSession::Next MemberSession::on_loaded(const Reply& reply, EpochBase& base
                         spec->tickets_only != spec_->tickets_only || spec->restart != spec_->restart);
   if (spec && !changed) {
     ServiceSession wanted = base.on(*spec);
-    snapshot_ = snapshot != nullptr ? *snapshot : "";
-    consoles_ = consoles != nullptr ? *consoles : "";
+    if (!std::exchange(has_newest_, false)) {
+      snapshot_ = snapshot != nullptr ? *snapshot : "";
+      consoles_ = consoles != nullptr ? *consoles : "";
+    }
     if (wanted == *spec) return open(std::move(*spec), base);
     spec_ = std::move(wanted);
     phase_ = Phase::kWriting;
     return Next::kNothing;
   }
-  if (spec_text != nullptr && !spec && !spec_) return Next::kUnreadable;
+  if (spec_text != nullptr && !spec) return Next::kUnreadable;
   if (spec && spec_) spec_->epoch_base = std::max(spec_->epoch_base, spec->epoch_base);
   // A configured session without owner begins; any other without a spec has ended.
   phase_ = spec_ ? Phase::kWriting : Phase::kEnding;

@@ -69,6 +69,9 @@ class MemberSession {
   void on_owned(directory::Revision revision);
   /// Its creation was refused while the spec was being written: the spec is erased again.
   void abandon();
+  /// A move is taken back: the session is opened here again, from the state that it had at its end here, which the
+  /// directory may not have.
+  void open_again();
   /// Another run replaces the open one.
   void replace(ServiceSession spec);
   /// Erases its keys.
@@ -107,6 +110,7 @@ class MemberSession {
   std::optional<ServiceSession> served_{};  ///< as opened
   std::string snapshot_{}, consoles_{};     ///< newest
   bool abandoned_ = false;
+  bool has_newest_ = false;  ///< snapshot and consoles are newer than those in the directory
   directory::OperationId operation_ = 0;  ///< under way; 0: none
   Time sent_{}, next_attempt_{};
 };

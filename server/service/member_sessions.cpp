@@ -19,10 +19,6 @@ std::optional<ServiceEvent> MemberSessions::poll_event() {
   return event;
 }
 
-bool MemberSessions::loses() const noexcept {
-  return std::ranges::any_of(entries_, [](const auto& e) { return e.second.session.phase() == Phase::kLosing; });
-}
-
 std::optional<MemberSession::Phase> MemberSessions::phase(std::string_view session) const {
   const auto found = entries_.find(session);
   return found == entries_.end() ? std::nullopt : std::optional(found->second.session.phase());
@@ -59,12 +55,13 @@ void MemberSessions::refuse_as_lost(const std::string& session, std::uint64_t or
   refuse(session, refused, kLostText);
 }
 
+bool MemberSessions::refused(const std::string& session) const {
+  const auto found = refused_until_.find(session);
+  return found != refused_until_.end() && now_ < found->second;
+}
+
 void MemberSessions::want(const std::string& session) {
-  if (entries_.contains(session)) return;
-  if (const auto refused = refused_until_.find(session); refused != refused_until_.end()) {
-    if (now_ < refused->second) return;
-    refused_until_.erase(refused);
-  }
+  if (entries_.contains(session) || refused(session)) return;
   if (!directory_.ownership.keeper().registered() || !directory_.ownership.claim(session)) return;
   entries_.insert_or_assign(session, Entry{.session = MemberSession(session)});
 }
@@ -102,6 +99,7 @@ void MemberSessions::on_open_failed(Time now, const std::string& session) {
 }
 
 void MemberSessions::on_given_up(const std::string& session) {
+  --given_up_;
   if (phase(session) == Phase::kLosing) entries_.erase(session);
 }
 
@@ -181,6 +179,7 @@ std::optional<MemberSession::Run> MemberSessions::on_lost(const std::string& ses
   if (before == Phase::kOpening || before == Phase::kOpen || (before == Phase::kMoving && !entry.move.handed_over)) {
     entry.session.set_phase(Phase::kLosing);
     events_.push_back({.kind = ServiceEvent::Kind::kGiveUp, .session = session, .revision = entry.session.revision()});
+    ++given_up_;
   } else if (before != Phase::kLosing) {
     entries_.erase(found);
   }

@@ -55,10 +55,12 @@ class MemberSessions {
   [[nodiscard]] std::optional<ServiceEvent> poll_event();
   [[nodiscard]] bool has_event() const noexcept { return !events_.empty(); }
   /// Whether the server may still serve a session that it has lost: the order to give it up is not answered.
-  [[nodiscard]] bool loses() const noexcept;
+  [[nodiscard]] bool loses() const noexcept { return given_up_ > 0; }
 
   /// Claims a session that no server owns, unless it could not be opened here a short time ago.
   void want(const std::string& session);
+  /// It could not be opened here a short time ago.
+  [[nodiscard]] bool refused(const std::string& session) const;
   /// Claims a session that begins from a spec. Returns false if too many are known.
   bool claim(const std::string& session, MemberSession::Origin origin, MemberSession::Run from);
   /// Creates a session. kOpen or kRefused follows. Returns false if this server knows it, or too many.
@@ -126,6 +128,7 @@ class MemberSessions {
   Entries entries_;
   std::map<std::string, Time> refused_until_;  ///< sessions that this server could not open
   std::deque<ServiceEvent> events_;
+  std::size_t given_up_ = 0;  ///< kGiveUp without answer; the session may be this server's again before
   Time now_{};  ///< of the newest step
 };
 

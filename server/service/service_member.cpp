@@ -183,6 +183,22 @@ bool ServiceMember::create(Time now, const std::string& session, ServiceSession 
   return !leaving_ && sessions_.create(now, session, std::move(spec), order);
 }
 
+void ServiceMember::end(const std::string& session) {
+  beginnings_.replace_kept(session, std::nullopt);
+  sessions_.end(session);
+}
+
+void ServiceMember::replace(const std::string& session, const ServiceSession& spec) {
+  beginnings_.replace_kept(session, spec);
+  sessions_.replace(session, spec);
+}
+
+bool ServiceMember::ends(const std::string& session) const {
+  const auto phase = sessions_.phase(session);
+  return phase && (*phase == MemberSession::Phase::kEnding || *phase == MemberSession::Phase::kWriting ||
+                   *phase == MemberSession::Phase::kLosing);
+}
+
 SessionPlace ServiceMember::locate(const rpc::SessionChoice& choice) {
   SessionPlace place = places_.find(now_, choice);
   if (place.kind == SessionPlace::Kind::kComing && places_.is_free(place.session)) want(place.session);

@@ -56,6 +56,12 @@ class ServiceMember {
   /// Creates a session whose name is free in the service. kOpen or kRefused follows.
   /// @return false: this server knows a session of this name, or too many
   [[nodiscard]] bool create(Time now, const std::string& session, ServiceSession spec, std::uint64_t order);
+  /// A run that this server served is over, and the session with it: nothing of it stays in the directory.
+  void end(const std::string& session);
+  /// The same, and its next run replaces it. kOpen follows.
+  void replace(const std::string& session, const ServiceSession& spec);
+  /// The end of a run is not in the directory yet.
+  [[nodiscard]] bool ends(const std::string& session) const;
   /// Finds a session by id, code or name; without any, the only one. Asks for it if no server owns it.
   [[nodiscard]] SessionPlace locate(const rpc::SessionChoice& choice);
   /// Ends the lease and with it all ownerships, so that other servers begin at once. No session may have effort.

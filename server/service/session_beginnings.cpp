@@ -10,6 +10,15 @@ void SessionBeginnings::keep(const std::string& session, MemberSession::Run run)
   kept_[session] = std::move(run);
 }
 
+void SessionBeginnings::replace_kept(const std::string& session, std::optional<ServiceSession> next) {
+  const auto found = kept_.find(session);
+  if (found == kept_.end()) return;
+  if (next)
+    found->second = {.spec = std::move(*next)};
+  else
+    kept_.erase(found);
+}
+
 void SessionBeginnings::begin_configured() {
   for (const auto& [session, spec] : configured_) to_begin_.insert(session);
 }
@@ -42,7 +51,7 @@ void SessionBeginnings::claim_kept(Time now, bool drains) {
 void SessionBeginnings::claim_configured(Time now) {
   if (to_begin_.empty() || !loss_.all_may_begin(now) || !directory_.ready()) return;
   std::erase_if(to_begin_, [&](const std::string& session) {
-    if (sessions_.contains(session)) return false;
+    if (sessions_.contains(session) || sessions_.refused(session)) return false;
     const auto* const seen = directory_.ownership.view().session(session);
     if (seen != nullptr && (seen->owner || seen->standby)) return directory_.catalogue.find(session) != nullptr;
     sessions_.claim(session, MemberSession::Origin::kConfigured, {.spec = configured_.at(session)});

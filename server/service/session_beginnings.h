@@ -27,6 +27,8 @@ class SessionBeginnings {
 
   /// Takes the run of a session whose ownership is lost. It begins here again if the directory is lost.
   void keep(const std::string& session, MemberSession::Run run);
+  /// The run that was kept is over; its next one begins in its place, or none.
+  void replace_kept(const std::string& session, std::optional<ServiceSession> next);
   /// The session is being opened here: the service has it.
   void on_open(const std::string& session) { to_begin_.erase(session); }
   /// The sessions of the configuration may be missing in this directory.

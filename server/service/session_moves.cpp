@@ -111,10 +111,10 @@ void SessionMoves::advance(Time now, const std::string& session, Entry& entry) {
   if (directory_.writer.pending(session) || directory_.tickets.restoring(session)) {
     if (now - *entry.move.handed_over < kWritingMax) return;
     entry.move.steps_until_move = -1;
-    return entry.session.set_phase(MemberSession::Phase::kLoading);  // opened here again
+    return entry.session.open_again();
   }
   entry.move.steps_until_move = -1;
-  if (!directory_.ownership.move(session, entry.move.target)) entry.session.set_phase(MemberSession::Phase::kLoading);
+  if (!directory_.ownership.move(session, entry.move.target)) entry.session.open_again();
 }
 
 void SessionMoves::on_standby_refused(Time now, const std::string& session, const std::string& refused) {
@@ -123,7 +123,7 @@ void SessionMoves::on_standby_refused(Time now, const std::string& session, cons
   Entry& entry = found->second;
   entry.move.next_standby = now + kStandbyPause;
   if (entry.session.phase() == MemberSession::Phase::kMoving && entry.move.handed_over && refused == entry.move.target)
-    entry.session.set_phase(MemberSession::Phase::kLoading);  // opened here again
+    entry.session.open_again();
 }
 
 void SessionMoves::choose_standby(Time now, const std::string& session, Entry& entry,

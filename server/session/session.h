@@ -108,6 +108,8 @@ class Session {
   /// No client has a seat, watches, or tests its link.
   [[nodiscard]] bool idle() const noexcept;
   /// All clients have received CLOSE: no tick does anything any more.
+  /// Its clients are being closed, or it is over.
+  [[nodiscard]] bool ends() const noexcept { return participants_.closing().session.begun(); }
   [[nodiscard]] bool over() const noexcept { return participants_.closing().session.over(); }
   [[nodiscard]] wire::SessionState state() const noexcept { return lifecycle_.state(); }
 

@@ -176,10 +176,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         static_cast<void>(member.create(now, "new", session_spec(), 1));
         break;
       case 2:
-        member.sessions().end("lab");
+        member.end("lab");
         break;
       case 3:
-        member.sessions().replace("lab", session_spec());
+        member.replace("lab", session_spec());
         break;
       case 4:
         member.sessions().set_snapshot("lab", draws.text());

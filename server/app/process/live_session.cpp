@@ -70,6 +70,7 @@ Time LiveSession::tick(Time now, Time due, std::uint32_t missed, const MachineSt
   session_.set_record_interval(std::max(every_tick ? 1 : seldom_interval_, seldom ? kRecordIntervalShedding : 1));
   if (ticks_ == 0) first_tick_.store(now.time_since_epoch().count(), std::memory_order_release);
   session_.on_tick(now, missed);
+  ends_.store(session_.ends(), std::memory_order_relaxed);
   while (const auto event = session_.audit().poll()) {
     audit_.push(*event);
     checkpoints_.note(event->what);

@@ -68,6 +68,8 @@ class LiveSession {
   /// Has the ticks disengage all hands from a time on, and engage them again when it was set to a later one. Each tick
   /// reads the clock. Before the first tick. Default: none.
   void set_act_limit(std::shared_ptr<const ActLimit> limit) noexcept { act_limit_ = std::move(limit); }
+  /// The session ends by itself: its clients are being closed, or it is over.
+  [[nodiscard]] bool ends() const noexcept { return ends_.load(std::memory_order_relaxed); }
   /// Has the next ticks disengage all hands for ever: another server may own the session.
   void stop_acting() noexcept { acts_.store(false, std::memory_order_relaxed); }
 
@@ -119,6 +121,7 @@ class LiveSession {
   std::atomic<bool> recording_{false};         ///< likewise: for a recording
   std::shared_ptr<const ActLimit> act_limit_;  ///< nullptr: none
   std::atomic<bool> acts_{true};
+  std::atomic<bool> ends_{false};
   std::atomic<std::int64_t> first_tick_{0};  ///< [ns]; 0: none
   std::uint64_t ticks_ = 0, skipped_records_ = 0;
   std::uint64_t last_tick_ = 0;  ///< in the numbering of the shards

@@ -57,7 +57,9 @@ void SessionTable::give_up(const std::string& name) {
 
 bool SessionTable::hand_over(const std::string& name, std::string text) {
   const auto found = std::ranges::find_if(sessions_, [&](const auto& s) { return s->options().name == name; });
-  if (found == sessions_.end() || ((*found)->end && (*found)->end != EndReason::kGivenUp)) return false;
+  if (found == sessions_.end()) return false;
+  const bool leaves = (*found)->end == EndReason::kGivenUp;
+  if (!leaves && ((*found)->end || (*found)->live_session().ends())) return false;
   end_here(name, {"moves", "", std::move(text), false});
   return true;
 }

@@ -124,7 +124,9 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
 std::optional<Time> SessionInstance::return_until() const noexcept {
   if (!snapshot_ || !snapshot_->checkpoint.begun) return std::nullopt;
   const auto seats = std::span(snapshot_->checkpoint.seats).first(options_->scene.seats.size());
-  return std::ranges::any_of(seats, &Checkpoint::Seat::taken) ? std::optional(resume_until_) : std::nullopt;
+  const bool had = std::ranges::any_of(options_->scene.seats, &SeatSpec::required) ||
+                   std::ranges::any_of(seats, &Checkpoint::Seat::taken);
+  return had ? std::optional(resume_until_) : std::nullopt;
 }
 
 void SessionInstance::set_keeper(SnapshotKeeper* keeper) {

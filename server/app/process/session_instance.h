@@ -67,7 +67,7 @@ class SessionInstance {
   /// Time until which former participants can resume. @pre snapshot() is not null
   [[nodiscard]] Time resume_until() const noexcept { return resume_until_; }
   /// Time until which one of them must have come back, or the session ends. nullopt: it waits for its first
-  /// participants, or its scene goes on without any, as in a session that was not restored.
+  /// participants, or has begun without any because its scene requires none.
   [[nodiscard]] std::optional<Time> return_until() const noexcept;
 
   /// Whether an operator created the session at run time.

@@ -11,6 +11,7 @@ void EndedSessions::add(const std::string& session, const rpc::Id& id, std::vect
 void EndedSessions::step(Time now, ServiceThread& service, SessionTable& sessions) {
   std::erase_if(waiting_, [&](const Ended& ended) {
     const bool erased = service.quietly([&](const ServiceMember& member, Time) {
+      if (member.ends(ended.session)) return false;
       const auto& entries = member.directory().catalogue.entries();
       const auto found = entries.find(ended.session);
       return found == entries.end() || !found->second.spec || found->second.spec->id != ended.id;

@@ -223,11 +223,11 @@ void ServiceHost::on_over(const std::string& session, const ServiceSession& spec
   if (leaving_ || given_up) return;
   ended_.add(session, spec.id, parts_.sessions.take_endings(spec.id), io::monotonic_now());
   thread_->with([&](ServiceMember& member, Time) {
-    if (!spec.restart) return member.sessions().end(session);
+    if (!spec.restart) return member.end(session);
     ServiceSession next = spec;
     next.id = auth::random_bytes<auth::Id16>();
     if (!next.code.empty()) next.code = make_session_code();
-    member.sessions().replace(session, std::move(next));
+    member.replace(session, next);
   });
 }
 

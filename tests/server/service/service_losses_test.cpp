@@ -64,6 +64,29 @@ TEST_F(ServiceLosses, SessionsThatWereOverDoNotComeBack) {
   EXPECT_EQ(a.open["lab"].spec.id[0], std::byte{2}) << "its next run";
 }
 
+// The same, if the server learns of the loss before it has reported the end.
+TEST_F(ServiceLosses, SessionsThatAreOverWhileTheyAreGivenUpDoNotComeBack) {
+  Server& a = begin("a");
+  ASSERT_TRUE(a.member.create(now_, "made", session_spec(3), 7));
+  pass(1s);
+  a.runs = false;
+  a.directory.cut = true;
+  store_ = empty(1000);
+  a.directory.cut = false;
+  for (int n = 0; n < 100 && !a.member.sessions().has_event(); ++n) {
+    pass(20ms);
+    a.member.step(now_);
+  }
+  ASSERT_TRUE(a.member.sessions().has_event());
+  EXPECT_TRUE(a.member.ends("made")) << "no reply yet that it has ended";
+  a.member.end("made");
+  a.open.erase("made");
+  a.runs = true;
+  pass(20s);
+  EXPECT_FALSE(a.open.contains("made"));
+  EXPECT_FALSE(a.member.ends("made"));
+}
+
 // Sessions of the configuration, and one that an operator created: all go on from their state, with a higher epoch.
 TEST_F(ServiceLosses, AllSessionsGoOnFromTheirStateWhenTheDirectoryIsBegunFromNothing) {
   const std::uint64_t count = tandem::test::seeds(60);

@@ -43,6 +43,7 @@ struct Process {
   std::map<std::string, std::int64_t, std::less<>> serves;  ///< sessions that it serves, with their epochs
   std::map<std::string, ServiceSession> specs;              ///< as opened
   Time limit{};                                             ///< as ActLimit
+  Time still_until{};                                       ///< of the main loop
 };
 
 class ServiceRun final : public directory::test::SimulatedService {
@@ -96,9 +97,10 @@ class ServiceRun final : public directory::test::SimulatedService {
     member.step(clock(nodes_[n]));
     if (const auto until = member.served_until()) process.limit = *until;
     const bool calm = now() >= Time{} + schedule_.calm;
-    if (!calm && !process.serves.empty() && chance(0.002)) end_run(n);
-    // The main loop may be late, at each event.
-    while (calm || !chance(0.1)) {
+    if (!calm && now() >= process.still_until && !process.serves.empty() && chance(0.002)) end_run(n);
+    // The main loop may be late at each event, and stand still for longer than a takeover takes.
+    if (!calm && chance(0.0005)) process.still_until = now() + 8s;
+    while (calm || (now() >= process.still_until && !chance(0.1))) {
       const auto event = member.sessions().poll_event();
       if (!event) break;
       on_event(n, *event);
@@ -118,7 +120,7 @@ class ServiceRun final : public directory::test::SimulatedService {
     process.serves.erase(session);
     ServiceSession next = process.specs.at(session);
     next.id[1] = static_cast<std::byte>(++runs_);
-    process.member->sessions().replace(session, std::move(next));
+    process.member->replace(session, next);
   }
   void on_event(std::size_t n, const ServiceEvent& event) {
     Process& process = *processes_[n];

@@ -156,7 +156,6 @@ TEST(OwnedSessions, GoOnFromTheSnapshotOfTheirFormerOwner) {
   snapshot.checkpoint = m.checkpoint();
   snapshot.checkpoint.session_tick = 1234;
   snapshot.checkpoint.begun = true;
-  snapshot.checkpoint.seats[0].taken = true;
   snapshot.written_s = 1;  // by a machine whose clock is wrong by decades
   m.rig.table->give_up("exam");
   m.service_until_over();
@@ -186,7 +185,12 @@ TEST(OwnedSessions, WaitForTheirFirstParticipantForAsLongAsBeforeTheMove) {
   for (const bool begun : {false, true}) {
     Member m;
     m.rig.start();
-    ASSERT_EQ(m.rig.table->open_owned(m.owned(10)), "");
+    SessionOptions options = lesson("exam");
+    for (SeatSpec& seat : options.scene.seats) seat.required = seat.required && !begun;
+    const auto shared = std::make_shared<const SessionOptions>(std::move(options));
+    OwnedSession owned = m.owned(10);
+    owned.options = shared;
+    ASSERT_EQ(m.rig.table->open_owned(std::move(owned)), "");
     SessionSnapshot snapshot = m.kept.last;
     snapshot.checkpoint = m.checkpoint();
     snapshot.checkpoint.begun = begun;            // true: in a scene without required seats
@@ -195,6 +199,7 @@ TEST(OwnedSessions, WaitForTheirFirstParticipantForAsLongAsBeforeTheMove) {
     m.rig.table->give_up("exam");
     m.service_until_over();
     OwnedSession again = m.owned(500);
+    again.options = shared;
     again.snapshot = snapshot;
     ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
     ASSERT_NE(m.only().snapshot(), nullptr);
@@ -277,6 +282,22 @@ TEST(OwnedSessions, AreNotHandedOverOnceTheyEnd) {
   m.only().end.reset();
   EXPECT_TRUE(m.rig.table->hand_over("exam", "MOVES"));
   EXPECT_EQ(m.only().end, EndReason::kGivenUp);
+}
+
+TEST(OwnedSessions, AreNotHandedOverOnceTheirSceneIsOver) {
+  Member m;
+  m.rig.start();
+  SessionOptions options = lesson("exam");
+  options.scene.duration = 0.2;
+  for (SeatSpec& seat : options.scene.seats) seat.required = false;
+  OwnedSession owned = m.owned(3);
+  owned.options = std::make_shared<const SessionOptions>(std::move(options));
+  ASSERT_EQ(m.rig.table->open_owned(std::move(owned)), "");
+  for (int i = 0; i < 3000 && !m.only().live_session().ends(); ++i) poll(nullptr, 0, 10);
+  ASSERT_FALSE(m.only().end);
+  EXPECT_FALSE(m.rig.table->hand_over("exam", "MOVES"));
+  m.service_until_over();
+  EXPECT_EQ(m.overs, std::vector{false});
 }
 
 /// Otherwise the operator would believe the lesson closed that goes on at the next server.
