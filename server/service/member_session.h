@@ -110,7 +110,7 @@ class MemberSession {
   std::optional<ServiceSession> served_{};  ///< as opened
   std::string snapshot_{}, consoles_{};     ///< newest
   bool abandoned_ = false;
-  bool has_newest_ = false;  ///< snapshot and consoles are newer than those in the directory
+  bool has_newest_ = false;               ///< snapshot and consoles are newer than those in the directory
   directory::OperationId operation_ = 0;  ///< under way; 0: none
   Time sent_{}, next_attempt_{};
 };

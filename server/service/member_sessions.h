@@ -129,7 +129,7 @@ class MemberSessions {
   std::map<std::string, Time> refused_until_;  ///< sessions that this server could not open
   std::deque<ServiceEvent> events_;
   std::size_t given_up_ = 0;  ///< kGiveUp without answer; the session may be this server's again before
-  Time now_{};  ///< of the newest step
+  Time now_{};                ///< of the newest step
 };
 
 }  // namespace tandem::server

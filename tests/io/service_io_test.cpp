@@ -80,7 +80,8 @@ TEST_F(Service, SessionsAreHeldWithoutTheDirectoryAndGoOnWhenItIsBack) {
   EXPECT_NE(metrics.find("tandem_sessions{phase=\"running\"} 0"), std::string::npos) << metrics;
   Process asked({TANDEM_CLIENT, "sessions", "--server", service.address("a"), "--state", own, "--json"});
   EXPECT_EQ(asked.wait(), 0) << asked.err();
-  for (const Json& session : Json::parse(asked.out(), nullptr, false)["sessions"]) EXPECT_EQ(session["phase"], "held");
+  const Json list = Json::parse(asked.out(), nullptr, false);
+  for (const Json& session : list["sessions"]) EXPECT_EQ(session["phase"], "held");
   std::this_thread::sleep_for(milliseconds(3000));  // longer than the lease
   service.etcd().start();
   ASSERT_TRUE(a.wait_for("not HELD by the directory any more")) << a.err();
