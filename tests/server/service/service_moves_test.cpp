@@ -5,15 +5,19 @@
 namespace tandem::server::test {
 namespace {
 
-/// Runs `a`, but not its main loop, until its hand-over was ordered.
 class ServiceMoves : public ServiceTest {
  protected:
-  void until_ordered(Server& a) {
+  /// The main loop of a server stands still, and its member goes on.
+  void pass_without_main_loop(Server& a, Duration time) {
     a.runs = false;
-    for (int n = 0; n < 100 && !a.member.sessions().has_event(); ++n) {
+    for (const Time end = now_ + time; now_ < end;) {
       pass(20ms);
       a.member.step(now_);
     }
+  }
+  /// The same until an order waits for the main loop.
+  void until_ordered(Server& a) {
+    for (int n = 0; n < 100 && !a.member.sessions().has_event(); ++n) pass_without_main_loop(a, 20ms);
     ASSERT_TRUE(a.member.sessions().has_event());
   }
   /// The session ends before its server has begun the hand-over, which it then leaves out.
@@ -79,10 +83,7 @@ TEST_F(ServiceMoves, SessionThatIsLostBeforeItsHandOverBeginsIsGivenUp) {
   a.directory.cut = true;
   pass(6s);
   a.directory.cut = false;
-  for (int n = 0; n < 150; ++n) {
-    pass(20ms);
-    a.member.step(now_);
-  }
+  pass_without_main_loop(a, 3s);
   ASSERT_TRUE(b.open.contains("lab"));
   EXPECT_GT(a.member.act_until(), now_) << "it has a lease again";
   EXPECT_FALSE(a.member.served_until());
@@ -94,13 +95,8 @@ TEST_F(ServiceMoves, SessionThatIsLostBeforeItsHandOverBeginsIsGivenUp) {
 TEST_F(ServiceMoves, HandsActOnWhileASessionOpens) {
   Server& a = start("a", {{"lab", session_spec(1)}});
   pass(3s);
-  a.runs = false;  // its main loop is busy
   ASSERT_TRUE(a.member.create(now_, "exam", session_spec(2), 7));
-  for (int n = 0; n < 100 && !a.member.sessions().has_event(); ++n) {
-    pass(20ms);
-    a.member.step(now_);
-  }
-  ASSERT_TRUE(a.member.sessions().has_event());
+  until_ordered(a);
   EXPECT_EQ(a.member.served_until(), a.member.act_until());
 }
 
@@ -160,20 +156,13 @@ TEST_F(ServiceMoves, SessionThatComesBackBeforeItWasGivenUpDoesNotAct) {
   Server& a = start("a", {{"lab", session_spec(1)}});
   Server& b = start("b");
   pass(3s);
-  a.runs = false;
-  const auto late = [&](Duration time) {
-    for (const Time end = now_ + time; now_ < end;) {
-      pass(20ms);
-      a.member.step(now_);
-    }
-  };
   a.directory.cut = true;
-  late(6s);
+  pass_without_main_loop(a, 6s);
   ASSERT_TRUE(b.open.contains("lab"));
   a.directory.cut = false;
-  late(3s);
+  pass_without_main_loop(a, 3s);
   order_move("lab", "a");
-  late(3s);
+  pass_without_main_loop(a, 3s);
   ASSERT_FALSE(b.open.contains("lab"));
   EXPECT_GT(a.member.act_until(), now_);
   EXPECT_FALSE(a.member.served_until()) << "the run of before is not over";
