@@ -213,7 +213,11 @@ std::string ServiceMember::storage_problem() const {
 }
 
 bool ServiceMember::all_written() const {
-  const auto pending = [this](const auto& entry) { return directory_.writer.pending(entry.first); };
+  const auto pending = [this](const auto& entry) {
+    const MemberSession::Phase phase = entry.second.session.phase();
+    return phase == MemberSession::Phase::kEnding || phase == MemberSession::Phase::kWriting ||
+           directory_.writer.pending(entry.first);
+  };
   return !directory_.tickets.restoring() && std::ranges::none_of(sessions_.entries(), pending);
 }
 

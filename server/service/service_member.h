@@ -62,6 +62,8 @@ class ServiceMember {
   void replace(const std::string& session, const ServiceSession& spec);
   /// The end of a run is not in the directory yet.
   [[nodiscard]] bool ends(const std::string& session) const;
+  /// It has no session, nor the state of one that a lost directory does not have.
+  [[nodiscard]] bool empty() const noexcept { return sessions_.empty() && !beginnings_.keeps(); }
   /// Finds a session by id, code or name; without any, the only one. Asks for it if no server owns it.
   [[nodiscard]] SessionPlace locate(const rpc::SessionChoice& choice);
   /// Ends the lease and with it all ownerships, so that other servers begin at once. No session may have effort.
@@ -74,8 +76,8 @@ class ServiceMember {
   [[nodiscard]] std::optional<std::uint64_t> poll_stored() { return directory_.writer.poll_written(); }
   /// Why snapshots do not reach the directory, with the remedy; empty: they do.
   [[nodiscard]] std::string storage_problem() const;
-  /// Whether all snapshots and consoles that were set, and all restored tickets, are in the directory, or will never
-  /// be.
+  /// Whether all snapshots and consoles that were set, all restored tickets, and the ends of runs are in the directory,
+  /// or will never be.
   [[nodiscard]] bool all_written() const;
 
   /// Sessions of this server, and orders about them.

@@ -31,6 +31,10 @@ bool ServiceTickets::restoring(std::string_view session) const noexcept {
   return std::ranges::find(restores_, session, &Restore::session) != restores_.end();
 }
 
+bool ServiceTickets::uses_wait(std::string_view session) const noexcept {
+  return std::ranges::any_of(uses_, [&](const auto& use) { return use.second.session == session; });
+}
+
 void ServiceTickets::on_notice(const Notice& notice) {
   const bool accepted = notice.kind == Notice::Kind::kTicketAccepted;
   if (!accepted && notice.kind != Notice::Kind::kTicketRefused) return;

@@ -48,6 +48,8 @@ class ServiceTickets {
   /// Whether a ticket of the session is not yet valid again in the directory.
   [[nodiscard]] bool restoring(std::string_view session) const noexcept;
   [[nodiscard]] bool restoring() const noexcept { return !restores_.empty(); }
+  /// Whether the use of a ticket for the session is under way.
+  [[nodiscard]] bool uses_wait(std::string_view session) const noexcept;
   /// Takes a notice about a ticket.
   void on_notice(const directory::Notice& notice);
 

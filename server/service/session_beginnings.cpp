@@ -24,11 +24,12 @@ void SessionBeginnings::begin_configured() {
 }
 
 void SessionBeginnings::step(Time now, bool drains) {
-  claim_kept(now, drains);
-  claim_configured(now);
+  claim_kept(now);
+  if (!drains) claim_configured(now);
 }
 
-void SessionBeginnings::claim_kept(Time now, bool drains) {
+/// Also while the server drains: no other one has their state. They move to others as soon as they are served.
+void SessionBeginnings::claim_kept(Time now) {
   if (kept_.empty() || !loss_.known()) return;
   if (loss_.losses() == losses_before_) {  // an ordinary end of the lease: the next owner has the newest state
     kept_.clear();
@@ -41,7 +42,7 @@ void SessionBeginnings::claim_kept(Time now, bool drains) {
     const auto* const seen = directory_.ownership.view().session(session);
     const bool owned = seen != nullptr && seen->owner, ours = owned && seen->owner->name == directory_.server();
     const bool elsewhere = seen != nullptr && !ours && (owned || seen->standby);
-    if (!elsewhere && !drains) sessions_.claim(session, MemberSession::Origin::kKept, run);
+    if (!elsewhere) sessions_.claim(session, MemberSession::Origin::kKept, run);
     return true;
   });
 }

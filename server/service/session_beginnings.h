@@ -33,13 +33,15 @@ class SessionBeginnings {
   void on_open(const std::string& session) { to_begin_.erase(session); }
   /// The sessions of the configuration may be missing in this directory.
   void begin_configured();
-  /// @param drains  this server takes no session
+  /// @param drains  this server begins no session, but those that it has served
   void step(Time now, bool drains);
+  /// It has the run of a session that may begin here again.
+  [[nodiscard]] bool keeps() const noexcept { return !kept_.empty(); }
   /// Name of a session that begins here again after the loss of the directory; empty: none fits.
   [[nodiscard]] std::string kept_name(const rpc::SessionChoice& choice) const;
 
  private:
-  void claim_kept(Time now, bool drains);
+  void claim_kept(Time now);
   void claim_configured(Time now);
 
   Configured configured_;

@@ -103,12 +103,15 @@ void SessionMoves::on_handed_over(Time now, const std::string& session) {
 
 void SessionMoves::advance(Time now, const std::string& session, Entry& entry) {
   if (entry.move.steps_until_move < 0) return;
-  if (entry.move.steps_until_move > 0) {
+  const bool uses = directory_.tickets.uses_wait(session);
+  if (uses) {
+    entry.move.steps_until_move = kStepsUntilMove;  // what was used is restored then, as its client joins elsewhere
+  } else if (entry.move.steps_until_move > 0) {
     --entry.move.steps_until_move;
     return;
   }
   // The last snapshot, and the tickets of consoles.
-  if (directory_.writer.pending(session) || directory_.tickets.restoring(session)) {
+  if (uses || directory_.writer.pending(session) || directory_.tickets.restoring(session)) {
     if (now - *entry.move.handed_over < kWritingMax) return;
     entry.move.steps_until_move = -1;
     return entry.session.open_again();

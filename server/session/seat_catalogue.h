@@ -17,7 +17,14 @@
 
 namespace tandem::server {
 
-enum class JoinResult : std::uint8_t { kAccepted, kNoSuchSeat, kSeatTaken, kDeviceUnfit, kSessionOver };
+enum class JoinResult : std::uint8_t {
+  kAccepted,
+  kNoSuchSeat,
+  kSeatTaken,
+  kDeviceUnfit,
+  kSessionOver,
+  kBusy,  ///< the shard has no place for another question now
+};
 
 /// Resources of one client at one seat: channel and spring ends. They are allocated outside the real-time path; the
 /// session's thread only swaps them in.

@@ -19,35 +19,69 @@ static_assert(std::endian::native == std::endian::little, "numbers are copied as
 
 using Key = std::array<std::byte, 32>;
 
-// Releases of before RestoreCounts read and write the list of removed workstations as it is. Therefore the counts are
-// an entry of it that no fingerprint of a key can be: this label, flags, the epoch that wrote it, and three numbers.
-constexpr std::string_view kCountsLabel = "tandem-runs";
+// Releases of before RestoreCounts read and write the list of removed workstations as it is. Therefore later additions
+// are entries of it that no fingerprint of a key can be: a label, flags, the epoch that wrote it, and numbers at the end.
+constexpr std::string_view kCountsLabel = "tandem-runs", kLifeLabel = "tandem-life";
+static_assert(kCountsLabel.size() == kLifeLabel.size());
+constexpr std::size_t kFlagsAt = kCountsLabel.size(), kEpochAt = kFlagsAt + 1;
 constexpr std::byte kHandedOver{1};
 
-Key counts_entry(const Checkpoint& checkpoint) {
+template <class Numbers>
+Key make_entry(std::string_view label, std::byte flags, std::uint64_t epoch, const Numbers& numbers) {
+  static_assert(kEpochAt + sizeof epoch + sizeof numbers <= sizeof(Key));
   Key entry{};
-  std::memcpy(entry.data(), kCountsLabel.data(), kCountsLabel.size());
-  entry[kCountsLabel.size()] = checkpoint.handed_over ? kHandedOver : std::byte{0};
-  const std::array<std::uint32_t, 3> numbers{checkpoint.restores->restarts, checkpoint.restores->moves,
-                                             checkpoint.restores->numbers};
-  std::memcpy(entry.data() + kCountsLabel.size() + 1, &checkpoint.epoch, sizeof checkpoint.epoch);
-  std::memcpy(entry.data() + entry.size() - sizeof numbers, numbers.data(), sizeof numbers);
+  std::memcpy(entry.data(), label.data(), label.size());
+  entry[kFlagsAt] = flags;
+  std::memcpy(entry.data() + kEpochAt, &epoch, sizeof epoch);
+  std::memcpy(entry.data() + entry.size() - sizeof numbers, &numbers, sizeof numbers);
   return entry;
 }
 
-bool is_counts_entry(const Key& entry) noexcept {
-  return text_of(std::span{entry}.first(kCountsLabel.size())) == kCountsLabel;
+bool has_label(const Key& entry, std::string_view label) noexcept {
+  return text_of(std::span{entry}.first(label.size())) == label;
 }
 
-/// Reads the counts of an entry. They do not count if another epoch wrote the snapshot: that of an older release.
-void read_counts(const Key& entry, Checkpoint& checkpoint) {
-  std::uint64_t epoch = 0;
-  std::array<std::uint32_t, 3> numbers{};
-  std::memcpy(&epoch, entry.data() + kCountsLabel.size() + 1, sizeof epoch);
-  std::memcpy(numbers.data(), entry.data() + entry.size() - sizeof numbers, sizeof numbers);
-  if (epoch != checkpoint.epoch || numbers[2] > checkpoint.stops) return;
-  checkpoint.restores = {numbers[0], numbers[1], numbers[2]};
-  checkpoint.handed_over = entry[kCountsLabel.size()] == kHandedOver;
+/// Numbers of an entry with this label; nullopt: it has another one, or another epoch wrote the snapshot: that of an
+/// older release, which does not know the entry.
+template <class Numbers>
+std::optional<Numbers> numbers_of(const Key& entry, std::string_view label, std::uint64_t epoch) {
+  std::uint64_t by = 0;
+  Numbers numbers{};
+  std::memcpy(&by, entry.data() + kEpochAt, sizeof by);
+  std::memcpy(&numbers, entry.data() + entry.size() - sizeof numbers, sizeof numbers);
+  return has_label(entry, label) && by == epoch ? std::optional(numbers) : std::nullopt;
+}
+
+using Counts = std::array<std::uint32_t, 3>;
+
+/// The entries beside the removed workstations.
+std::vector<Key> additions(const SessionSnapshot& kept) {
+  std::vector<Key> all;
+  const Checkpoint& checkpoint = kept.checkpoint;
+  if (const auto& restores = checkpoint.restores)
+    all.push_back(make_entry(kCountsLabel, checkpoint.handed_over ? kHandedOver : std::byte{0}, checkpoint.epoch,
+                             Counts{restores->restarts, restores->moves, restores->numbers}));
+  if (kept.life_left_s) all.push_back(make_entry(kLifeLabel, std::byte{0}, checkpoint.epoch, *kept.life_left_s));
+  const std::size_t room = kRemovedWorkstationsMax - kept.removed_workstations.size();
+  if (all.size() > room) all.resize(room);
+  return all;
+}
+
+/// Takes the additions out of the list of removed workstations.
+void take_additions(SessionSnapshot& kept) {
+  Checkpoint& checkpoint = kept.checkpoint;
+  checkpoint.restores.reset();
+  for (const Key& entry : kept.removed_workstations) {
+    const auto counts = numbers_of<Counts>(entry, kCountsLabel, checkpoint.epoch);
+    if (counts && (*counts)[2] <= checkpoint.stops) {
+      checkpoint.restores = {(*counts)[0], (*counts)[1], (*counts)[2]};
+      checkpoint.handed_over = entry[kFlagsAt] == kHandedOver;
+    }
+    const auto left = numbers_of<std::int64_t>(entry, kLifeLabel, checkpoint.epoch);
+    if (left && *left >= 0 && *left <= rpc::kLifeMaxS) kept.life_left_s = left;
+  }
+  std::erase_if(kept.removed_workstations,
+                [](const Key& entry) { return has_label(entry, kCountsLabel) || has_label(entry, kLifeLabel); });
 }
 
 const char* cause(CheckpointError error) noexcept {
@@ -82,10 +116,10 @@ std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept) {
   put(kept.id);
   text(kept.name);
   text(kept.code);
-  const bool counts = kept.checkpoint.restores && kept.removed_workstations.size() < kRemovedWorkstationsMax;
-  out.push_back(static_cast<std::byte>(kept.removed_workstations.size() + (counts ? 1 : 0)));
-  for (const auto& key : kept.removed_workstations) put(key);
-  if (counts) put(counts_entry(kept.checkpoint));
+  const std::vector<Key> added = additions(kept);
+  out.push_back(static_cast<std::byte>(kept.removed_workstations.size() + added.size()));
+  for (const Key& key : kept.removed_workstations) put(key);
+  for (const Key& key : added) put(key);
   out.push_back(static_cast<std::byte>(kept.persons.size()));
   for (const std::string& name : kept.persons) text(name);
   std::array<std::byte, kCheckpointMax> checkpoint;
@@ -137,10 +171,7 @@ std::expected<SessionSnapshot, std::string> decode_snapshot(std::span<const std:
   const auto checkpoint = decode_checkpoint(rest);
   if (!checkpoint) return std::unexpected(cause(checkpoint.error()));
   kept.checkpoint = *checkpoint;
-  kept.checkpoint.restores.reset();
-  for (const Key& key : kept.removed_workstations)
-    if (is_counts_entry(key)) read_counts(key, kept.checkpoint);
-  std::erase_if(kept.removed_workstations, is_counts_entry);
+  take_additions(kept);
   return kept;
 }
 

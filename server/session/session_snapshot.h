@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct SessionSnapshot {
   std::vector<std::array<std::byte, 32>> removed_workstations{};
   /// Names of the persons at the seats, from their tickets (rpc::is_name); empty: not named. At most kSeatsMax.
   std::vector<std::string> persons{};
+  /// Rest of the time that the session was given when it was created [s], 0 ... rpc::kLifeMaxS; nullopt: no limit.
+  std::optional<std::int64_t> life_left_s{};
 };
 
 /// Lifetime of a resume secret after its owner was lost, and of a snapshot after it was written (ARCHITECTURE.md,
@@ -42,8 +45,9 @@ inline constexpr std::size_t kSnapshotMax =
     kCheckpointMax + 1024 + 32 * kRemovedWorkstationsMax + 33 * kSeatsMax;  ///< [bytes]
 
 /// Writes magic, wall time, id, name, code, number of removed workstations (one byte), their fingerprints, number of
-/// persons (one byte), their names, checkpoint, then the SHA-256 of all that. Counts of restores are one more entry of
-/// the removed workstations, if there is room: older releases keep it, and read the rest as ever.
+/// persons (one byte), their names, checkpoint, then the SHA-256 of all that. Counts of restores and the rest of the
+/// session's time are two more entries of the removed workstations, if there is room: older releases keep them, and
+/// read the rest as ever.
 /// @return empty if the name is missing, or if a text or the list is too long
 [[nodiscard]] std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept);
 /// Parses any bytes. @return a snapshot with all numbers in range, or the reason for the rejection, as text for the

@@ -21,6 +21,21 @@ struct Rig {
   void post(std::function<void(ShardRequest&)> done) {
     requests.post(shard, {.what = ShardRequest::What::kEndSession, .session = &session, .done = std::move(done)});
   }
+  /// Posts a request that changes nothing.
+  void ask(std::function<void(ShardRequest&)> done) {
+    requests.post(shard, {.what = ShardRequest::What::kQueryPeers, .session = &session, .done = std::move(done)});
+  }
+  /// Asks until the shard has no place for another question. @return number of questions that it has
+  int fill() {
+    int posted = 0;
+    for (bool full = false; !full && posted < 10000; ++posted)
+      ask([&full, this](ShardRequest& r) {
+        if (r.result == JoinResult::kBusy) full = true;
+        ++answered;
+      });
+    EXPECT_EQ(answered, 1) << "the one that was too much";
+    return posted - 1;
+  }
   /// Ends the shard, which replies to all requests that the session is over, and completes them.
   void run_shard() {
     shard.stop();
@@ -34,6 +49,7 @@ struct Rig {
   Shard shard{std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0))), 1000};
   asio::io_context context;
   ShardRequests requests{context};
+  int answered = 0;  ///< questions of `fill`
 };
 
 TEST(ShardRequests, CompleteInOrderWithTheResultOfTheShard) {
@@ -72,12 +88,10 @@ TEST(ShardRequests, WaitForAPlaceIfTheyMustNotBeLost) {
   Rig rig;
   LiveSession served{rig.scene, *make_local_slaves(rig.scene, Time{}), 1, rig.records};
   ASSERT_TRUE(rig.shard.add_session(served));
-  int lost = 0;
-  for (int posted = 0; lost == 0 && posted < 10000; ++posted) rig.post([&lost](ShardRequest&) { ++lost; });
-  ASSERT_EQ(lost, 1) << "the queue is full";
+  rig.fill();
   std::vector<int> done;
   for (int i = 0; i < 2; ++i)
-    rig.requests.post_when_possible(
+    rig.requests.post(
         rig.shard, {.what = ShardRequest::What::kEndSession, .session = &served, .done = [&done, i](ShardRequest& r) {
                       EXPECT_EQ(r.result, JoinResult::kAccepted);
                       done.push_back(i);
@@ -92,24 +106,44 @@ TEST(ShardRequests, WaitForAPlaceIfTheyMustNotBeLost) {
 
 TEST(ShardRequests, CompleteAllThatWaitForAPlaceAtTheEnd) {
   Rig rig;
-  int lost = 0;
-  for (int posted = 0; lost == 0 && posted < 10000; ++posted) rig.post([&lost](ShardRequest&) { ++lost; });
-  std::size_t over = 0;
-  const auto post = [&rig, &over] {
-    rig.requests.post_when_possible(
-        rig.shard, {.what = ShardRequest::What::kEndSession, .session = &rig.session, .done = [&over](ShardRequest& r) {
-                      EXPECT_EQ(r.result, JoinResult::kSessionOver);
-                      ++over;
-                    }});
-  };
-  for (std::size_t i = 0; i < ShardRequests::kRetriedMax; ++i) post();
-  EXPECT_EQ(over, 0U);
-  post();
-  EXPECT_EQ(over, 1U) << "their number is bounded";
+  const int asked = rig.fill();
+  int over = 0;
+  for (int i = 0; i < 3; ++i)
+    rig.post([&over](ShardRequest& r) {
+      EXPECT_EQ(r.result, JoinResult::kSessionOver);
+      ++over;
+    });
+  EXPECT_EQ(over, 0);
   rig.requests.stop_watching();
-  EXPECT_EQ(over, ShardRequests::kRetriedMax + 1);
-  lost = 0;
+  EXPECT_EQ(over, 3);
+  rig.requests.watch(rig.shard);
   rig.run_shard();
+  EXPECT_EQ(rig.answered, asked + 1);
+}
+
+/// All revoked workstations of a server lose their seats in one call.
+TEST(ShardRequests, AreAllCompletedHoweverManyOneCallPosts) {
+  Rig rig;
+  LiveSession served{rig.scene, *make_local_slaves(rig.scene, Time{}), 1, rig.records};
+  ASSERT_TRUE(rig.shard.add_session(served));
+  std::thread ticking([&rig] { rig.shard.run(); });
+  constexpr int kMany = 5000;
+  int done = 0;
+  for (int i = 0; i < kMany; ++i) {
+    rig.requests.post(
+        rig.shard,
+        {.what = ShardRequest::What::kRevokeSeat, .session = &served, .done = [&done](ShardRequest&) { ++done; }});
+    // The shard executes what it has, though no completion is read.
+    if (i % 500 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(done, 0);
+  bool idle = false;
+  rig.requests.when_idle(served, [&idle] { idle = true; });
+  for (int i = 0; i < 3000 && !idle; ++i) rig.context.run_one_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(idle);
+  EXPECT_EQ(done, kMany);
+  rig.shard.stop();
+  ticking.join();
 }
 
 TEST(ShardRequests, WaitWhileTheirSessionMoves) {
@@ -128,8 +162,7 @@ TEST(ShardRequests, WaitWhileTheirSessionMoves) {
   move(other, "second move");
   EXPECT_EQ(done, std::vector<std::string>{"second move"}) << "one session moves at a time";
   rig.post(note("first"));
-  rig.requests.post_when_possible(
-      rig.shard, {.what = ShardRequest::What::kEndSession, .session = &rig.session, .done = note("second")});
+  rig.post(note("second"));
   rig.requests.post(rig.shard, {.what = ShardRequest::What::kEndSession, .session = &other, .done = note("other")});
   rig.run_shard();  // it serves no session, so it rejects the move
   EXPECT_EQ(done, (std::vector<std::string>{"second move", "before", "move", "other"}));
@@ -143,25 +176,23 @@ TEST(ShardRequests, WaitWhileTheirSessionMoves) {
 
 TEST(ShardRequests, AreBoundedAndCompletedAtTheEndWhileTheirSessionMoves) {
   Rig rig;
-  std::size_t over = 0;
-  const auto count = [&over](ShardRequest& r) {
-    EXPECT_EQ(r.result, JoinResult::kSessionOver);
-    ++over;
-  };
+  std::size_t over = 0, busy = 0;
+  const auto count = [&](ShardRequest& r) { ++(r.result == JoinResult::kBusy ? busy : over); };
   rig.requests.move(rig.shard, {.what = ShardRequest::What::kMoveSession, .session = &rig.session, .done = count});
-  for (std::size_t i = 0; i < ShardRequests::kHeldMax; ++i) rig.post(count);
-  EXPECT_EQ(over, 0U);
+  for (std::size_t i = 0; i < ShardRequests::kHeldMax; ++i) rig.ask(count);
+  EXPECT_EQ(busy, 0U);
+  rig.ask(count);
+  EXPECT_EQ(busy, 1U) << "questions are bounded";
   rig.post(count);
-  EXPECT_EQ(over, 1U);
+  EXPECT_EQ(over, 0U) << "what must not be lost is not";
   rig.requests.stop_watching();
-  EXPECT_EQ(over, 1 + ShardRequests::kHeldMax);
+  EXPECT_EQ(over, ShardRequests::kHeldMax + 1);
 }
 
 TEST(ShardRequests, MoveNoSessionWhileOthersWaitForAPlace) {
   Rig rig;
-  int lost = 0;
-  for (int posted = 0; lost == 0 && posted < 10000; ++posted) rig.post([&lost](ShardRequest&) { ++lost; });
-  rig.requests.post_when_possible(rig.shard, {.what = ShardRequest::What::kEndSession, .session = &rig.session});
+  rig.fill();
+  rig.post([](ShardRequest&) {});
   bool refused = false;
   rig.requests.move(rig.shard,
                     {.what = ShardRequest::What::kMoveSession,
@@ -172,17 +203,17 @@ TEST(ShardRequests, MoveNoSessionWhileOthersWaitForAPlace) {
   rig.run_shard();
 }
 
-TEST(ShardRequests, CompleteAtOnceWhenTheQueueIsFull) {
+TEST(ShardRequests, SayAtOnceThatTheShardHasNoPlaceForAQuestion) {
   Rig rig;
-  int done = 0, posted = 0;
-  while (done == 0 && ++posted < 10000)
-    rig.post([&done](ShardRequest& r) {
-      EXPECT_EQ(r.result, JoinResult::kSessionOver);
-      ++done;
-    });
-  EXPECT_EQ(done, 1) << "after " << posted;
+  const int asked = rig.fill();
+  EXPECT_LT(asked, 1000);
   rig.run_shard();
-  EXPECT_EQ(done, posted);
+  EXPECT_EQ(rig.answered, asked + 1);
+  bool answered = false;
+  rig.ask([&answered](ShardRequest&) { answered = true; });
+  EXPECT_FALSE(answered) << "there is a place again";
+  rig.run_shard();
+  EXPECT_TRUE(answered);
 }
 
 }  // namespace

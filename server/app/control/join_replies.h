@@ -1,9 +1,17 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "proto/rpc/rpc_messages.h"
+#include "server/app/control/join_handler.h"
 #include "server/app/control/session_entry.h"
+#include "server/session/connection_id.h"
 
 namespace tandem::server {
 
@@ -18,12 +26,57 @@ namespace tandem::server {
   return {rpc::ErrorCode::kSeatTaken, "seat " + seat + " is taken already", 2};
 }
 
+/// Reply to a question that the shard has no place for now.
+[[nodiscard]] inline rpc::ErrorReply shard_busy() {
+  return {rpc::ErrorCode::kFull, "the server has too many requests to answer now; try again in 1 s", 1};
+}
+
 [[nodiscard]] inline rpc::ErrorReply nothing_to_resume() {
   return {
       rpc::ErrorCode::kResume,
       "nothing to resume: the seat was given to another client, the resume secret has expired, or the former server "
       "failed before it had stored this seat",
       0};
+}
+
+/// Error reply if the session's code does not admit to a seat of this role; nullopt if it does.
+[[nodiscard]] inline std::optional<rpc::ErrorReply> code_refusal(const SessionEntry& entry, const JoinRequest& request,
+                                                                 const std::string& code, AccessRole role) {
+  if (entry.removed.contains(request.workstation.spki))
+    return rpc::ErrorReply{rpc::ErrorCode::kNotAllowed,
+                      "the participant of this workstation was removed from the session; to join again, ask an "
+                      "operator for a ticket",
+                      0};
+  if (entry.registration.code.empty() || code != entry.registration.code)
+    return rpc::ErrorReply{rpc::ErrorCode::kCode, "this is not the session's code", 0};
+  if (role == AccessRole::kInstructor)
+    return rpc::ErrorReply{rpc::ErrorCode::kNotAllowed,
+                      "the instructor's seat needs a ticket: on the server, " +
+                          ticket_command(entry, "--seat " + request.hello.seat, request.workstation.name),
+                      0};
+  return std::nullopt;
+}
+
+/// A Welcome with fresh connection id and resume secret.
+[[nodiscard]] inline rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes,
+                          const std::string& seat = {}, std::vector<std::byte> setup = {}, std::string person = {}) {
+  const SessionRegistration& session = entry.registration;
+  const auto drawn = auth::random_bytes<std::array<std::byte, 2>>();
+  const bool aes = has_aes && transport::fastest_cipher() == transport::Cipher::kAes256Gcm;
+  return {.session_id = session.id,
+          .session_name = session.name,
+          .epoch = session.epoch,
+          .server_cid = connection_id(static_cast<std::uint16_t>(std::to_integer<unsigned>(drawn[0]) << 8 |
+                                                                 std::to_integer<unsigned>(drawn[1])),
+                                      entry.session().slot(), place),
+          .cipher = aes ? rpc::Cipher::kAes256Gcm : rpc::Cipher::kChaCha20Poly1305,
+          .seat = seat,
+          .role = role,
+          .setup = std::move(setup),
+          .udp_port = session.shard->address().port(),
+          .resume_secret = Secret<32>{auth::random_bytes<std::array<std::byte, 32>>()},
+          .limits = {},
+          .person = std::move(person)};
 }
 
 }  // namespace tandem::server

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/auth/ticket.h"
 #include "common/base/secret.h"
@@ -39,7 +40,13 @@ class SeatReservation {
   [[nodiscard]] bool reserved(Time now) const noexcept { return now < reserved_until_; }
   [[nodiscard]] bool joining() const noexcept { return joining_; }
 
-  void begin_join() noexcept { joining_ = true; }
+  void begin_join() noexcept {
+    joining_ = true;
+    join_void_ = false;
+  }
+  /// The join in progress must fail, because the seat is being taken away from whoever has it or resumes it.
+  void void_join() noexcept { join_void_ = true; }
+  [[nodiscard]] bool join_void() const noexcept { return join_void_; }
   /// The client gets a Welcome. The seat's data change when `admit` follows.
   /// @param match   of its resume secret, which `may_resume` accepted; kNone: a new owner
   /// @param scale   share of the scene's force limit, 0 to 1
@@ -68,8 +75,8 @@ class SeatReservation {
   /// Whether this connection owns the seat.
   [[nodiscard]] bool owned_by(std::uint32_t cid) const noexcept { return cid_ == cid && owner_; }
 
-  /// Invalidates the resume secrets.
-  void expire() noexcept { resumable_ = false; }
+  /// Invalidates the resume secrets. @return false: they were invalid
+  bool expire() noexcept { return std::exchange(resumable_, false); }
   /// The seat has no owner any more.
   void release() noexcept { owner_.reset(); }
   /// Takes the seat away from its owner, whose secrets expire. @param why actor and reason  @return the owner
@@ -79,6 +86,7 @@ class SeatReservation {
 
  private:
   bool joining_ = false;
+  bool join_void_ = false;
   std::optional<auth::Id16> ticket_;  ///< of the join in progress
   std::optional<WorkstationRow> owner_;
   std::uint32_t cid_ = 0;

@@ -9,6 +9,7 @@
 #include "common/io/log.h"
 #include "server/app/control/audit_writer.h"
 #include "server/app/control/command_text.h"
+#include "server/app/control/join_replies.h"
 #include "server/app/control/note_check.h"
 #include "server/app/control/session_notes.h"
 #include "server/app/monitor/session_status.h"
@@ -84,6 +85,8 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
   if (const auto* const note = std::get_if<rpc::Note>(&command))
     if (std::string problem = note_problem(note->json); !problem.empty())
       return answer(ErrorReply{ErrorCode::kBadFrame, std::move(problem), 0});
+  if (const auto* const remove = std::get_if<rpc::RemoveParticipant>(&command))
+    if (const auto seat = entry->session().seat_catalogue().seat_named(remove->seat)) entry->seats[*seat].void_join();
   ShardRequest request{.what = ShardRequest::What::kCommand};
   request.command = {std::move(command), joined.role, seat_of(joined), joined.server_cid};
   if (entry->registration.recording && !std::holds_alternative<rpc::StatusRequest>(request.command.body))
@@ -91,6 +94,7 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
         entry->registration.recording->add_order(joined.person.empty() ? workstation.name : joined.person);
   request.done = [this, entry, joined, who, over, name = workstation.name,
                   answer = std::move(answer)](ShardRequest& executed) {
+    if (executed.result == JoinResult::kBusy) return answer(shard_busy());
     if (executed.result == JoinResult::kSessionOver) return answer(over);
     reply(*entry, executed, conclude(*entry, joined, name, who, executed), answer);
   };
@@ -271,7 +275,7 @@ void SessionCommands::disconnect_revoked() {
 
 void SessionCommands::release_seat(SessionEntry& entry, std::size_t seat) {
   SeatReservation& reservation = entry.seats[seat];
-  reservation.expire();
+  if (!reservation.expire()) return;  // a request before this one releases it
   ShardRequest request{.what = ShardRequest::What::kRevokeSeat, .seat = seat, .cid = reservation.cid()};
   request.done = [this, &entry, &reservation](ShardRequest& executed) {
     if (executed.result == JoinResult::kSessionOver || !reservation.owned_by(executed.cid))

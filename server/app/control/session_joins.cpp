@@ -31,28 +31,6 @@ bool is_console(const rpc::Welcome& joined) noexcept {
 }
 std::size_t seat_index(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) - std::size_t{1}; }
 
-/// A Welcome with fresh connection id and resume secret.
-rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes,
-                          const std::string& seat = {}, std::vector<std::byte> setup = {}, std::string person = {}) {
-  const SessionRegistration& session = entry.registration;
-  const auto drawn = auth::random_bytes<std::array<std::byte, 2>>();
-  const bool aes = has_aes && transport::fastest_cipher() == transport::Cipher::kAes256Gcm;
-  return {.session_id = session.id,
-          .session_name = session.name,
-          .epoch = session.epoch,
-          .server_cid = connection_id(static_cast<std::uint16_t>(std::to_integer<unsigned>(drawn[0]) << 8 |
-                                                                 std::to_integer<unsigned>(drawn[1])),
-                                      entry.session().slot(), place),
-          .cipher = aes ? rpc::Cipher::kAes256Gcm : rpc::Cipher::kChaCha20Poly1305,
-          .seat = seat,
-          .role = role,
-          .setup = std::move(setup),
-          .udp_port = session.shard->address().port(),
-          .resume_secret = Secret<32>{auth::random_bytes<std::array<std::byte, 32>>()},
-          .limits = {},
-          .person = std::move(person)};
-}
-
 /// Key to which the resume secrets of this workstation are bound. Ephemeral keys are shared by all clients and change
 /// with each start.
 SeatReservation::Hash resume_binding(const auth::ServerKeystore& trust, const WorkstationRow& workstation) {
@@ -79,10 +57,11 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
   if (const auto* refused = std::get_if<ErrorReply>(&found))
     return answer(redirect_.refusal(request.hello.session, *refused));
   SessionEntry& entry = *std::get<SessionEntry*>(found);
-  answer = unless_given_up(entry.registration.id, std::move(answer));
+  answer = unless_given_up(entry.registration.id, request.hello.credential, std::move(answer));
   if (!request.hello.link_test)
     answer = used_once(
-        tickets_.uses(), request, std::move(answer), [this](const rpc::Welcome& w) { on_join_failed(w); },
+        tickets_.uses(), request, std::move(answer),
+        [this, by = request.hello.credential](const rpc::Welcome& w) { take_back(w, by); },
         [&entry](const rpc::Welcome& w) { return entry.consoles.returned(w.resume_secret); });
   if (console) return join_console(entry, request, answer);
   if (const auto busy = overload_reply(entry);
@@ -94,14 +73,22 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
 
 /// The last snapshot of a session that is given up here has no client that is admitted from now on: its next owner
 /// would know neither the seat nor its secret, and the ticket would be used for nothing.
-std::function<void(JoinReply)> SessionJoins::unless_given_up(const rpc::Id& session,
+std::function<void(JoinReply)> SessionJoins::unless_given_up(const rpc::Id& session, const rpc::Credential& by,
                                                              std::function<void(JoinReply)> answer) {
-  return [this, session, answer = std::move(answer)](JoinReply reply) {
+  return [this, session, by, answer = std::move(answer)](JoinReply reply) {
     const SessionEntry* const entry = registry_.find(session);
-    if (entry == nullptr || !entry->given_up) return answer(std::move(reply));
-    if (const auto* const welcome = std::get_if<rpc::Welcome>(&reply)) on_join_failed(*welcome);
+    const auto* const welcome = std::get_if<rpc::Welcome>(&reply);
+    const bool gone = entry == nullptr && welcome != nullptr;  // while the directory was asked about the ticket
+    if (!gone && (entry == nullptr || !entry->given_up)) return answer(std::move(reply));
+    if (welcome != nullptr) take_back(*welcome, by);
     answer(being_taken_over());
   };
+}
+
+void SessionJoins::take_back(const rpc::Welcome& welcome, const rpc::Credential& by) {
+  if (registry_.find(welcome.session_id) != nullptr) return on_join_failed(welcome);
+  if (const auto* const ticket = std::get_if<rpc::TicketCredential>(&by))
+    tickets_.restore(claimed_id(*ticket), welcome.session_name, welcome.person);
 }
 
 std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) {
@@ -126,22 +113,19 @@ void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, st
   if (const std::string why = catalogue.device_incompatibility(request.hello.device); !why.empty())
     return answer(ErrorReply{ErrorCode::kDeviceUnfit, why, 0});
   SeatReservation& reservation = entry.seats[*seat];
-  const auto* resume = std::get_if<rpc::ResumeCredential>(&request.hello.credential);
-  const ResumeMatch match = resume == nullptr
-                                ? ResumeMatch::kNone
-                                : reservation.match(resume->secret, resume_binding(trust_, request.workstation));
-  if (resume != nullptr && match == ResumeMatch::kNone) return answer(nothing_to_resume());
+  const auto resume = resume_match(reservation, request);
+  if (resume == ResumeMatch::kNone) return answer(nothing_to_resume());
   if (reservation.joining()) return answer(taken_or_used(entry, request, *seat));
-  if (resume == nullptr && reservation.reserved(io::monotonic_now()))
+  if (!resume && reservation.reserved(io::monotonic_now()))
     return answer(ErrorReply{ErrorCode::kSeatTaken,
                              "seat " + catalogue.scene().seats[*seat].name +
                                  " is reserved for 2 s for its client of before the restart or move",
                              2});
 
   reservation.begin_join();
-  ShardRequest query{.what = ShardRequest::What::kQuerySeat, .seat = *seat, .same_owner = resume != nullptr};
-  query.done = [this, &entry, request, match, answer = std::move(answer)](ShardRequest& asked) {
-    JoinReply reply = decide_seat(entry, request, match, asked);
+  ShardRequest query{.what = ShardRequest::What::kQuerySeat, .seat = *seat, .same_owner = resume.has_value()};
+  query.done = [this, &entry, request, answer = std::move(answer)](ShardRequest& asked) {
+    JoinReply reply = decide_seat(entry, request, asked);
     if (std::holds_alternative<ErrorReply>(reply)) entry.seats[asked.seat].end_join();
     answer(std::move(reply));
   };
@@ -155,11 +139,20 @@ ErrorReply SessionJoins::taken_or_used(const SessionEntry& entry, const JoinRequ
   return seat_taken(spec.name);
 }
 
-JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& request, ResumeMatch match,
-                                    const ShardRequest& asked) {
+std::optional<ResumeMatch> SessionJoins::resume_match(const SeatReservation& seat, const JoinRequest& request) const {
+  const auto* const resume = std::get_if<rpc::ResumeCredential>(&request.hello.credential);
+  if (resume == nullptr) return std::nullopt;
+  return seat.match(resume->secret, resume_binding(trust_, request.workstation));
+}
+
+JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& request, const ShardRequest& asked) {
+  if (asked.result == JoinResult::kBusy) return shard_busy();
   if (asked.result == JoinResult::kSessionOver) return session_ends(entry);
   if (asked.result == JoinResult::kSeatTaken) return taken_or_used(entry, request, asked.seat);
   SeatReservation& reservation = entry.seats[asked.seat];
+  if (reservation.join_void()) return seat_taken(entry.scene().seats[asked.seat].name);
+  // The secret again, because the client may have been removed since it showed it.
+  const ResumeMatch match = resume_match(reservation, request).value_or(ResumeMatch::kNone);
   if (asked.same_owner && !reservation.may_resume(match, asked.silence, asked.ever_heard, io::monotonic_now()))
     return nothing_to_resume();
   // Again, because other clients have joined since `admit`.
@@ -177,7 +170,7 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
     used = redeemed->ticket_id;
     person = redeemed->person;
   } else if (const auto* code = std::get_if<rpc::CodeCredential>(&request.hello.credential)) {
-    if (auto refused = check_code(entry, request, code->code, role)) return std::move(*refused);
+    if (auto refused = code_refusal(entry, request, code->code, role)) return std::move(*refused);
   } else if (!asked.same_owner) {
     return ErrorReply{ErrorCode::kTicket,
                       "a ticket or the session's code is needed; ask for " +
@@ -193,25 +186,8 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
                       encoded(own), std::move(person));
 }
 
-std::optional<ErrorReply> SessionJoins::check_code(const SessionEntry& entry, const JoinRequest& request,
-                                                   const std::string& code, AccessRole role) {
-  if (entry.removed.contains(request.workstation.spki))
-    return ErrorReply{ErrorCode::kNotAllowed,
-                      "the participant of this workstation was removed from the session; to join again, ask an "
-                      "operator for a ticket",
-                      0};
-  if (entry.registration.code.empty() || code != entry.registration.code)
-    return ErrorReply{ErrorCode::kCode, "this is not the session's code", 0};
-  if (role == AccessRole::kInstructor)
-    return ErrorReply{ErrorCode::kNotAllowed,
-                      "the instructor's seat needs a ticket: on the server, " +
-                          ticket_command(entry, "--seat " + request.hello.seat, request.workstation.name),
-                      0};
-  return std::nullopt;
-}
-
 void SessionJoins::release_consoles(SessionEntry& entry) {
-  for (const auth::Id16& ticket : entry.consoles.release_all()) tickets_.restore(ticket, entry, "", "ticket_restored");
+  for (const auth::Id16& ticket : entry.consoles.release_all()) tickets_.restore(ticket, entry.registration.name, "", "ticket_restored");
 }
 
 // ---- Consoles and link tests ----
@@ -326,6 +302,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
   } else {
     const std::size_t seat = seat_index(welcome);
     SeatReservation& reservation = entry->seats[seat];
+    if (reservation.join_void()) return on_join_failed(welcome);
     const auto secret = resume_hash(welcome.resume_secret.bytes, resume_binding(trust_, request.workstation));
     reservation.admit(request.workstation, welcome.server_cid, secret, welcome.person, io::monotonic_now());
     entry->keep_persons();
@@ -350,10 +327,10 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
   if (!welcome.seat.empty())
-    return tickets_.restore(entry->seats[seat_index(welcome)].end_join(), *entry, welcome.person);
+    return tickets_.restore(entry->seats[seat_index(welcome)].end_join(), welcome.session_name, welcome.person);
   if (!is_console(welcome)) return entry->link_tests.cancel_join();
   if (is_watcher(welcome)) entry->watchers.cancel_join();
-  tickets_.restore(entry->consoles.take(welcome.resume_secret), *entry, welcome.person);
+  tickets_.restore(entry->consoles.take(welcome.resume_secret), welcome.session_name, welcome.person);
   entry->keep_consoles();
 }
 
@@ -394,7 +371,7 @@ void SessionJoins::on_disconnected(const rpc::Welcome& joined, bool in_vain) {
   const auto ticket = entry->consoles.take(joined.resume_secret);
   entry->keep_consoles();
   const bool commands = allowed(joined.role, Right::kStopSession) != Grant::kNo && !watches_only(joined.role);
-  if (in_vain && commands) tickets_.restore(ticket, *entry, joined.person);
+  if (in_vain && commands) tickets_.restore(ticket, joined.session_name, joined.person);
 }
 
 }  // namespace tandem::server

@@ -56,18 +56,19 @@ class SessionJoins final : public JoinHandler {
   void join_link_test(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
   void join_seat(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
   /// Decides after the session has reported the state of the seat. A ticket is redeemed last, because it is then used.
-  [[nodiscard]] JoinReply decide_seat(SessionEntry& entry, const JoinRequest& request,
-                                      SeatReservation::ResumeMatch match, const ShardRequest& asked);
+  [[nodiscard]] JoinReply decide_seat(SessionEntry& entry, const JoinRequest& request, const ShardRequest& asked);
+  /// Which of the seat's resume secrets the client showed. @return nullopt: it showed another credential
+  [[nodiscard]] std::optional<SeatReservation::ResumeMatch> resume_match(const SeatReservation& seat,
+                                                                         const JoinRequest& request) const;
   /// Error reply for a seat that another client has. A client whose ticket was used waits for the seat in vain.
   [[nodiscard]] rpc::ErrorReply taken_or_used(const SessionEntry& entry, const JoinRequest& request,
                                               std::size_t seat) const;
-  /// Error reply if the session's code does not admit to a seat of this role; nullopt if it does.
-  [[nodiscard]] static std::optional<rpc::ErrorReply> check_code(const SessionEntry& entry, const JoinRequest& request,
-                                                                 const std::string& code, AccessRole role);
   /// Returns the reply to a join as it is sent if the session may have been given up to another server meanwhile: the
   /// client asks there, with the same credential.
-  [[nodiscard]] std::function<void(JoinReply)> unless_given_up(const rpc::Id& session,
+  [[nodiscard]] std::function<void(JoinReply)> unless_given_up(const rpc::Id& session, const rpc::Credential& by,
                                                                std::function<void(JoinReply)> answer);
+  /// A Welcome is not sent: its seat is free and its ticket valid again, also if the session is not here any more.
+  void take_back(const rpc::Welcome& welcome, const rpc::Credential& by);
   void stop_watching(SessionEntry& entry, const rpc::Welcome& joined);
   /// Error reply if the shard or the machine is too busy for a new join; nullopt if not.
   [[nodiscard]] std::optional<rpc::ErrorReply> overload_reply(const SessionEntry& entry);

@@ -54,7 +54,7 @@ void SessionRegistry::add_running(SessionRegistration opening, std::function<voi
   add(std::move(opening));
   ShardRequest request{.what = ShardRequest::What::kAddSession};
   request.done = [done = std::move(done)](const ShardRequest& added) { done(added.result == JoinResult::kAccepted); };
-  post_when_possible(entries_.back(), std::move(request));
+  post(entries_.back(), std::move(request));
 }
 
 void SessionRegistry::remove(const rpc::Id& id, std::function<void()> gone) {
@@ -71,7 +71,7 @@ void SessionRegistry::end(const rpc::Id& id, wire::CloseReason why) {
   SessionEntry* const found = find(id);
   if (found == nullptr) return;
   found->given_up = why == wire::CloseReason::kServerReturns;
-  post_when_possible(*found, {.what = ShardRequest::What::kEndSession, .why = why});
+  post(*found, {.what = ShardRequest::What::kEndSession, .why = why});
 }
 
 void SessionRegistry::move(const rpc::Id& id, Shard& to, const io::SteeringProgram& there,
@@ -89,11 +89,6 @@ void SessionRegistry::move(const rpc::Id& id, Shard& to, const io::SteeringProgr
     done(served);
   };
   requests_.move(*found->registration.shard, std::move(request));
-}
-
-void SessionRegistry::post_when_possible(const SessionEntry& entry, ShardRequest request) {
-  request.session = entry.registration.session;
-  requests_.post_when_possible(*entry.registration.shard, std::move(request));
 }
 
 void SessionRegistry::post(const SessionEntry& entry, ShardRequest request) {

@@ -36,7 +36,7 @@ class SessionRegistry {
             std::function<void(bool)> done);
   /// Number of moves so far.
   [[nodiscard]] std::uint64_t moves() const noexcept { return moves_; }
-  /// Posts a request to the shard of a session.
+  /// Posts a request to the shard of a session, as `ShardRequests::post`.
   void post(const SessionEntry& entry, ShardRequest request);
 
   /// The session with this id; null if there is none or it is being removed.
@@ -63,9 +63,6 @@ class SessionRegistry {
   [[nodiscard]] rpc::StatusDrain drain_progress() const;
 
  private:
-  /// Posts a request that must not be lost.
-  void post_when_possible(const SessionEntry& entry, ShardRequest request);
-
   ShardRequests requests_;
   DrainSchedule drain_;
   std::list<SessionEntry> entries_;  ///< with ascending numbers

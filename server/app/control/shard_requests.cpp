@@ -4,8 +4,19 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 namespace tandem::server {
+namespace {
+
+/// Whether a request changes nothing, so that its sender can ask again.
+bool asks_only(const ShardRequest& request) noexcept {
+  return request.what == ShardRequest::What::kQuerySeat || request.what == ShardRequest::What::kQueryPeers ||
+         (request.what == ShardRequest::What::kCommand &&
+          std::holds_alternative<rpc::StatusRequest>(request.command.body));
+}
+
+}  // namespace
 
 void ShardRequests::watch(Shard& shard) {
   watched_.push_back({&shard, asio::posix::stream_descriptor{context_, ::dup(shard.completion_fd())}});
@@ -30,23 +41,13 @@ void ShardRequests::await_completions(Watched& watched) {
 void ShardRequests::post(Shard& shard, ShardRequest request) {
   ShardRequest& kept = requests_.emplace_back(std::move(request));
   if (kept.session == moving_) return hold(kept);
-  if (shard.post(kept)) return;
-  kept.result = JoinResult::kSessionOver;
-  complete(kept);
-}
-
-void ShardRequests::post_when_possible(Shard& shard, ShardRequest request) {
-  ShardRequest& kept = requests_.emplace_back(std::move(request));
-  if (kept.session == moving_) return hold(kept);
   begin(shard, kept);
 }
 
 void ShardRequests::begin(Shard& shard, ShardRequest& kept) {
-  if (retried_.empty() && shard.post(kept)) return;
-  if (retried_.size() >= kRetriedMax) {
-    kept.result = JoinResult::kSessionOver;
-    return complete(kept);
-  }
+  const bool asks = asks_only(kept);
+  if ((asks || retried_.empty()) && shard.post(kept)) return;
+  if (asks) return reject(kept);
   retried_.push_back({&shard, &kept});
   if (retried_.size() == 1) retry();
 }
@@ -61,9 +62,13 @@ void ShardRequests::move(Shard& from, ShardRequest request) {
 }
 
 void ShardRequests::hold(ShardRequest& request) {
-  if (held_.size() < kHeldMax) return held_.push_back(&request);
-  request.result = JoinResult::kSessionOver;
-  complete(request);
+  if (held_.size() >= kHeldMax && asks_only(request)) return reject(request);
+  held_.push_back(&request);
+}
+
+void ShardRequests::reject(ShardRequest& question) {
+  question.result = JoinResult::kBusy;
+  complete(question);
 }
 
 void ShardRequests::end_move(Shard& serving) {

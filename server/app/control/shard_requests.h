@@ -18,8 +18,7 @@ namespace tandem::server {
 /// executes it. All members run on the control plane's thread.
 class ShardRequests {
  public:
-  static constexpr std::size_t kRetriedMax = 2 * Shard::kSessionsMax;  ///< one start and one end per session
-  static constexpr std::size_t kHeldMax = 256;  ///< requests that wait while their session moves; a shard's queue
+  static constexpr std::size_t kHeldMax = 256;  ///< requests of a moving session above which questions do not wait
   static constexpr std::chrono::milliseconds kRetry{2};
 
   explicit ShardRequests(asio::io_context& context) : context_(context), retry_timer_(context) {}
@@ -32,15 +31,13 @@ class ShardRequests {
   /// The watched shards.
   [[nodiscard]] std::vector<const Shard*> shards() const;
 
-  /// Posts a request. Its `done` is called after a shard has executed it, or now, with JoinResult::kSessionOver, if the
-  /// queue of the shard is full.
+  /// Posts a request. Its `done` is called after a shard has executed it. While the shard has no place for it, a
+  /// question (`asks_only`) is completed now with JoinResult::kBusy. All others must not be lost: they are posted again
+  /// every kRetry, until `stop_watching` completes them with JoinResult::kSessionOver. Each connection, seat, slot and
+  /// session has at most one of them.
   void post(Shard& shard, ShardRequest request);
-  /// The same for a request that must not be lost: while the queue is full, it is posted again every kRetry. At most
-  /// kRetriedMax such requests wait; one more is completed now with JoinResult::kSessionOver, as all are by
-  /// `stop_watching`.
-  void post_when_possible(Shard& shard, ShardRequest request);
   /// Passes the session of the request (kMoveSession) from its shard to another. Until that is completed, all requests
-  /// of the session wait here, at most kHeldMax; then they go to the shard that serves it. One session moves at a time.
+  /// of the session wait here; then they go to the shard that serves it. One session moves at a time.
   /// While another moves, or requests wait for a place in a queue, this is completed now with JoinResult::kSessionOver.
   void move(Shard& from, ShardRequest request);
   /// Calls `then` once no request of the session is in progress.
@@ -63,6 +60,7 @@ class ShardRequests {
   void retry();
   void begin(Shard& shard, ShardRequest& request);
   void hold(ShardRequest& request);
+  void reject(ShardRequest& question);
   void end_move(Shard& serving);
   void complete(ShardRequest& request);
   [[nodiscard]] bool idle(const LiveSession& session) const;

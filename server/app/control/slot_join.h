@@ -7,6 +7,7 @@
 
 #include "common/base/format.h"
 #include "server/app/control/join_handler.h"
+#include "server/app/control/join_replies.h"
 #include "server/app/control/session_redirect.h"
 #include "server/app/control/session_registry.h"
 
@@ -31,8 +32,14 @@ void reserve_slot(SessionRegistry& registry, SessionEntry& entry, Slots& slots, 
   if (!slots.begin_join()) return answer(full);
   ShardRequest query{.what = ShardRequest::What::kQueryPeers, .peers = peers};
   query.done = [&entry, &slots, full, admit = std::move(admit), answer = std::move(answer)](ShardRequest& asked) {
-    const bool accepted = asked.result == JoinResult::kAccepted;
-    JoinReply reply = !accepted ? session_ends(entry) : !slots.enough(asked.place) ? full : admit(slots.next_place());
+    JoinReply reply = full;
+    if (asked.result == JoinResult::kBusy) {
+      reply = shard_busy();
+    } else if (asked.result != JoinResult::kAccepted) {
+      reply = session_ends(entry);
+    } else if (slots.enough(asked.place)) {
+      reply = admit(slots.next_place());
+    }
     if (std::holds_alternative<rpc::ErrorReply>(reply)) slots.cancel_join();
     answer(std::move(reply));
   };

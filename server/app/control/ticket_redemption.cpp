@@ -9,13 +9,6 @@
 namespace tandem::server {
 namespace {
 
-/// Id in a ticket; not authenticated.
-std::optional<auth::Id16> claimed_id(const rpc::TicketCredential& ticket) {
-  const auto sealed = rpc::decode_signed_ticket(ticket.bytes);
-  const auto content = sealed ? rpc::decode_ticket_content(sealed->content) : std::nullopt;
-  return content ? std::optional(content->ticket_id) : std::nullopt;
-}
-
 auth::TicketUse use_of(const SessionEntry& entry, const JoinRequest& request, std::optional<AccessRole> role) {
   return {entry.registration.id,
           entry.registration.epoch,
@@ -27,6 +20,12 @@ auth::TicketUse use_of(const SessionEntry& entry, const JoinRequest& request, st
 }
 
 }  // namespace
+
+std::optional<auth::Id16> claimed_id(const rpc::TicketCredential& ticket) {
+  const auto sealed = rpc::decode_signed_ticket(ticket.bytes);
+  const auto content = sealed ? rpc::decode_ticket_content(sealed->content) : std::nullopt;
+  return content ? std::optional(content->ticket_id) : std::nullopt;
+}
 
 std::expected<auth::Ticket, rpc::ErrorReply> TicketRedemption::redeem(const SessionEntry& entry,
                                                                       const JoinRequest& request,
@@ -55,12 +54,12 @@ std::optional<rpc::ErrorReply> TicketRedemption::used(const SessionEntry& entry,
   return ticket_error_reply({fault, auth::to_text(fault)});
 }
 
-void TicketRedemption::restore(const std::optional<auth::Id16>& ticket, const SessionEntry& entry,
+void TicketRedemption::restore(const std::optional<auth::Id16>& ticket, const std::string& session,
                                const std::string& person, const char* event) {
   if (!ticket) return;
   const std::string problem = trust_.tickets().restore(*ticket);
-  if (uses_ != nullptr) uses_->restore(entry.registration.name, *ticket);
-  trust_.audit(auth::wall_seconds(), event, entry.registration.name,
+  if (uses_ != nullptr) uses_->restore(session, *ticket);
+  trust_.audit(auth::wall_seconds(), event, session,
                auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem) + by_person(person));
 }
 

@@ -12,6 +12,9 @@
 
 namespace tandem::server {
 
+/// Id in a ticket; not authenticated.
+[[nodiscard]] std::optional<auth::Id16> claimed_id(const rpc::TicketCredential& ticket);
+
 /// Redeems the tickets of joins, and makes them valid again if a join had no effect: at this server, and in its
 /// service. Control plane's thread.
 class TicketRedemption {
@@ -36,7 +39,7 @@ class TicketRedemption {
   [[nodiscard]] std::optional<rpc::ErrorReply> used(const SessionEntry& entry, const JoinRequest& request,
                                                     const rpc::TicketCredential& ticket, AccessRole role) const;
   /// @param person  name in the ticket, for the audit log  @param event  of the audit log
-  void restore(const std::optional<auth::Id16>& ticket, const SessionEntry& entry, const std::string& person,
+  void restore(const std::optional<auth::Id16>& ticket, const std::string& session, const std::string& person,
                const char* event = "ticket_unused");
 
  private:

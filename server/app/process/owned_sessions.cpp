@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/io/clock.h"
 #include "server/app/process/session_table.h"
 
 namespace tandem::server {
@@ -29,6 +30,9 @@ std::string SessionTable::open_owned(OwnedSession owned) {
     if (const std::int64_t age = now - owned.snapshot->written_s; age >= 0 && age <= kSnapshotAgeMax) age_s = age;
     owned.snapshot->written_s = now;
     found.incompatibility = incompatibility(*owned.snapshot, name, owned.options->scene, owned.snapshot->written_s);
+    // For the same reason the session has the rest of its time that its former owner counted.
+    if (const auto left = owned.snapshot->life_left_s; left && owned.ends_at)
+      owned.ends_at = io::monotonic_now() + std::chrono::seconds(*left);
     if (found.incompatibility.empty()) found.snapshot = std::move(owned.snapshot);
   }
   auto opened = SessionInstance::open(*owned.options,

@@ -19,6 +19,7 @@
 #include "server/app/monitor/clock_watch.h"
 #include "server/app/monitor/load_events.h"
 #include "server/app/process/session_table.h"
+#include "server/app/process/tick_watchdog.h"
 #include "server/app/recording/leftover_repair.h"
 #include "server/app/service/service_host.h"
 
@@ -54,8 +55,8 @@ class ServerProcess {
     output_.print(format("Ctrl-C ends the session%s gently\n", sessions_->all().size() == 1 ? "" : "s"));
     io::systemd_notify("READY=1");
     while (!sessions_->all().empty() || (options_.service && !drain_began_)) run_once();
+    if (service_) service_->leave();  // first, because other servers wait for it
     complete_recordings();
-    if (service_) service_->leave();
     output_.print_posted();
     if (checkpoints_) checkpoints_->stop();
     output_.clear();
@@ -235,10 +236,9 @@ class ServerProcess {
     ::_exit(io::kExitTrouble);
   }
 
-  /// Sends the systemd watchdog signal if the shard with the fewest punctual ticks has new ones.
+  /// Sends the systemd watchdog signal if all shards tick in time.
   void feed_watchdog() {
-    const std::uint64_t punctual = shards_.punctual();
-    if (punctual != std::exchange(punctual_, punctual)) io::systemd_notify("WATCHDOG=1");
+    if (watchdog_.update(shards_.punctual())) io::systemd_notify("WATCHDOG=1");
   }
 
   const ServerOptions& options_;
@@ -254,7 +254,7 @@ class ServerProcess {
   ClockWatch clock_watch_;
   std::optional<LeftoverRepair> leftovers_;
   std::optional<Time> drain_began_;
-  std::uint64_t punctual_ = 0;
+  TickWatchdog watchdog_;
   bool memory_locked_ = false, realtime_reported_ = false;
 };
 

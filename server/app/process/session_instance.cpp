@@ -139,6 +139,10 @@ void SessionInstance::set_keeper(SnapshotKeeper* keeper) {
   kept.name = options_->name;
   kept.code = code_;
   kept.written_s = 0;
+  kept.life_left_s.reset();
+  if (ends_at_)
+    kept.life_left_s = std::clamp<std::int64_t>(
+        std::chrono::ceil<std::chrono::seconds>(*ends_at_ - io::monotonic_now()).count(), 0, rpc::kLifeMaxS);
   auto mailbox = keeper->add(std::move(kept));
   stored_ = std::shared_ptr<const StoredOrders>(mailbox, &mailbox->stored());
   live_session_->persist_to(std::move(mailbox), epoch_);

@@ -206,6 +206,10 @@ void SessionTable::write_audit_events(SessionInstance& session) {
 
 void SessionTable::drain() {
   draining_ = true;
+  for (const auto& s : sessions_) {
+    if (s->end || (s->on_over() && s->live_session().ends())) continue;  // it is over by itself, in its service too
+    s->end = s->on_over() ? EndReason::kGivenUp : EndReason::kSignal;
+  }
   // A created session does not return with the server, so its clients are closed before those of the shards. A session
   // of a service goes on at another server.
   control_.change([this](SessionRegistry& registry, const auto& done) {
@@ -214,8 +218,6 @@ void SessionTable::drain() {
         registry.end(s->id(), s->on_over() ? wire::CloseReason::kServerReturns : wire::CloseReason::kServerStops);
     done();
   });
-  for (const auto& s : sessions_)
-    if (!s->end) s->end = s->on_over() ? EndReason::kGivenUp : EndReason::kSignal;
 }
 
 bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {

@@ -72,12 +72,18 @@ void Shard::stop(wire::CloseReason why) noexcept {
 }
 
 bool Shard::post(ShardRequest& request) noexcept {
-  if (!requests_.push(&request)) return false;
+  request.posted_to = this;
+  if (posted_ == kRequestsMax || !requests_.push(&request)) return false;
+  ++posted_;
   wake_.signal();
   return true;
 }
 
-ShardRequest* Shard::next_completed() noexcept { return completed_.take().value_or(nullptr); }
+ShardRequest* Shard::next_completed() noexcept {
+  ShardRequest* const request = completed_.take().value_or(nullptr);
+  if (request != nullptr) --request->posted_to->posted_;
+  return request;
+}
 
 void Shard::clear_completions() noexcept { completions_.clear(); }
 

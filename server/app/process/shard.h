@@ -39,7 +39,8 @@ class Shard {
   void stop(wire::CloseReason why = wire::CloseReason::kServerStops) noexcept;
 
   // ---- The control plane's thread ----
-  /// Posts a request; it must stay valid until `next_completed` returns it. @return false if the queue is full
+  /// Posts a request; it must stay valid until `next_completed` returns it, here or at the target of a move.
+  /// @return false: as many as the queue holds are in progress
   [[nodiscard]] bool post(ShardRequest& request) noexcept;
   /// Next completed request; null if there is none.
   [[nodiscard]] ShardRequest* next_completed() noexcept;
@@ -53,6 +54,8 @@ class Shard {
   [[nodiscard]] Duration period() const noexcept { return period_; }
   /// Number of sessions that it serves. Thread-safe.
   [[nodiscard]] std::size_t sessions() const noexcept { return served_count_.load(std::memory_order_relaxed); }
+  /// Whether `run` has returned, or is about to. Thread-safe.
+  [[nodiscard]] bool ended() const noexcept { return arrival_.load(std::memory_order_relaxed) == &closed_; }
   /// Datagrams so far that belong to no session. Thread-safe.
   [[nodiscard]] std::uint64_t unmatched_datagrams() const noexcept {
     return unmatched_datagrams_.load(std::memory_order_relaxed);
@@ -111,6 +114,7 @@ class Shard {
   std::atomic<bool> stop_{false};
   std::atomic<wire::CloseReason> stop_reason_{wire::CloseReason::kServerStops};
   io::SpscQueue<ShardRequest*> requests_, completed_;
+  std::size_t posted_ = 0;  ///< requests that `next_completed` has not returned; so `completed_` has a place for each
 
   static constexpr std::size_t kSendMax = io::SendBatch::kMax;
   io::ReceiveBatch in_;

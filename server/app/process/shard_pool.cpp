@@ -1,7 +1,6 @@
 #include "server/app/process/shard_pool.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "common/base/format.h"
 #include "common/io/processors.h"
@@ -84,15 +83,16 @@ void ShardPool::join() {
   running_ = false;
 }
 
-std::uint64_t ShardPool::punctual() const noexcept {
-  std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max();
+std::vector<std::optional<std::uint64_t>> ShardPool::punctual() const {
+  std::vector<std::optional<std::uint64_t>> all;
   for (const auto& shard : shards_) {
-    std::uint64_t in_time = 0;
+    std::optional<std::uint64_t>& in_time = all.emplace_back();
+    if (shard->ended()) continue;
+    in_time = 0;
     for (std::size_t i = 0; i < TickHistogram::kBounds.size() && TickHistogram::kBounds[i] <= kPunctual; ++i)
-      in_time += shard->load().lateness().count(i);
-    fewest = std::min(fewest, in_time);
+      *in_time += shard->load().lateness().count(i);
   }
-  return fewest;
+  return all;
 }
 
 }  // namespace tandem::server

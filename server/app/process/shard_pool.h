@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,8 +49,8 @@ class ShardPool {
   /// Ends all sessions; they release their hands first. @param why reason in the clients' CLOSE
   void stop(wire::CloseReason why = wire::CloseReason::kServerStops) noexcept;
   void join();
-  /// Ticks so far that began within 1 ms of their time, of the shard with the fewest.
-  [[nodiscard]] std::uint64_t punctual() const noexcept;
+  /// Ticks so far of each shard that began within 1 ms of their time; nullopt: it has ended.
+  [[nodiscard]] std::vector<std::optional<std::uint64_t>> punctual() const;
 
  private:
   std::vector<double> rates_;  ///< one per shard

@@ -43,7 +43,8 @@ struct ShardRequest {
   std::size_t place = 0;   ///< slot of a peer, or number of free slots; kAdmitPeer, out: the peer's slot
   std::uint32_t cid = 0;
   wire::CloseReason why = wire::CloseReason::kServerStops;
-  Shard* target = nullptr;  ///< kMoveSession: of the same tick rate, with a socket of the same port
+  Shard* posted_to = nullptr;  ///< set by `Shard::post`
+  Shard* target = nullptr;     ///< kMoveSession: of the same tick rate, with a socket of the same port
   /// kMoveSession: the kernel's program that gives the session's datagrams to the target, and the one in force.
   const io::SteeringProgram *steering = nullptr, *steering_before = nullptr;
   std::function<void(ShardRequest&)> done = [](ShardRequest&) {};  ///< called on the control plane's thread

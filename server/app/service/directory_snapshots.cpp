@@ -1,5 +1,7 @@
 #include "server/app/service/directory_snapshots.h"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "common/auth/io/state_directory.h"
@@ -11,6 +13,10 @@ namespace {
 
 /// A mark is the number of the entry, followed by the number of orders.
 constexpr unsigned kOrderBits = 32;
+
+/// Time after which a snapshot is written again although only the rest of the session's time has changed. A next owner
+/// may give the session that much too long.
+constexpr std::int64_t kLifeStepS = 30;
 
 }  // namespace
 
@@ -61,7 +67,13 @@ void DirectorySnapshots::set_problem(const std::string& why) {
   for (Entry& entry : entries_) entry.mailbox->stored().set_problem(why);
 }
 
-void DirectorySnapshots::take_snapshot(Entry& entry, News& news) {
+void DirectorySnapshots::take_snapshot(Entry& entry, News& news, Time now) {
+  std::optional<std::int64_t> left_s = entry.snapshot.life_left_s;
+  if (left_s) {
+    if (!entry.life_ends) entry.life_ends = now + std::chrono::seconds(*left_s);
+    left_s = std::max<std::int64_t>(0, std::chrono::ceil<std::chrono::seconds>(*entry.life_ends - now).count());
+    entry.changed = entry.changed || *entry.snapshot.life_left_s - *left_s >= kLifeStepS;
+  }
   Checkpoint checkpoint;
   const bool arrived = entry.mailbox->take(checkpoint);
   if (!arrived && !(entry.changed && !entry.taken.empty())) return;
@@ -76,17 +88,18 @@ void DirectorySnapshots::take_snapshot(Entry& entry, News& news) {
   }
   entry.changed = false;
   entry.snapshot.written_s = auth::wall_seconds();
+  entry.snapshot.life_left_s = left_s;
   news.snapshot = std::string(text_of(encode_snapshot(entry.snapshot)));
   news.mark = std::uint64_t{entry.number} << kOrderBits | entry.snapshot.checkpoint.orders;
 }
 
-std::vector<DirectorySnapshots::News> DirectorySnapshots::take() {
+std::vector<DirectorySnapshots::News> DirectorySnapshots::take(Time now) {
   std::vector<News> all;
   const std::lock_guard lock(lock_);
   order_arrived_.clear();
   for (Entry& entry : entries_) {
     News news{.session = entry.snapshot.name};
-    take_snapshot(entry, news);
+    take_snapshot(entry, news, now);
     if (std::exchange(entry.consoles_changed, false))
       news.consoles = to_text(ServiceConsoles{entry.snapshot.id, entry.snapshot.checkpoint.epoch, entry.consoles});
     if (!news.snapshot.empty() || news.consoles) all.push_back(std::move(news));

@@ -35,8 +35,8 @@ class DirectorySnapshots final : public SnapshotKeeper {
     std::uint64_t mark = 0;                 ///< of the snapshot, for `set_stored`
     bool order = false;                     ///< the snapshot has an order that the one before has not
   };
-  /// Takes what changed since the last call.
-  [[nodiscard]] std::vector<News> take();
+  /// Takes what changed since the last call. @param now  of a clock that does not jump
+  [[nodiscard]] std::vector<News> take(Time now);
   /// Descriptor that is readable while a snapshot with a new order waits.
   [[nodiscard]] int order_fd() const noexcept { return order_arrived_.get(); }
   /// The snapshot with this mark is in the directory.
@@ -50,13 +50,14 @@ class DirectorySnapshots final : public SnapshotKeeper {
     std::shared_ptr<CheckpointMailbox> mailbox;
     std::vector<std::byte> taken{};  ///< bytes of the checkpoint as last taken
     bool changed = false;            ///< something else than the checkpoint
+    std::optional<Time> life_ends{};  ///< of a session with a limit; nullopt before its first `take`
     std::uint32_t number = 0;        ///< differs between all sessions of this server, also of one name
     std::vector<auth::Id16> consoles{};
     bool consoles_changed = false;
   };
 
   /// Takes the newest snapshot of an entry, if it has changed.
-  static void take_snapshot(Entry& entry, News& news);
+  static void take_snapshot(Entry& entry, News& news, Time now);
 
   io::EventFd order_arrived_;  ///< of the mailboxes; `take` is called at a steady pace too
   std::mutex lock_;

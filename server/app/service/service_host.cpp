@@ -338,7 +338,7 @@ void ServiceHost::release_consoles() {
 
 bool ServiceHost::left_by_all() const {
   return record_.drains && parts_.sessions.all().empty() &&
-         thread_->quietly([](const ServiceMember& member, Time) { return member.sessions().empty(); });
+         thread_->quietly([](const ServiceMember& member, Time) { return member.empty(); });
 }
 
 void ServiceHost::report_differences() {
@@ -352,8 +352,6 @@ void ServiceHost::report_differences() {
 
 void ServiceHost::leave() {
   leaving_ = true;
-  registry_->stop();
-  list_file_->stop();
   const ServiceStatus before = status();
   if (before.follows && before.members == 1 && before.sessions > 0) {
     const std::string text = format(
@@ -368,6 +366,9 @@ void ServiceHost::leave() {
         "its lease has ended";
     parts_.output.report(io::Level::kWarn, {.event = "service_left", .text = text}, text);
   }
+  // A disk that is stuck delays these, and must not delay the other servers.
+  registry_->stop();
+  list_file_->stop();
   thread_->stop();
 }
 

@@ -47,7 +47,7 @@ void ServiceThread::wait(std::chrono::milliseconds longest) {
 
 void ServiceThread::run() {
   while (!stopping_) {
-    auto newest = snapshots_.take();
+    auto newest = snapshots_.take(now());
     std::vector<ServiceTickets::Result> results;
     auto pause = kPause;
     {

@@ -87,6 +87,45 @@ TEST_F(ServiceLosses, SessionsThatAreOverWhileTheyAreGivenUpDoNotComeBack) {
   EXPECT_FALSE(a.member.ends("made"));
 }
 
+/// No other server has their state, and the server must not end before they are served again.
+TEST_F(ServiceLosses, SessionsOfAServerThatDrainsGoOnToo) {
+  Server& a = begin("a", {{"lab", session_spec(1)}});
+  ASSERT_TRUE(a.member.create(now_, "made", session_spec(3), 7));
+  pass(1s);
+  for (const char* name : {"lab", "made"}) a.member.sessions().set_snapshot(name, "state");
+  pass(500ms);
+  a.member.describe({.address = "a:7000", .key = "k", .version = "1", .capacity = 4, .drains = true});
+  RandomStream draws{RandomKey{1}};
+  lose(draws, 1s, 20ms, empty(1000));
+  for (int n = 0; n < 600 && a.open.size() < 2; ++n) {
+    EXPECT_FALSE(a.member.empty()) << "its process would end";
+    pass(20ms);
+  }
+  for (const char* name : {"lab", "made"}) {
+    ASSERT_TRUE(a.open.contains(name)) << name;
+    EXPECT_EQ(a.open[name].snapshot, "state") << name;
+  }
+  Server& b = begin("b");
+  pass(10s);
+  EXPECT_EQ(b.open.size(), 2u) << "they move, as at any drain";
+  EXPECT_TRUE(a.member.empty());
+}
+
+TEST_F(ServiceLosses, ServerThatDrainsBeginsNoSessionOfItsConfiguration) {
+  Server& a = begin("a", {{"lab", session_spec(1)}});
+  Server& b = begin("b");
+  order_move("lab", "b");
+  pass(2s);
+  ASSERT_TRUE(b.open.contains("lab"));
+  a.member.describe({.address = "a:7000", .key = "k", .version = "1", .capacity = 4, .drains = true});
+  b.runs = false;
+  b.open.clear();
+  RandomStream draws{RandomKey{1}};
+  lose(draws, 5s, 20ms, empty(1000));
+  pass(20s);
+  EXPECT_TRUE(a.open.empty());
+}
+
 // Sessions of the configuration, and one that an operator created: all go on from their state, with a higher epoch.
 TEST_F(ServiceLosses, AllSessionsGoOnFromTheirStateWhenTheDirectoryIsBegunFromNothing) {
   const std::uint64_t count = tandem::test::seeds(60);

@@ -171,6 +171,46 @@ TEST_F(ServiceMoves, SessionThatComesBackBeforeItWasGivenUpDoesNotAct) {
   EXPECT_EQ(a.open["lab"].snapshot, "state at the hand-over") << "of b";
 }
 
+/// The client of a ticket that etcd confirms during the move joins at the next owner, with the same ticket.
+TEST_F(ServiceMoves, WaitForTheUseOfATicketSoThatItCanBeRestored) {
+  Server& a = start("a", {{"lab", session_spec(1)}});
+  Server& b = start("b");
+  pass(3s);
+  a.member.tickets().use(now_, "lab", "earlier", 1h, 4);  // its lease serves the next one too
+  pass(200ms);
+  on_hand_over = [&](Server& server) {
+    server.directory.answers_lost = true;
+    server.member.tickets().use(now_, "lab", "0123", 1h, 5);
+  };
+  order_move("lab", "b");
+  pass(1s);
+  ASSERT_FALSE(a.open.contains("lab"));
+  EXPECT_TRUE(a.member.tickets().uses_wait("lab"));
+  EXPECT_EQ(a.member.directory().ownership.view().session("lab")->owner->name, "a");
+  a.directory.answers_lost = false;
+  for (int n = 0; n < 200 && a.member.tickets().uses_wait("lab"); ++n) pass(20ms);
+  EXPECT_TRUE(has("tickets/0123"));
+  a.member.tickets().restore("lab", "0123");
+  pass(3s);
+  EXPECT_TRUE(b.open.contains("lab"));
+  EXPECT_FALSE(has("tickets/0123"));
+}
+
+TEST_F(ServiceMoves, ServerLeavesOnlyWhenTheEndsOfItsSessionsAreStored) {
+  Server& a = start("a", {{"lab", session_spec(1)}, {"other", session_spec(2)}});
+  pass(1s);
+  a.directory.answers_lost = true;
+  a.member.end("lab");
+  a.member.replace("other", session_spec(3));
+  a.open.clear();
+  pass(100ms);
+  EXPECT_FALSE(a.member.all_written()) << "the next client would begin the ended session again";
+  a.directory.answers_lost = false;
+  pass(3s);
+  EXPECT_TRUE(a.member.all_written());
+  EXPECT_FALSE(has("catalogue/lab/spec"));
+}
+
 /// A standby may be gone at the moment of a move to another server.
 TEST_F(ServiceMoves, GoOnWhenAnotherServerIsRefusedAsStandby) {
   Server& a = start("a", {{"lab", session_spec(1)}});

@@ -91,6 +91,35 @@ TEST(SessionSnapshot, KeepsCountsOfRestoresThroughReleasesThatDoNotKnowThem) {
   EXPECT_EQ(full->removed_workstations.size(), kRemovedWorkstationsMax) << "no workstation is left out for the counts";
 }
 
+TEST(SessionSnapshot, KeepsTheRestOfTheSessionsTimeOfItsOwnEpochOnly) {
+  SessionSnapshot kept = sample(test::shipped("contact"));
+  kept.checkpoint.restores = RestoreCounts{};
+  kept.life_left_s = 5400;
+  const auto back = decode_snapshot(encode_snapshot(kept));
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(back->life_left_s, 5400);
+  EXPECT_EQ(back->checkpoint.restores, kept.checkpoint.restores);
+  EXPECT_EQ(back->removed_workstations, kept.removed_workstations);
+  SessionSnapshot older = kept;  // of a release that has the entry as a workstation, after it restored the session
+  older.life_left_s.reset();
+  const std::vector<std::byte> bytes = encode_snapshot(kept);
+  constexpr std::string_view kLabel = "tandem-life";
+  const auto at = std::ranges::search(bytes, std::as_bytes(std::span{kLabel})).begin();
+  ASSERT_NE(at, bytes.end());
+  std::copy_n(at, 32, older.removed_workstations.emplace_back().begin());
+  ++older.checkpoint.epoch;
+  const auto restored = decode_snapshot(encode_snapshot(older));
+  ASSERT_TRUE(restored) << restored.error();
+  EXPECT_EQ(restored->life_left_s, std::nullopt);
+  EXPECT_EQ(restored->removed_workstations, kept.removed_workstations);
+  for (const std::int64_t wrong : {std::int64_t{-1}, std::int64_t{rpc::kLifeMaxS} + 1}) {
+    kept.life_left_s = wrong;
+    const auto refused = decode_snapshot(encode_snapshot(kept));
+    ASSERT_TRUE(refused) << refused.error();
+    EXPECT_EQ(refused->life_left_s, std::nullopt) << wrong;
+  }
+}
+
 // A program that can write to the directory of a service can compute the digests too.
 TEST(SessionSnapshot, RejectsNamesThatNoTicketHas) {
   for (const char* name : {"a\nb", "\xff", "a b", "a\"b"}) {

@@ -1,65 +1,21 @@
 // Joins of seats, consoles and link tests, from the request to the Welcome or its error.
 #include "server/app/control/session_joins.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
 
 #include "server/policy/shard_plan.h"
-#include "tests/server/app/control/registry_fixture.h"
+#include "tests/server/app/control/joining.h"
 
 namespace tandem::server {
 namespace {
 
 using namespace test;
 using rpc::ErrorCode;
-
-constexpr const char* kCode = "ABCDE12345";
-
-/// A session "lesson" with a code, and a workstation "touch-07".
-struct Joining : RegistryFixture {
-  [[nodiscard]] static JoinRequest request(const std::string& seat, const rpc::Credential& credential = {}) {
-    JoinRequest join;
-    join.hello.seat = seat;
-    join.hello.credential = credential;
-    join.hello.client_cid = 7;
-    join.hello.device = {3, 3, true, false, 0, 0, 0};
-    join.workstation = {"touch-07", {std::byte{7}}, 0};
-    return join;
-  }
-  /// Requests a join. @return its reply, once it is there
-  JoinReply join(const JoinRequest& request) {
-    std::optional<JoinReply> reply;
-    joins.admit(request, [&](JoinReply decided) { reply = std::move(decided); });
-    wait_until([&] { return reply.has_value(); });
-    return reply.value_or(rpc::ErrorReply{});
-  }
-
-  /// A ticket for a console of session 1 at workstation touch-07.
-  [[nodiscard]] rpc::Credential operators_ticket(const auth::Id16& id) const {
-    return ticket_for(id, "", AccessRole::kOperator);
-  }
-  /// A ticket for session 1 at workstation touch-07. @param seat  empty: for a console
-  [[nodiscard]] rpc::Credential ticket_for(const auth::Id16& id, const std::string& seat, AccessRole role) const {
-    auth::Ticket ticket;
-    ticket.ticket_id = id;
-    ticket.session_id = id_of(1);
-    ticket.seat = seat;
-    ticket.role = role;
-    ticket.workstation.sha256 = {std::byte{7}};
-    ticket.not_before = auth::wall_seconds() - 1;
-    ticket.not_after = ticket.not_before + 3600;
-    const auto bytes = auth::sign_ticket(ticket, keys.ticket_key());
-    EXPECT_TRUE(bytes) << bytes.error();
-    return rpc::TicketCredential{{bytes->begin(), bytes->end()}};
-  }
-
-  SessionEntry& lesson = add("lesson", 1, kCode);
-  auth::ServerKeystore keys = auth::ServerKeystore::ephemeral(auth::wall_seconds());
-  SessionCommands commands{registry, keys};
-  SessionJoins joins{registry, commands, keys};
-};
 
 /// Clients that come at once are not measured yet. The limit is one and a half times what a client is expected to take.
 TEST(SessionJoins, RejectTheClientThatWouldPassTheLimitTogetherWithTheNewestOnes) {
@@ -309,6 +265,32 @@ TEST(SessionJoins, AdmitNoClientAndUseNoTicketOnceTheSessionIsHandedOver) {
     j.joins.set_ticket_uses(nullptr);
     const auto again = j.keys.tickets().redeem(
         std::get<rpc::TicketCredential>(request.hello.credential).bytes,
+        {id_of(1), 3, "trainee", AccessRole::kTrainee, auth::KeyFingerprint{{std::byte{7}}}, auth::wall_seconds(), 0});
+    EXPECT_TRUE(again) << again.error().text;
+  }
+}
+
+/// The directory answers so late that the session has left this server.
+TEST(SessionJoins, AdmitNoClientAndUseNoTicketOfASessionThatIsNotHereAnyMore) {
+  for (const auto outcome :
+       {TicketUses::Outcome::kAccepted, TicketUses::Outcome::kUsed, TicketUses::Outcome::kNoAnswer}) {
+    Joining j;
+    LateUses uses;
+    j.joins.set_ticket_uses(&uses);
+    j.serve();
+    const auth::Id16 id{std::byte{3}};
+    const rpc::Credential ticket = j.ticket_for(id, "trainee", AccessRole::kTrainee);
+    std::optional<JoinReply> reply;
+    j.joins.admit(Joining::request("trainee", ticket), [&](JoinReply decided) { reply = std::move(decided); });
+    j.wait_until([&] { return static_cast<bool>(uses.answer); });
+    j.registry.end(id_of(1), wire::CloseReason::kServerReturns);
+    j.registry.remove(id_of(1), [] {});
+    uses.answer(outcome);
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(error_of(*reply).code, outcome == TicketUses::Outcome::kUsed ? ErrorCode::kTicket : ErrorCode::kNotNow);
+    EXPECT_EQ(uses.restored, std::vector{id});
+    const auto again = j.keys.tickets().redeem(
+        std::get<rpc::TicketCredential>(ticket).bytes,
         {id_of(1), 3, "trainee", AccessRole::kTrainee, auth::KeyFingerprint{{std::byte{7}}}, auth::wall_seconds(), 0});
     EXPECT_TRUE(again) << again.error().text;
   }

@@ -84,7 +84,7 @@ void fill_queue(RegistryFixture& f, const SessionEntry& entry) {
   const auto full = std::make_shared<bool>(false);  // requests that wait are answered after this function
   for (int i = 0; !*full && i < 10000; ++i)
     f.registry.post(entry, {.what = ShardRequest::What::kQueryPeers, .done = [full](ShardRequest& r) {
-                              *full = *full || r.result == JoinResult::kSessionOver;
+                              *full = *full || r.result == JoinResult::kBusy;
                             }});
   ASSERT_TRUE(*full);
 }
