@@ -36,6 +36,15 @@ class ServiceLosses : public ServiceTest {
       static_cast<void>(store.execute(1, directory::Transaction{{}, {directory::Put{"/other", "x"}}, {}}));
     return store;
   }
+  static void describe_as_draining(Server& server) {
+    directory::ServerRecord record;
+    record.address = "a:7000";
+    record.key = "k";
+    record.version = "1";
+    record.capacity = 4;
+    record.drains = true;
+    server.member.describe(record);
+  }
   Server* owner(const std::string& session) {
     Server* found = nullptr;
     for (const auto& server : servers_)
@@ -94,7 +103,7 @@ TEST_F(ServiceLosses, SessionsOfAServerThatDrainsGoOnToo) {
   pass(1s);
   for (const char* name : {"lab", "made"}) a.member.sessions().set_snapshot(name, "state");
   pass(500ms);
-  a.member.describe({.address = "a:7000", .key = "k", .version = "1", .capacity = 4, .drains = true});
+  describe_as_draining(a);
   RandomStream draws{RandomKey{1}};
   lose(draws, 1s, 20ms, empty(1000));
   for (int n = 0; n < 600 && a.open.size() < 2; ++n) {
@@ -117,7 +126,7 @@ TEST_F(ServiceLosses, ServerThatDrainsBeginsNoSessionOfItsConfiguration) {
   order_move("lab", "b");
   pass(2s);
   ASSERT_TRUE(b.open.contains("lab"));
-  a.member.describe({.address = "a:7000", .key = "k", .version = "1", .capacity = 4, .drains = true});
+  describe_as_draining(a);
   b.runs = false;
   b.open.clear();
   RandomStream draws{RandomKey{1}};
