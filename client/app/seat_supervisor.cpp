@@ -51,10 +51,10 @@ SeatSupervisor::SeatSupervisor(const Context& context, io::UdpSocket socket)
 
 void SeatSupervisor::leave(const std::string& why) {
   if (leaving_since_) return;
-  o_.line.note(why);
+  o_.runner.commands().leave();  // before anything that may take time
   leaving_since_ = io::monotonic_now();
-  reconnector_.reset();
-  o_.runner.commands().leave();
+  if (reconnector_) reconnector_->cancel();
+  o_.line.note(why);
 }
 
 ExitReason SeatSupervisor::run() {
@@ -66,7 +66,7 @@ ExitReason SeatSupervisor::run() {
     pollfd files[] = {{o_.runner.finished_fd(), POLLIN, 0},
                       {o_.signals, POLLIN, 0},
                       {keys_.fd(), POLLIN, 0},
-                      {reconnector_ ? reconnector_->done_fd() : -1, POLLIN, 0},
+                      {reconnects() ? reconnector_->done_fd() : -1, POLLIN, 0},
                       {status_poller_ ? status_poller_->status_fd() : -1, POLLIN, 0}};
     poll(files, std::size(files), kPollIntervalMs);
     const ClientStatus status = o_.runner.status();
@@ -267,7 +267,7 @@ void SeatSupervisor::show(ClientStatus status) {
     o_.line.note(transfer);
   if (now - shown_at_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_at_ = now;
-  status.reconnecting = reconnector_ != nullptr;
+  status.reconnecting = reconnects();
   status.keys_m = o_.keyboard.keys();
   o_.line.show(seat_screen(status, o_.seat.setup(), last_status_));
 }
