@@ -60,7 +60,7 @@ struct MotorStatus {
   std::optional<double> heat_max;  ///< largest heat of the hottest motor so far, 1: too hot; empty: not reported
 };
 
-/// Status of one seat for the user: plain data, copied out of the servo thread every 64 ticks.
+/// Status of one seat for the user: plain data, copied out of the servo thread (client/app/status_pace.h).
 struct ClientStatus {
   wire::SessionState session = wire::SessionState::kWaiting;  ///< state of the session
   wire::GateState gate = wire::GateState::kOff;               ///< state of the own force gate

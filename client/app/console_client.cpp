@@ -10,6 +10,7 @@
 
 #include "client/app/console_follow.h"
 #include "client/app/console_lines.h"
+#include "client/app/server_addresses.h"
 #include "client/app/session_status_text.h"
 #include "common/auth/io/control_client.h"
 #include "common/base/format.h"
@@ -216,9 +217,11 @@ DrainTarget ConsoleClient::drain_target() {
   DrainTarget target{"", io::to_text(console_.server), console_.service};
   if (!console_.service) return target;
   // The first member is the server itself.
-  for (const std::string& member : welcome().members | std::views::drop(1))
-    if (const auto addresses = io::resolve_addresses(member, 1))
-      for (const io::SocketAddress& address : *addresses) target.others.push_back(io::to_text(address));
+  ServerAddresses others{asked_};
+  for (const std::string& member : welcome().members | std::views::drop(1)) others.add(member);
+  others.begin(timeout_);
+  static_cast<void>(others.has(kAddressesTried));  // resolves all names
+  for (const io::SocketAddress& address : others.known()) target.others.push_back(io::to_text(address));
   if (const auto list = sessions())
     for (const rpc::ListedSession& s : list->sessions)
       if (s.id == welcome().session_id) target.name = s.server;

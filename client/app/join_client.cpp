@@ -287,7 +287,7 @@ std::expected<JoinedSeat, ResumeError> resume_at(const io::SocketAddress& at, co
 }
 
 /// Addresses at which the seat may be resumed, the likeliest first.
-std::vector<io::SocketAddress> resume_addresses(const JoinOptions& options, const ResumeState& own) {
+ServerAddresses resume_addresses(const JoinOptions& options, const ResumeState& own) {
   JoinOptions ordered = options;
   ordered.alternatives.insert(ordered.alternatives.begin(), options.server);
   if (own.last) ordered.server = *own.last;
@@ -296,7 +296,7 @@ std::vector<io::SocketAddress> resume_addresses(const JoinOptions& options, cons
     ordered.server = *own.first;
   }
   auto list = addresses_to_try(ordered, {});
-  for (const std::string& member : own.members) add_addresses(member, list);
+  for (const std::string& member : own.members) list.add(member);
   return list;
 }
 
@@ -304,12 +304,13 @@ std::vector<io::SocketAddress> resume_addresses(const JoinOptions& options, cons
 
 std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, const ResumeState& own,
                                                    const std::function<bool()>& wanted) {
-  const auto addresses = resume_addresses(options, own);
+  ServerAddresses addresses = resume_addresses(options, own);
   JoinOptions asking = options;
   if (addresses.size() > 1) asking.timeout = std::min(options.timeout, kMemberTimeout);
   std::optional<ResumeError> all;
-  for (const io::SocketAddress& at : addresses) {
-    auto given = resume_at(at, asking, own, wanted);
+  addresses.begin(asking.timeout);
+  for (std::size_t i = 0; addresses.has(i); ++i) {
+    auto given = resume_at(addresses[i], asking, own, wanted);
     if (given || given.error().kind != ResumeError::Kind::kAgain) return given;
     ResumeError& failed = given.error();
     if (!all) {

@@ -11,6 +11,7 @@
 #include "client/app/missing_session.h"
 #include "common/auth/key_fingerprint.h"
 #include "common/base/time.h"
+#include "common/io/name_resolver.h"
 #include "common/io/socket_address.h"
 #include "common/io/udp_socket.h"
 #include "common/transport/secure_channel.h"
@@ -40,6 +41,7 @@ struct JoinOptions {
   std::vector<io::SocketAddress> alternatives{};  ///< tried after `server`: other addresses of it, or of its service
   std::vector<std::string> typed{};               ///< HOST:PORT as given, for addresses learnt at earlier joins
   std::string unresolved{};                       ///< given names without address, for errors; empty: none
+  io::NameResolver names = io::NameResolver::system();  ///< for names that servers of a service give
   std::optional<AccessRole>
       console{};  ///< joins as console instead of a seat; the role counts only on the server's own computer
   /// With `console`: joins for a drain, only at a server that `server` and `alternatives` name. If another one has the
@@ -128,9 +130,10 @@ struct ResumeError {
   std::string answer{};  ///< reason at a server that was reached, one with `heard`; empty: none was reached
 };
 /// Tries once to resume a seat over a new TLS connection: at the server that had it, then at the other servers of its
-/// service, each for 1 s at most. Follows them to the owner of the session. Accepts only the same server or one of the
-/// same service, with the same or a higher epoch. Each secret gets one connection; `options.timeout` limits each
-/// connect and each reply. A readable `options.signals` file cancels the attempt.
+/// service, each for 1 s at most. Waits for the addresses of names only after that, for 1 s in total. Follows them to
+/// the owner of the session. Accepts only the same server or one of the same service, with the same or a higher epoch.
+/// Each secret gets one connection; `options.timeout` limits each connect and each reply. A readable `options.signals`
+/// file cancels the attempt.
 /// @param wanted  called just before the request, because the request invalidates the old connection; false cancels
 [[nodiscard]] std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, const ResumeState& own,
                                                                  const std::function<bool()>& wanted);

@@ -46,7 +46,7 @@ Reconnector::Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, 
 }
 
 Reconnector::~Reconnector() {
-  if (!done()) cancel_.signal();  // once done, the signal would disturb the connection in the result
+  cancel();
   thread_.join();
   if (result_ && *result_ && (*result_)->swap)
     release_seat((*result_)->swap->socket, (*result_)->joined, options_.caps);

@@ -28,11 +28,15 @@ class Reconnector {
   ///                    netsim proxy recognises the client.
   Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& runner,
               const io::UdpSocket& kept);
-  /// Cancels the attempt. A seat that was resumed but not taken is released at the server.
+  /// Cancels the attempt and waits for its end. A seat that was resumed but not taken is released at the server.
   ~Reconnector();
   Reconnector(const Reconnector&) = delete;
   Reconnector& operator=(const Reconnector&) = delete;
 
+  /// Cancels the attempt. Does not wait.
+  void cancel() const noexcept {
+    if (!done()) cancel_.signal();  // once done, the signal would disturb the connection in the result
+  }
   [[nodiscard]] bool done() const noexcept { return done_.load(std::memory_order_acquire); }
   /// Readable once `done()`.
   [[nodiscard]] int done_fd() const noexcept { return done_event_.get(); }

@@ -8,7 +8,6 @@ namespace tandem::client {
 namespace {
 
 constexpr Duration kLate = std::chrono::milliseconds(1);
-constexpr std::uint64_t kPublishEvery = 64;  // ticks between two published statuses
 
 }  // namespace
 
@@ -39,7 +38,6 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
   command_ = seat_->on_servo(now, state);
   socket_.send(now, *seat_);
   record(now, session_time);
-  if (seat_->closed() && !std::exchange(close_signalled_, true)) finished_.signal();
   return command_;
 }
 
@@ -54,7 +52,7 @@ void SeatRunner::swap_connection(Time now) noexcept {
   seat_->reconnect(swap->connection);
   phase_.restart();
   connections_.return_old(std::move(swap));
-  close_signalled_ = seat_->closed();
+  status_pace_.restart();
 }
 
 void SeatRunner::request_scripted_authority(Time now) noexcept {
@@ -79,8 +77,10 @@ void SeatRunner::record(Time now, const std::optional<double>& session_time) noe
                     seat_->tools().authority(),
                     timing.heard() ? seconds(timing.silence(now)) : -1});
   }
-  if (ticks_ % kPublishEvery != 1 && !seat_->closed()) return;
-  published_.publish(recorder_.update(now, *seat_));
+  const bool closed = seat_->closed();
+  if (!status_pace_.due(closed)) return;
+  const bool published = published_.publish(recorder_.update(now, *seat_));
+  if (status_pace_.on_publish(published, closed)) finished_.signal();
 }
 
 void SeatRunner::lost(hal::Errc) noexcept {

@@ -10,6 +10,7 @@
 #include "client/app/sample.h"
 #include "client/app/seat_socket.h"
 #include "client/app/seat_status_recorder.h"
+#include "client/app/status_pace.h"
 #include "client/app/user_commands.h"
 #include "client/seat/seat.h"
 #include "client/seat/tick_decimator.h"
@@ -44,7 +45,7 @@ class SeatRunner final : public hal::ServoClient {
   /// The servo thread takes an offered connection with its next tick.
   [[nodiscard]] ConnectionSwapper& connections() noexcept { return connections_; }
   [[nodiscard]] ClientStatus status() const { return published_.read(); }
-  /// Readable once the session is closed or the device is lost.
+  /// Readable once `status` says that the session is closed, or the device is lost.
   [[nodiscard]] int finished_fd() const noexcept { return finished_.get(); }
   /// Clears `finished_fd` before a reconnect of a closed session.
   void clear_finished() noexcept;
@@ -71,9 +72,9 @@ class SeatRunner final : public hal::ServoClient {
   std::uint64_t ticks_ = 0;
   Time first_tick_{};
   io::EventFd finished_;
-  bool close_signalled_ = false;
   std::atomic<bool> lost_{false};
   SeatStatusRecorder recorder_;
+  StatusPace status_pace_;
   io::Published<ClientStatus> published_;
 };
 

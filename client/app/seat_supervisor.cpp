@@ -51,10 +51,10 @@ SeatSupervisor::SeatSupervisor(const Context& context, io::UdpSocket socket)
 
 void SeatSupervisor::leave(const std::string& why) {
   if (leaving_since_) return;
-  o_.line.note(why);
+  o_.runner.commands().leave();  // before anything that may take time
   leaving_since_ = io::monotonic_now();
-  reconnector_.reset();
-  o_.runner.commands().leave();
+  if (reconnector_) reconnector_->cancel();
+  o_.line.note(why);
 }
 
 ExitReason SeatSupervisor::run() {
@@ -66,7 +66,7 @@ ExitReason SeatSupervisor::run() {
     pollfd files[] = {{o_.runner.finished_fd(), POLLIN, 0},
                       {o_.signals, POLLIN, 0},
                       {keys_.fd(), POLLIN, 0},
-                      {reconnector_ ? reconnector_->done_fd() : -1, POLLIN, 0},
+                      {reconnects() ? reconnector_->done_fd() : -1, POLLIN, 0},
                       {status_poller_ ? status_poller_->status_fd() : -1, POLLIN, 0}};
     poll(files, std::size(files), kPollIntervalMs);
     const ClientStatus status = o_.runner.status();
@@ -83,7 +83,8 @@ ExitReason SeatSupervisor::run() {
     handle_keys();
     check_device();
     const Time now = io::monotonic_now();
-    if (leaving_since_ && (status.closed || now - *leaving_since_ > kLeaveMax)) break;  // no server receives CLOSE
+    const bool closed = status.closed && !server_.outdated(status.reconnects);
+    if (leaving_since_ && (closed || now - *leaving_since_ > kLeaveMax)) break;  // no server receives CLOSE
     if (o_.options.duration_s > 0 && seconds(now - begin_) > o_.options.duration_s)
       leave("the time given by --duration is over: releasing the hand");
     if (!leaving_since_)
@@ -143,7 +144,9 @@ void SeatSupervisor::check_device() {
 std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& status) {
   const Time now = io::monotonic_now();
   static_cast<void>(o_.runner.connections().take_old());
-  if (const auto outage = server_.update(now, status.heard && !status.closed && status.silence_s < kServerSilenceMax))
+  const bool outdated = server_.outdated(status.reconnects);
+  if (const auto outage =
+          server_.update(now, !outdated && status.heard && !status.closed && status.silence_s < kServerSilenceMax))
     o_.line.note(format("the server is back after %.1f s; the force comes up slowly", *outage));
   if (o_.options.reconnect_timeout_s <= 0)
     return status.silence_s > kServerLost ? std::optional(ExitReason::kServerLost) : std::nullopt;
@@ -153,6 +156,7 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
     answer_ = reconnector_->answer();
   }
   if (server_.absence(now) > o_.options.reconnect_timeout_s) return ExitReason::kServerLost;
+  if (outdated) return std::nullopt;  // a reconnect would invalidate the new connection
   // The session goes on at another server of the service, perhaps at once.
   if (server_restarts(status) && resume_state_.service) server_.hasten(hastened_backoff());
   // The force gate already released the force after the silence limit.
@@ -267,7 +271,7 @@ void SeatSupervisor::show(ClientStatus status) {
     o_.line.note(transfer);
   if (now - shown_at_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_at_ = now;
-  status.reconnecting = reconnector_ != nullptr;
+  status.reconnecting = reconnects();
   status.keys_m = o_.keyboard.keys();
   o_.line.show(seat_screen(status, o_.seat.setup(), last_status_));
 }

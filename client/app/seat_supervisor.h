@@ -62,11 +62,14 @@ class SeatSupervisor {
     return status.closed && status.close_reason == wire::CloseReason::kServerReturns;
   }
   [[nodiscard]] bool may_reconnect() const noexcept { return o_.options.reconnect_timeout_s > 0 && !leaving_since_; }
+  [[nodiscard]] bool reconnects() const noexcept { return reconnector_ && !leaving_since_; }
 
   Context o_;
   io::UdpSocket socket_;  ///< duplicate of the SeatRunner's socket
   io::KeyReader keys_;
   ResumeState resume_state_;
+  /// Once the seat leaves, it is only cancelled: its end, for which its destructor waits, may take longer than the hand
+  /// can wait.
   std::unique_ptr<Reconnector> reconnector_;
   std::shared_ptr<auth::ControlClient> connection_;  ///< control connection of the newest join or resume
   std::unique_ptr<SessionStatusPoller> status_poller_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/io/clock.h"
 #include "common/io/remote_address.h"
 
 namespace tandem::client {
@@ -48,18 +49,56 @@ std::string set_server_addresses(std::string_view text, JoinOptions& options) {
   return {};
 }
 
-void add_addresses(std::string_view text, std::vector<io::SocketAddress>& list) {
-  if (const auto addresses = io::resolve_addresses(text, 1))
-    for (const io::SocketAddress& address : *addresses) add_once(address, list);
+void ServerAddresses::add(const io::SocketAddress& address) {
+  if (size() < kAddressesTried) add_once(address, known_);
 }
 
-std::vector<io::SocketAddress> addresses_to_try(const JoinOptions& options, const std::vector<ServerRow>& known) {
-  std::vector<io::SocketAddress> list{options.server};
-  for (const io::SocketAddress& address : options.alternatives) add_once(address, list);
-  const std::vector<io::SocketAddress> given = list;
+void ServerAddresses::add(std::string_view text) {
+  if (const auto address = io::numeric_address(text, 1)) return add(*address);
+  if (size() < kAddressesTried && std::ranges::find(names_, text, &Name::text) == names_.end())
+    names_.push_back({std::string(text), {}});
+}
+
+void ServerAddresses::begin(Duration names_wait, Time names_until) noexcept {
+  next_ = 0;
+  wait_ = names_wait;
+  until_ = names_until;
+  pending_ = false;
+}
+
+bool ServerAddresses::has(std::size_t i) {
+  while (i >= known_.size() && next_ < names_.size() && !interrupted_) {
+    const Time asked = io::monotonic_now();
+    const auto found = resolver_.resolve(names_[next_].text, std::min<Duration>(wait_, until_ - asked), signals_);
+    wait_ = std::max(Duration{}, wait_ - (io::monotonic_now() - asked));
+    if (found) {
+      names_.erase(names_.begin() + static_cast<std::ptrdiff_t>(next_));
+      for (const io::SocketAddress& address : *found) add(address);
+      continue;
+    }
+    using Kind = io::NameResolver::Failure::Kind;
+    pending_ = pending_ || found.error().kind == Kind::kPending;
+    interrupted_ = found.error().kind == Kind::kInterrupted;
+    names_[next_++].why = found.error().text;
+  }
+  return i < known_.size();
+}
+
+std::string ServerAddresses::unresolved() const {
+  std::string text;
+  for (const Name& name : names_)
+    if (!name.why.empty()) text += (text.empty() ? "" : "; ") + name.why;
+  return text;
+}
+
+ServerAddresses addresses_to_try(const JoinOptions& options, const std::vector<ServerRow>& known) {
+  ServerAddresses list{options};
+  list.add(options.server);
+  for (const io::SocketAddress& address : options.alternatives) list.add(address);
+  const std::vector<io::SocketAddress> given = list.known();
   for (const ServerRow& row : known)
     if (is_meant(row, options, given))
-      for (const std::string& member : row.members) add_addresses(member, list);
+      for (const std::string& member : row.members) list.add(member);
   return list;
 }
 

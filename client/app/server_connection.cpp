@@ -76,40 +76,46 @@ std::expected<void, JoinError> ServerConnection::connect() {
   if (auto keys = select_keys(); !keys) return keys;
   hops_ = 0;
   // A drain ends the server to which it goes, so that it goes only to those that the user named.
-  const auto addresses = addresses_to_try(options_, options_.drains ? std::vector<ServerRow>{} : keys_->known());
+  ServerAddresses addresses = addresses_to_try(options_, options_.drains ? std::vector<ServerRow>{} : keys_->known());
   const bool several = addresses.size() > 1;
   const Duration each =
       several ? std::clamp(options_.timeout / static_cast<int>(addresses.size()), Duration{kTryMin}, Duration{kTryMax})
               : options_.timeout;
   const Time until = until_ = io::monotonic_now() + options_.timeout;
-  std::vector<auth::ClientError> failures(addresses.size());
+  std::vector<auth::ClientError> failures;
   while (true) {
+    addresses.begin(each, until);
     bool again = false;
-    for (std::size_t i = 0; i < addresses.size(); ++i) {
+    for (std::size_t i = 0; addresses.has(i); ++i) {
       const Duration left = std::min(each, std::max(Duration{kTryMin}, Duration{until - io::monotonic_now()}));
       auto connected = connect_once(
           addresses[i], [this](const auth::PresentedKey& server) { return (*keys_)(server); },
           several ? left : Duration{until - io::monotonic_now()});
       if (connected) return {};
+      failures.resize(std::max(failures.size(), i + 1));
       failures[i] = std::move(connected.error());
       if (failures[i].kind == Kind::kInterrupted) return std::unexpected(interrupted(options_));
       again = again || may_pass(failures[i]);
     }
+    if (addresses.interrupted()) return std::unexpected(interrupted(options_));
+    again = again || addresses.pending();
     if (!again || io::monotonic_now() + milliseconds(kRetryMs) >= until) break;
     pollfd signals{options_.signals, POLLIN, 0};
     if (poll(&signals, 1, kRetryMs) > 0) return std::unexpected(interrupted(options_));
   }
-  if (!several) {
+  std::string unresolved = addresses.unresolved();
+  if (!options_.unresolved.empty()) unresolved = options_.unresolved + (unresolved.empty() ? "" : "; ") + unresolved;
+  if (failures.size() == 1) {
     JoinError one = to_join_error(failures[0], addresses[0]);
-    if (!options_.unresolved.empty()) one.reason += "; " + options_.unresolved;
+    if (!unresolved.empty()) one.reason += "; " + unresolved;
     return std::unexpected(std::move(one));
   }
   std::string all =
-      format("none of %zu addresses has a server that this client can use (tried for %g s):", addresses.size(),
+      format("none of %zu addresses has a server that this client can use (tried for %g s):", failures.size(),
              seconds(options_.timeout));
-  for (std::size_t i = 0; i < addresses.size(); ++i)
+  for (std::size_t i = 0; i < failures.size(); ++i)
     all += "\n  " + io::to_text(addresses[i]) + ": " + complete_commands(failures[i].text, options_);
-  if (!options_.unresolved.empty()) all += "\n  " + options_.unresolved;
+  if (!unresolved.empty()) all += "\n  " + unresolved;
   return join_failure(std::move(all));
 }
 
@@ -164,22 +170,26 @@ std::expected<void, JoinError> ServerConnection::follow(const rpc::Elsewhere& to
   const auth::KeyFingerprint key{to.key};
   if (const auto member = auth::accept_sent_member(to.voucher, *keys_->service(), key, auth::wall_seconds()); !member)
     return join_failure(from + ": " + member.error());
-  std::vector<io::SocketAddress> addresses;
-  add_addresses(to.address, addresses);
-  if (addresses.empty()) return join_failure(from + ", a name without address; check the DNS server");
+  ServerAddresses addresses{options_};
+  addresses.add(to.address);
+  const auto time_left = [this] { return answer_time(io::monotonic_now(), until_, options_.timeout); };
+  addresses.begin(time_left());
+  if (!addresses.has(0) && !addresses.interrupted() && !addresses.pending())
+    return join_failure(from + ", a name without address; check the DNS server");
   revision_ = to.revision;
   const auto judge = [&](const auth::PresentedKey& shown) -> std::expected<const auth::Identity*, std::string> {
     if (static_cast<const auth::KeyFingerprint&>(shown) != key)
       return std::unexpected(to.address + " shows another key than the one that its service vouches for");
     return (*keys_)(shown);
   };
-  std::string why;
-  for (const io::SocketAddress& at : addresses) {
-    const auto connected = connect_once(at, judge, answer_time(io::monotonic_now(), until_, options_.timeout));
+  std::string why = addresses.unresolved();
+  for (std::size_t i = 0; addresses.has(i); ++i) {
+    const auto connected = connect_once(addresses[i], judge, time_left());
     if (connected) return {};
     if (connected.error().kind == Kind::kInterrupted) return std::unexpected(interrupted(options_));
     why += (why.empty() ? "" : "; ") + connected.error().text;
   }
+  if (addresses.interrupted()) return std::unexpected(interrupted(options_));
   keys_->set_address(io::to_text(address_));  // of the connection that stays
   --hops_;
   return std::unexpected(JoinError{.reason = from + ": " + why, .owner_unreachable = true});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
 #include "common/base/time.h"
@@ -46,8 +47,14 @@ class ServerWatch {
     in_outage_ = true;
     return begins;
   }
-  /// A new connection is in use.
-  void on_connected(Time now) noexcept { connected_at_ = now; }
+  /// The servo thread is given a new connection.
+  void on_connected(Time now) noexcept {
+    connected_at_ = now;
+    ++connections_;
+  }
+  /// Whether a status was made before the newest connection, and so says nothing about it.
+  /// @param reconnects  of the status
+  [[nodiscard]] bool outdated(std::uint32_t reconnects) const noexcept { return reconnects < connections_; }
   /// Longest outage, which may last still [s].
   [[nodiscard]] double longest_s() const noexcept {
     return in_outage_ ? std::max(longest_s_, absence(checked_at_)) : longest_s_;
@@ -58,6 +65,7 @@ class ServerWatch {
 
   Time present_at_, checked_at_, connected_at_;
   Duration backoff_;
+  std::uint32_t connections_ = 0;  ///< after the first
   bool present_ = true, in_outage_ = false;
   double longest_s_ = 0;
 };

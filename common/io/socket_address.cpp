@@ -55,7 +55,10 @@ PeerKey PeerKey::of(const sockaddr_storage& address) noexcept {
   return key;
 }
 
-std::expected<std::vector<SocketAddress>, std::string> resolve_addresses(std::string_view text, unsigned port_min) {
+namespace {
+
+/// @param flags  AI_NUMERICHOST: asks no DNS server; 0: may ask one
+std::expected<std::vector<SocketAddress>, std::string> resolve(std::string_view text, unsigned port_min, int flags) {
   const auto wrong = [text](const std::string& why) {
     return std::unexpected("\"" + std::string(text) + "\": " + why);
   };
@@ -77,7 +80,7 @@ std::expected<std::vector<SocketAddress>, std::string> resolve_addresses(std::st
 
   addrinfo hints{};
   hints.ai_socktype = SOCK_DGRAM;
-  hints.ai_flags = AI_NUMERICSERV;
+  hints.ai_flags = AI_NUMERICSERV | flags;
   addrinfo* found = nullptr;
   const int failed = getaddrinfo(std::string(host).c_str(), std::to_string(port).c_str(), &hints, &found);
   if (failed != 0) return wrong(std::string("no address for this host: ") + gai_strerror(failed));
@@ -96,6 +99,17 @@ std::expected<std::vector<SocketAddress>, std::string> resolve_addresses(std::st
   }
   if (addresses.empty()) return wrong("this host has neither an IPv4 nor an IPv6 address");
   return addresses;
+}
+
+}  // namespace
+
+std::expected<std::vector<SocketAddress>, std::string> resolve_addresses(std::string_view text, unsigned port_min) {
+  return resolve(text, port_min, 0);
+}
+
+std::optional<SocketAddress> numeric_address(std::string_view text, unsigned port_min) {
+  const auto addresses = resolve(text, port_min, AI_NUMERICHOST);
+  return addresses ? std::optional(addresses->front()) : std::nullopt;
 }
 
 std::expected<SocketAddress, std::string> parse_address(std::string_view text, unsigned port_min) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <expected>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,9 +32,11 @@ struct PeerKey {
 };
 
 /// Parses `HOST:PORT`, `[IPV6]:PORT`, `localhost:PORT`. @return all addresses of the name, IPv4 first, each once, or
-/// the error
+/// the error. It may block for 20 s while a DNS server does not answer (common/io/name_resolver.h).
 [[nodiscard]] std::expected<std::vector<SocketAddress>, std::string> resolve_addresses(std::string_view text,
                                                                                        unsigned port_min);
+/// Returns the address of `HOST:PORT` if HOST is an address; nullopt if it is a name, or invalid. Asks no DNS server.
+[[nodiscard]] std::optional<SocketAddress> numeric_address(std::string_view text, unsigned port_min);
 /// Parses `HOST:PORT`, `[IPV6]:PORT`, `localhost:PORT`. Of a name with several addresses it returns the first IPv4 one.
 /// @param port_min  smallest allowed port: 0 where the system may choose a free one
 /// @return the address, or the error

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "client/app/connection_swapper.h"
+#include "client/app/seat_runner.h"
 #include "client/app/seat_status_recorder.h"
+#include "client/app/status_pace.h"
 #include "client/app/user_commands.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
@@ -80,6 +82,56 @@ TEST(ConnectionSwapper, PassesAConnectionThereAndTheOldOneBack) {
   EXPECT_EQ(swapper.take_next(), nullptr);
   swapper.return_old(std::move(taken));
   EXPECT_EQ(swapper.take_old().get(), offered);
+}
+
+TEST(StatusPace, PublishesEvery64thTickAndAllOfAClosedSeat) {
+  StatusPace pace;
+  int published = 0;
+  for (int tick = 0; tick < 640; ++tick)
+    if (pace.due(false)) {
+      ++published;
+      EXPECT_FALSE(pace.on_publish(true, false));
+    }
+  EXPECT_EQ(published, 10);
+  for (int tick = 0; tick < 10; ++tick) {
+    EXPECT_TRUE(pace.due(true));
+    EXPECT_EQ(pace.on_publish(true, true), tick == 0) << "the end is signalled once";
+  }
+}
+
+TEST(StatusPace, SignalsTheEndOnlyAfterTheStatusWithItIsPublished) {
+  StatusPace pace;
+  for (int tick = 0; tick < 3; ++tick) {
+    EXPECT_TRUE(pace.due(true));
+    EXPECT_FALSE(pace.on_publish(false, true)) << "another thread reads the status of before";
+  }
+  EXPECT_TRUE(pace.due(true));
+  EXPECT_TRUE(pace.on_publish(true, true));
+}
+
+TEST(StatusPace, RepeatsTheFirstStatusOfAConnectionThatAReaderPrevented) {
+  StatusPace pace;
+  EXPECT_TRUE(pace.due(true));
+  EXPECT_TRUE(pace.on_publish(true, true));
+  pace.restart();
+  EXPECT_TRUE(pace.due(false));
+  EXPECT_FALSE(pace.on_publish(false, false));
+  EXPECT_TRUE(pace.due(false));
+  EXPECT_FALSE(pace.on_publish(true, false));
+  EXPECT_FALSE(pace.due(false));
+  EXPECT_TRUE(pace.due(true));
+  EXPECT_TRUE(pace.on_publish(true, true)) << "the new connection ends too";
+}
+
+TEST(SeatRunner, PublishesTheStatusInTheFirstTickOfAConnection) {
+  Seat seat = seat_of();
+  const auto socket = [] { return io::connect_udp(*io::numeric_address("127.0.0.1:1", 1)).value(); };
+  SeatRunner runner{socket(), seat, nullptr, {}, nullptr};
+  static_cast<void>(runner.tick(reading()));
+  runner.connections().offer(std::make_unique<ConnectionSwap>(
+      ConnectionSwap{socket(), seat.prepare({transport::Direction::kToServer, 1, 3})}));
+  static_cast<void>(runner.tick(reading()));
+  EXPECT_EQ(runner.status().reconnects, 1U);
 }
 
 TEST(SeatStatusRecorder, CountsSilenceFromTheFirstTickOfEachConnection) {

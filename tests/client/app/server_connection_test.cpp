@@ -7,9 +7,13 @@
 
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
+#include "common/auth/io/client_keystore.h"
 #include "common/io/clock.h"
+#include "common/io/event_fd.h"
 #include "common/io/signals.h"
+#include "tests/io/blocked_lookup.h"
 
 namespace tandem::client {
 namespace {
@@ -24,6 +28,14 @@ struct ServerConnectionTest : ::testing::Test {
         (std::filesystem::temp_directory_path() / ("tandem-connect-" + std::to_string(::getpid()))).string();
   }
   ~ServerConnectionTest() override { std::filesystem::remove_all(options.state); }
+  /// The workstation has learnt another server of the service, by name.
+  void learn_name() {
+    const auto keys = auth::ClientKeystore::open_or_make(options.state, auth::wall_seconds());
+    ASSERT_TRUE(keys) << keys.error();
+    ASSERT_EQ(keys->store_server({"127.0.0.1:1", {}, "a", ServicePin{}, {"lab:7000"}}), "");
+    options.names = dns.resolver();
+  }
+  tandem::test::BlockedLookup dns;
   JoinOptions options;
 };
 
@@ -38,6 +50,32 @@ TEST_F(ServerConnectionTest, RetriesUntilTheTimeoutWhileNothingListens) {
             "no server at 127.0.0.1:1: nothing listens there (tried for 0.25 s). Start a server in another terminal "
             "first: `tandem-server run free_motion --listen 127.0.0.1:1`, and use the address it prints as `listening "
             "on`");
+}
+
+TEST_F(ServerConnectionTest, EndsAtTheTimeoutWhileNoDnsServerAnswers) {
+  learn_name();
+  const auto connected = ServerConnection{options}.connect();
+  ASSERT_FALSE(connected);
+  EXPECT_TRUE(dns.blocks());
+  EXPECT_EQ(dns.names(), std::vector<std::string>{"lab:7000"});
+  EXPECT_FALSE(connected.error().interrupted);
+  for (const char* words : {"no server at 127.0.0.1:1", "\"lab:7000\": no answer of the DNS server yet"})
+    EXPECT_NE(connected.error().reason.find(words), std::string::npos) << connected.error().reason;
+}
+
+TEST_F(ServerConnectionTest, EndsAtASignalWhileNoDnsServerAnswers) {
+  learn_name();
+  const io::EventFd signal;
+  options.signals = signal.get();
+  options.timeout = 1h;
+  std::jthread user([&] {
+    dns.wait_for(1);
+    signal.signal();
+  });
+  const auto connected = ServerConnection{options}.connect();
+  ASSERT_FALSE(connected);
+  EXPECT_TRUE(dns.blocks());
+  EXPECT_TRUE(connected.error().interrupted);
 }
 
 TEST_F(ServerConnectionTest, WaitsForConnectAndReplyTogether) {

@@ -79,6 +79,14 @@ TEST(ServerWatch, GivesANewConnectionTimeForItsFirstForce) {
   EXPECT_TRUE(w.reconnect_due(w.now));
 }
 
+TEST(ServerWatch, KnowsStatusesOfBeforeTheNewestConnection) {
+  Watch w;
+  EXPECT_FALSE(w.outdated(0));
+  w.on_connected(w.now);
+  EXPECT_TRUE(w.outdated(0));
+  EXPECT_FALSE(w.outdated(1));
+}
+
 TEST(ServerWatch, TakesAStallOfThisProgramForNoSilence) {
   Watch w;
   w.run(500ms, false);
