@@ -17,7 +17,6 @@ enum class SessionState : std::uint8_t {
   kReleasing,  ///< ramped out; the key is being erased
   kLost,       ///< another server may own it: end it here
 };
-[[nodiscard]] const char* to_text(SessionState state) noexcept;
 
 struct Notice {
   enum class Kind : std::uint8_t {
@@ -71,7 +70,8 @@ class Ownership {
 
   /// Asks for a session. Returns false if the name is not valid or kSessionsMax sessions are known.
   bool claim(const std::string& session);
-  /// Names the server that takes over when this one is gone. Returns false if the session is not owned.
+  /// Names the server that takes over when this one is gone, instead of one that was named and is not set yet. Returns
+  /// false if the session is not owned, or moves.
   bool set_standby(const std::string& session, const std::string& server);
   /// Hands the session to another server. Returns false if the session is not owned or `server` is this one.
   bool move(const std::string& session, const std::string& server);
@@ -107,10 +107,11 @@ class Ownership {
   struct Entry {
     Phase phase = Phase::kClaiming;
     Revision revision = 0;
-    std::string target;  ///< of a move
-    Time ramped{};       ///< kRamping: end of the ramp
-    bool ends = false;   ///< kRamping, kReleasing: no standby takes over
-    bool moves = false;  ///< begins to ramp as soon as the target is the standby
+    std::string standby;         ///< newest one asked for
+    bool standby_asked = false;  ///< the request waits for its turn or its answer
+    Time ramped{};               ///< kRamping: end of the ramp
+    bool ends = false;           ///< kRamping, kReleasing: no standby takes over
+    bool moves = false;          ///< begins to ramp as soon as `standby` is set
   };
   struct Work {
     enum class Kind : std::uint8_t { kClaim, kStandby, kRelease, kTicket } kind{};
@@ -130,6 +131,8 @@ class Ownership {
   void on_standby(Time now, const Work& work, const Reply& reply);
   void on_ticket(Time now, Work work, const Reply& reply);
   void again(Time now, Work work);
+  bool ask_standby(const std::string& session, const std::string& server);
+  void refuse_standby(const Work& work, Entry& entry);
   void ramp(Time now, Entry& entry);
   void take_keeper_events();
   void follow_view();
