@@ -73,7 +73,7 @@ std::optional<Request> Ownership::request_of(Work& work) {
   if (!fits) {
     if (work.kind == Work::Kind::kTicket) {
       --tickets_;
-      notify(Notice::Kind::kTicketRefused, work.session, work.other);
+      notify(Notice::Kind::kTicketUnanswered, work.session, work.other);
     }
     return std::nullopt;
   }
@@ -189,7 +189,8 @@ void Ownership::on_ticket(Time now, Work work, const Reply& reply) {
   --tickets_;
   if (accepted)
     return notify(Notice::Kind::kTicketAccepted, work.session, work.other, reply.held ? reply.revision : use.modified);
-  notify(Notice::Kind::kTicketRefused, work.session, work.other);
+  if (reply.outcome == Outcome::kNoLease) return notify(Notice::Kind::kTicketNoLease, work.session, work.other);
+  notify(ours ? Notice::Kind::kTicketRefused : Notice::Kind::kTicketUnanswered, work.session, work.other);
 }
 
 void Ownership::again(Time now, Work work) {
@@ -307,12 +308,12 @@ bool Ownership::ask_standby(const std::string& session, const std::string& serve
   return true;
 }
 
-bool Ownership::move(const std::string& session, const std::string& server) {
 bool Ownership::set_standby(const std::string& session, const std::string& server) {
   const Entry* entry = owned(session);
   return entry != nullptr && !entry->moves && ask_standby(session, server);
 }
 
+bool Ownership::move(const std::string& session, const std::string& server) {
   if (!ask_standby(session, server)) return false;
   owned(session)->moves = true;
   return true;

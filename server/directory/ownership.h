@@ -20,17 +20,19 @@ enum class SessionState : std::uint8_t {
 
 struct Notice {
   enum class Kind : std::uint8_t {
-    kLeased,          ///< the server has a lease
-    kLeaseLost,       ///< every session of the old lease is kLost
-    kNameTaken,       ///< another server is registered under this name
-    kOwned,           ///< `revision` is the fencing token
-    kElsewhere,       ///< `other` owns the session, or takes it over
-    kLost,            ///< the session is another server's, or unowned
-    kReleased,        ///< the session may be another server's now
-    kStandbySet,      ///< `other` takes over when this server is gone
-    kStandbyRefused,  ///< `other` is not registered
-    kTicketAccepted,  ///< `other` is the ticket, `revision` that of its use
-    kTicketRefused,   ///< `other` was used before, or this server owns the session no more
+    kLeased,            ///< the server has a lease
+    kLeaseLost,         ///< every session of the old lease is kLost
+    kNameTaken,         ///< another server is registered under this name
+    kOwned,             ///< `revision` is the fencing token
+    kElsewhere,         ///< `other` owns the session, or takes it over
+    kLost,              ///< the session is another server's, or unowned
+    kReleased,          ///< the session may be another server's now
+    kStandbySet,        ///< `other` takes over when this server is gone
+    kStandbyRefused,    ///< `other` is not registered
+    kTicketAccepted,    ///< `other` is the ticket, `revision` that of its use
+    kTicketRefused,     ///< `other` was used before
+    kTicketUnanswered,  ///< this server owns the session no more, and does not know whether `other` was used
+    kTicketNoLease,     ///< the lease for the use of `other` does not exist, so it is not used
   };
   Kind kind{};
   std::string session, other;
@@ -129,10 +131,10 @@ class Ownership {
   [[nodiscard]] std::optional<Request> claim_request(Work& work) const;
   void on_claim(Time now, Work work, const Reply& reply);
   void on_standby(Time now, const Work& work, const Reply& reply);
-  void on_ticket(Time now, Work work, const Reply& reply);
-  void again(Time now, Work work);
   bool ask_standby(const std::string& session, const std::string& server);
   void refuse_standby(const Work& work, Entry& entry);
+  void on_ticket(Time now, Work work, const Reply& reply);
+  void again(Time now, Work work);
   void ramp(Time now, Entry& entry);
   void take_keeper_events();
   void follow_view();

@@ -328,7 +328,8 @@ TEST_F(OwnershipTest, UsesATicketOnceInTheWholeServiceAndOnlyForItsOwnSession) {
   EXPECT_TRUE(a.core.use_ticket("s", "2"));
   settle();
   EXPECT_FALSE(store_.entries().contains("/tandem/v1/tickets/2"));
-  EXPECT_TRUE(has(a, Notice::Kind::kTicketRefused, "2"));
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketUnanswered, "2"));
+  EXPECT_FALSE(has(a, Notice::Kind::kTicketRefused, "2"));
 }
 
 /// A console was joined by its ticket at an owner that has died.
