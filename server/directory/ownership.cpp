@@ -13,24 +13,6 @@ KeyValue found_at(const Reply& reply, std::size_t n) {
 
 }  // namespace
 
-const char* to_text(SessionState state) noexcept {
-  switch (state) {
-    case SessionState::kNone:
-      return "none";
-    case SessionState::kClaiming:
-      return "claiming";
-    case SessionState::kServing:
-      return "serving";
-    case SessionState::kHolding:
-      return "holding";
-    case SessionState::kReleasing:
-      return "releasing";
-    case SessionState::kLost:
-      return "lost";
-  }
-  return "?";
-}
-
 Ownership::Ownership(std::string server, std::string text, LeaseTimes times, DirectoryKeys keys)
     : server_(std::move(server)),
       times_(times),
@@ -84,13 +66,14 @@ std::optional<Request> Ownership::claim_request(Work& work) const {
 std::optional<Request> Ownership::request_of(Work& work) {
   if (work.kind == Work::Kind::kClaim) return claim_request(work);
   const auto found = entries_.find(work.session);
-  const Entry* entry = found == entries_.end() ? nullptr : &found->second;
+  Entry* entry = found == entries_.end() ? nullptr : &found->second;
+  const bool of_former = entry && work.kind == Work::Kind::kStandby && work.revision != entry->revision;
   const bool fits =
-      entry && (work.kind == Work::Kind::kRelease ? entry->phase == Phase::kReleasing : entry->phase == Phase::kOwned);
+      entry && !of_former && entry->phase == (work.kind == Work::Kind::kRelease ? Phase::kReleasing : Phase::kOwned);
   if (!fits) {
     if (work.kind == Work::Kind::kTicket) {
       --tickets_;
-      notify(Notice::Kind::kTicketRefused, work.session, work.other);
+      notify(Notice::Kind::kTicketUnanswered, work.session, work.other);
     }
     return std::nullopt;
   }
@@ -102,10 +85,11 @@ std::optional<Request> Ownership::request_of(Work& work) {
     return release;
   }
   if (work.kind == Work::Kind::kStandby) {
+    work.other = entry->standby;
     const DirectoryView::ServerEntry* target = view_.server(work.other);
     if (target == nullptr) {
-      if (entry->target == work.other) found->second.moves = false;
-      notify(Notice::Kind::kStandbyRefused, work.session, work.other);
+      entry->standby_asked = false;
+      refuse_standby(work, *entry);
       return std::nullopt;
     }
     return Transaction{{still_owner},
@@ -129,7 +113,10 @@ void Ownership::on_reply(Time now, const Reply& reply) {
     take_keeper_events();
     return again(now, std::move(work));
   }
-  if (reply.outcome == Outcome::kRefused) return again(now + times_.answer_limit, std::move(work));
+  const Entry* ours = owned(work.session);
+  const bool hurries = work.kind != Work::Kind::kStandby || (ours && ours->moves);
+  if (reply.outcome == Outcome::kRefused || (reply.outcome == Outcome::kUnknown && !hurries))
+    return again(now + times_.answer_limit, std::move(work));
   if (reply.outcome == Outcome::kUnknown || reply.outcome == Outcome::kCompacted) return again(now, std::move(work));
   switch (work.kind) {
     case Work::Kind::kClaim:
@@ -176,13 +163,18 @@ void Ownership::on_claim(Time now, Work work, const Reply& reply) {
 void Ownership::on_standby(Time now, const Work& work, const Reply& reply) {
   Entry* entry = owned(work.session);
   if (entry == nullptr || entry->revision != work.revision) return;
-  if (reply.outcome == Outcome::kNoLease) {
-    if (entry->target == work.other) entry->moves = false;
-    return notify(Notice::Kind::kStandbyRefused, work.session, work.other);
-  }
-  if (!reply.held) return lose(work.session, *entry);
+  const bool refused = reply.outcome == Outcome::kNoLease;
+  if (!refused && !reply.held) return lose(work.session, *entry);
+  entry->standby_asked = false;
+  if (entry->standby != work.other) ask_standby(work.session, entry->standby);
+  if (refused) return refuse_standby(work, *entry);
   notify(Notice::Kind::kStandbySet, work.session, work.other);
-  if (entry->moves && entry->target == work.other) ramp(now, *entry);
+  if (entry->moves && entry->standby == work.other) ramp(now, *entry);
+}
+
+void Ownership::refuse_standby(const Work& work, Entry& entry) {
+  if (entry.standby == work.other) entry.moves = false;
+  notify(Notice::Kind::kStandbyRefused, work.session, work.other);
 }
 
 void Ownership::on_ticket(Time now, Work work, const Reply& reply) {
@@ -197,7 +189,8 @@ void Ownership::on_ticket(Time now, Work work, const Reply& reply) {
   --tickets_;
   if (accepted)
     return notify(Notice::Kind::kTicketAccepted, work.session, work.other, reply.held ? reply.revision : use.modified);
-  notify(Notice::Kind::kTicketRefused, work.session, work.other);
+  if (reply.outcome == Outcome::kNoLease) return notify(Notice::Kind::kTicketNoLease, work.session, work.other);
+  notify(ours ? Notice::Kind::kTicketRefused : Notice::Kind::kTicketUnanswered, work.session, work.other);
 }
 
 void Ownership::again(Time now, Work work) {
@@ -305,17 +298,24 @@ Ownership::Entry* Ownership::owned(const std::string& session) {
   return found != entries_.end() && found->second.phase == Phase::kOwned ? &found->second : nullptr;
 }
 
-bool Ownership::set_standby(const std::string& session, const std::string& server) {
-  if (owned(session) == nullptr || server == server_ || !DirectoryKeys::valid_name(server)) return false;
-  waiting_.push_back({Work::Kind::kStandby, session, server});
+/// One request at a time: a full store stores none, and requests for all sessions would pile up.
+bool Ownership::ask_standby(const std::string& session, const std::string& server) {
+  Entry* entry = owned(session);
+  if (entry == nullptr || server == server_ || !DirectoryKeys::valid_name(server)) return false;
+  entry->standby = server;
+  if (!std::exchange(entry->standby_asked, true))
+    waiting_.push_back({.kind = Work::Kind::kStandby, .session = session, .revision = entry->revision});
   return true;
 }
 
+bool Ownership::set_standby(const std::string& session, const std::string& server) {
+  const Entry* entry = owned(session);
+  return entry != nullptr && !entry->moves && ask_standby(session, server);
+}
+
 bool Ownership::move(const std::string& session, const std::string& server) {
-  if (!set_standby(session, server)) return false;
-  Entry* entry = owned(session);
-  entry->moves = true;
-  entry->target = server;
+  if (!ask_standby(session, server)) return false;
+  owned(session)->moves = true;
   return true;
 }
 

@@ -17,21 +17,22 @@ enum class SessionState : std::uint8_t {
   kReleasing,  ///< ramped out; the key is being erased
   kLost,       ///< another server may own it: end it here
 };
-[[nodiscard]] const char* to_text(SessionState state) noexcept;
 
 struct Notice {
   enum class Kind : std::uint8_t {
-    kLeased,          ///< the server has a lease
-    kLeaseLost,       ///< every session of the old lease is kLost
-    kNameTaken,       ///< another server is registered under this name
-    kOwned,           ///< `revision` is the fencing token
-    kElsewhere,       ///< `other` owns the session, or takes it over
-    kLost,            ///< the session is another server's, or unowned
-    kReleased,        ///< the session may be another server's now
-    kStandbySet,      ///< `other` takes over when this server is gone
-    kStandbyRefused,  ///< `other` is not registered
-    kTicketAccepted,  ///< `other` is the ticket, `revision` that of its use
-    kTicketRefused,   ///< `other` was used before, or this server owns the session no more
+    kLeased,            ///< the server has a lease
+    kLeaseLost,         ///< every session of the old lease is kLost
+    kNameTaken,         ///< another server is registered under this name
+    kOwned,             ///< `revision` is the fencing token
+    kElsewhere,         ///< `other` owns the session, or takes it over
+    kLost,              ///< the session is another server's, or unowned
+    kReleased,          ///< the session may be another server's now
+    kStandbySet,        ///< `other` takes over when this server is gone
+    kStandbyRefused,    ///< `other` is not registered
+    kTicketAccepted,    ///< `other` is the ticket, `revision` that of its use
+    kTicketRefused,     ///< `other` was used before
+    kTicketUnanswered,  ///< this server owns the session no more, and does not know whether `other` was used
+    kTicketNoLease,     ///< the lease for the use of `other` does not exist, so it is not used
   };
   Kind kind{};
   std::string session, other;
@@ -71,7 +72,8 @@ class Ownership {
 
   /// Asks for a session. Returns false if the name is not valid or kSessionsMax sessions are known.
   bool claim(const std::string& session);
-  /// Names the server that takes over when this one is gone. Returns false if the session is not owned.
+  /// Names the server that takes over when this one is gone, instead of one that was named and is not set yet. Returns
+  /// false if the session is not owned, or moves.
   bool set_standby(const std::string& session, const std::string& server);
   /// Hands the session to another server. Returns false if the session is not owned or `server` is this one.
   bool move(const std::string& session, const std::string& server);
@@ -107,10 +109,11 @@ class Ownership {
   struct Entry {
     Phase phase = Phase::kClaiming;
     Revision revision = 0;
-    std::string target;  ///< of a move
-    Time ramped{};       ///< kRamping: end of the ramp
-    bool ends = false;   ///< kRamping, kReleasing: no standby takes over
-    bool moves = false;  ///< begins to ramp as soon as the target is the standby
+    std::string standby;         ///< newest one asked for
+    bool standby_asked = false;  ///< the request waits for its turn or its answer
+    Time ramped{};               ///< kRamping: end of the ramp
+    bool ends = false;           ///< kRamping, kReleasing: no standby takes over
+    bool moves = false;          ///< begins to ramp as soon as `standby` is set
   };
   struct Work {
     enum class Kind : std::uint8_t { kClaim, kStandby, kRelease, kTicket } kind{};
@@ -128,6 +131,8 @@ class Ownership {
   [[nodiscard]] std::optional<Request> claim_request(Work& work) const;
   void on_claim(Time now, Work work, const Reply& reply);
   void on_standby(Time now, const Work& work, const Reply& reply);
+  bool ask_standby(const std::string& session, const std::string& server);
+  void refuse_standby(const Work& work, Entry& entry);
   void on_ticket(Time now, Work work, const Reply& reply);
   void again(Time now, Work work);
   void ramp(Time now, Entry& entry);

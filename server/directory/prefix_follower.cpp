@@ -15,6 +15,7 @@ Revision after(Revision revision) { return std::min(revision, std::numeric_limit
 std::optional<Request> PrefixFollower::poll_request(Time now, OperationId operation, Duration retry_after) {
   if (state_ == State::kReading && now - began_ >= retry_after) state_ = State::kStale;
   if (state_ == State::kStale) {
+    if (now < next_read_) return std::nullopt;
     state_ = State::kReading;
     operation_ = operation;
     began_ = now;
@@ -33,6 +34,7 @@ std::optional<PrefixFollower::News> PrefixFollower::on_reply(const Reply& reply)
   News news;
   const bool watch_went_back = state_ == State::kFollowing && reply.revision > 0 && reply.revision < revision();
   if (reply.outcome != Outcome::kDone || watch_went_back) {
+    if (state_ == State::kReading) next_read_ = began_ + kAskAgain;
     state_ = State::kStale;
   } else if (state_ == State::kReading) {
     news.all = true;

@@ -10,7 +10,7 @@
 namespace tandem::directory {
 
 /// Follows all keys with one prefix by one read and a watch. When the watch breaks or its revision was compacted, it
-/// reads everything again. The changes that it reports may be old.
+/// reads everything again; after a read that failed not before kAskAgain. The changes that it reports may be old.
 ///
 /// A store that has lost its data begins again with low revisions, and a watch there waits in silence for revisions
 /// that are to come. So an answer of a lower revision than a former one has everything read again.
@@ -41,11 +41,12 @@ class PrefixFollower {
 
  private:
   enum class State : std::uint8_t { kStale, kReading, kRead, kFollowing };
+  static constexpr Duration kAskAgain = std::chrono::milliseconds(100);
 
   std::string prefix_;
   State state_ = State::kStale;
   OperationId operation_ = 0;
-  Time began_{};
+  Time began_{}, next_read_{};
   Revision next_ = 0;  ///< first revision that was not reported
   std::uint64_t readings_ = 0;
 };

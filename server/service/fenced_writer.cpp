@@ -55,22 +55,26 @@ void FencedWriter::again(bool alone) {
   sent_.clear();
 }
 
+/// Begins behind the last key of before. A value that does not fit ends the transaction, and begins the next one.
 void FencedWriter::collect(bool first, directory::Transaction& transaction, std::size_t& bytes) {
-  if (!sent_.empty() && sent_.begin()->second.alone) return;
-  for (auto entry = waiting_.begin(); entry != waiting_.end() && sent_.size() < kBatchMax;) {
+  std::string& last = first ? last_first_ : last_;
+  auto entry = waiting_.upper_bound(last);
+  for (std::size_t left = waiting_.size(); left > 0 && sent_.size() < kBatchMax; --left) {
+    if (entry == waiting_.end()) entry = waiting_.begin();
     const auto& [key, value] = *entry;
-    if (value.first != first || (!sent_.empty() && (value.alone || bytes + value.value.size() > kBatchBytesMax))) {
+    if (value.first != first) {
       ++entry;
       continue;
     }
+    const bool alone = value.alone || (!sent_.empty() && sent_.begin()->second.alone);
+    if (!sent_.empty() && (alone || bytes + value.value.size() > kBatchBytesMax)) return;
     const directory::Condition owned{keys_.owner(value.session), directory::Condition::Of::kCreated, value.revision};
     const auto same = [&](const directory::Condition& c) { return c.key == owned.key && c.equals == owned.equals; };
     if (std::ranges::none_of(transaction.conditions, same)) transaction.conditions.push_back(owned);
     transaction.then.push_back(directory::Put{key, value.value, 0});
     bytes += value.value.size();
-    const bool alone = value.alone;
+    last = key;
     sent_.insert(waiting_.extract(entry++));
-    if (alone) break;
   }
 }
 

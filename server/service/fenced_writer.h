@@ -19,7 +19,8 @@ namespace tandem::server {
 /// writes the order key of this server, under the condition that it is as the newest known transaction left it: a late
 /// one changes nothing, and no older value replaces a newer one.
 ///
-/// Several values go into one transaction. If an ownership does not hold, its values are written one at a time, so that
+/// Several values go into one transaction, in turn by their keys, so that none waits for ever behind others that change
+/// faster than the directory stores them. If an ownership does not hold, its values are written one at a time, so that
 /// one lost session stops no other.
 class FencedWriter {
  public:
@@ -82,6 +83,7 @@ class FencedWriter {
   directory::Revision order_ = 0;  ///< of the newest known write of the order key; 0: none
   Duration pause_;
   std::map<std::string, Value> waiting_, sent_;  ///< by key
+  std::string last_, last_first_;                ///< key of the newest value that was sent in its turn, or hurried
   directory::OperationId operation_ = 0;
   Time next_{}, sent_at_{};
   Counters counters_;

@@ -148,6 +148,8 @@ void ServiceMember::take_notices(Time now) {
         break;
       case Notice::Kind::kTicketAccepted:
       case Notice::Kind::kTicketRefused:
+      case Notice::Kind::kTicketUnanswered:
+      case Notice::Kind::kTicketNoLease:
         directory_.tickets.on_notice(*notice);
         break;
     }

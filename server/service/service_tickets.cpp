@@ -10,9 +10,8 @@ using directory::Notice;
 
 void ServiceTickets::use(Time now, const std::string& session, const std::string& ticket, Duration life,
                          std::uint64_t order, bool again) {
-  const bool fits = uses_.size() < kWaitingMax && !uses_.contains(ticket);
-  if (!fits || ownership_.revision(session) == 0) {
-    results_.push_back({order, fits ? Outcome::kUsed : Outcome::kNoAnswer});
+  if (uses_.size() >= kWaitingMax || uses_.contains(ticket) || ownership_.revision(session) == 0) {
+    results_.push_back({order, Outcome::kNoAnswer});
     return;
   }
   const Time end = now + std::clamp(life, Duration::zero(), kLifeMax);
@@ -36,17 +35,17 @@ bool ServiceTickets::uses_wait(std::string_view session) const noexcept {
 }
 
 void ServiceTickets::on_notice(const Notice& notice) {
-  const bool accepted = notice.kind == Notice::Kind::kTicketAccepted;
-  if (!accepted && notice.kind != Notice::Kind::kTicketRefused) return;
   const auto found = uses_.find(notice.other);
   if (found == uses_.end()) return;
   const Use use = std::move(found->second);
   uses_.erase(found);
+  const bool accepted = notice.kind == Notice::Kind::kTicketAccepted;
   if (accepted && accepted_.size() < kAcceptedMax) accepted_[notice.other] = {use.period, notice.revision};
-  // The lease of a refused ticket may be gone, with a directory that was restored from an older copy.
-  if (!accepted) leases_.erase(use.period);
+  // It is gone with a directory that was restored from an older copy.
+  if (notice.kind == Notice::Kind::kTicketNoLease) leases_.erase(use.period);
+  const bool used = notice.kind == Notice::Kind::kTicketRefused;
   if (use.order != 0)
-    results_.push_back({use.order, accepted ? Outcome::kAccepted : Outcome::kUsed});
+    results_.push_back({use.order, accepted ? Outcome::kAccepted : used ? Outcome::kUsed : Outcome::kNoAnswer});
   else if (accepted)
     restore(use.session, notice.other);  // its client was refused meanwhile
 }
@@ -66,7 +65,7 @@ void ServiceTickets::pass_on(Time now) {
     if (const auto lease = leases_.find(it.period); !it.asked && !restored && lease != leases_.end()) {
       it.asked = ownership_.use_ticket(it.session, ticket, lease->second, it.again);
       if (!it.asked) {
-        results_.push_back({it.order, Outcome::kUsed});
+        results_.push_back({it.order, Outcome::kNoAnswer});
         use = uses_.erase(use);
         continue;
       }
@@ -78,7 +77,7 @@ void ServiceTickets::pass_on(Time now) {
 std::optional<directory::Request> ServiceTickets::poll_request(Time now, directory::OperationId operation,
                                                                Duration retry_after) {
   pass_on(now);
-  if (operation_ != 0 && now - sent_ < retry_after) return std::nullopt;
+  if (now - sent_ < (operation_ != 0 ? retry_after : pause_)) return std::nullopt;
   operation_ = 0;
   const auto past = [&](std::int64_t period) { return Time{period * kPeriod} < now; };
   if (std::erase_if(leases_, [&](const auto& lease) { return past(lease.first); }) > 0)
@@ -106,7 +105,9 @@ std::optional<directory::Request> ServiceTickets::poll_request(Time now, directo
 bool ServiceTickets::on_reply(const directory::Reply& reply) {
   if (operation_ == 0 || reply.operation != operation_) return false;
   operation_ = 0;
-  if (reply.outcome != directory::Outcome::kDone) return true;  // begins again
+  const bool done = reply.outcome == directory::Outcome::kDone;
+  pause_ = done ? Duration::zero() : kAskAgain;
+  if (!done) return true;
   if (granting_)
     leases_[*granting_] = reply.lease;
   else

@@ -17,8 +17,8 @@ class ServiceTickets {
  public:
   enum class Outcome : std::uint8_t {
     kAccepted,
-    kUsed,      ///< used before, or this server owns the session no more
-    kNoAnswer,  ///< the ticket is as valid as before
+    kUsed,      ///< used before
+    kNoAnswer,  ///< the directory does not answer, or this server owns the session no more; to be tried again
   };
   struct Result {
     std::uint64_t order = 0;
@@ -28,6 +28,7 @@ class ServiceTickets {
   /// Tickets that end in one period share a lease, which ends one period later.
   static constexpr Duration kPeriod = std::chrono::hours(1);
   static constexpr Duration kLifeMax = std::chrono::hours(24);
+  static constexpr Duration kAskAgain = std::chrono::milliseconds(100);  ///< after an error of a grant or a restore
   static constexpr std::size_t kWaitingMax = 1024;
   /// Tickets of which this server knows that it has used them; further ones cannot be restored.
   static constexpr std::size_t kAcceptedMax = 65536;
@@ -89,6 +90,7 @@ class ServiceTickets {
   directory::OperationId operation_ = 0;  ///< under way: a grant or a restore; 0: none
   std::optional<std::int64_t> granting_;  ///< period of the grant; nullopt: a restore
   Time sent_{};
+  Duration pause_{};  ///< before the next one, since `sent_`
 };
 
 }  // namespace tandem::server

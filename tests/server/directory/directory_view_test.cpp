@@ -98,6 +98,22 @@ TEST_F(DirectoryViewTest, ReadsAgainWhenItsRevisionWasForgotten) {
   EXPECT_EQ(changed(), (std::set<std::string>{"one", "two"}));
 }
 
+/// A store that permits no read refuses each at once.
+TEST_F(DirectoryViewTest, PausesAfterAReadThatFailed) {
+  int reads = 0;
+  for (int n = 0; n < 100; ++n, now_ += 10ms) {
+    if (!view_.poll_request(now_, ++operation_, 1s)) continue;
+    ++reads;
+    Reply refused;
+    refused.operation = operation_;
+    refused.outcome = Outcome::kRefused;
+    EXPECT_TRUE(view_.on_reply(refused));
+  }
+  EXPECT_EQ(reads, 10);
+  settle();
+  EXPECT_TRUE(view_.follows());
+}
+
 // A watch at a revision that the store does not have yet would wait in silence.
 TEST_F(DirectoryViewTest, ReadsAgainWhenTheStoreHasLostItsDataBeforeTheWatch) {
   for (int n = 0; n < 5; ++n)

@@ -148,6 +148,55 @@ TEST_F(OwnershipTest, AStandbyTakesOverByItselfAndBeforeOthers) {
   EXPECT_FALSE(store_.entries().contains("/tandem/v1/live/sessions/s/standby"));
 }
 
+/// A full store refuses each request, and those for all sessions would pile up until no renewal gets through.
+TEST_F(OwnershipTest, AsksForOneStandbyAtATimeAndThenForTheNewest) {
+  const auto [a, b] = start_owner_and_other();
+  Server& c = start("c");
+  const auto asked = [&, &a = a] {
+    std::vector<Ownership::Operation> begun;
+    while (auto operation = a.core.poll_operation(now_)) {
+      const auto* const wanted = std::get_if<Transaction>(&operation->request);
+      const auto* const put = wanted && !wanted->then.empty() ? std::get_if<Put>(&wanted->then[0]) : nullptr;
+      if (put && put->key.ends_with("/standby")) begun.push_back(std::move(*operation));
+    }
+    return begun;
+  };
+  std::size_t requests = 0;
+  for (int n = 0; n < 100; ++n, now_ += 10ms) {
+    EXPECT_TRUE(a.core.set_standby("s", "b"));
+    const auto open = asked();
+    ASSERT_LE(open.size(), 1U);
+    for (const auto& operation : open) {
+      ++requests;
+      Reply full;
+      full.operation = operation.id;
+      full.outcome = Outcome::kUnknown;
+      a.core.on_reply(now_, full);
+    }
+  }
+  EXPECT_LE(requests, 2U) << "once a second";
+  pass(2s);
+  EXPECT_TRUE(has(a, Notice::Kind::kStandbySet, "b"));
+  const auto answer = [&, &a = a](const Ownership::Operation& operation) {
+    a.core.on_reply(now_, store_.execute(operation.id, operation.request));
+  };
+  EXPECT_TRUE(a.core.set_standby("s", "b"));
+  auto open = asked();
+  ASSERT_EQ(open.size(), 1U);
+  EXPECT_TRUE(a.core.set_standby("s", "c"));
+  EXPECT_TRUE(asked().empty());
+  answer(open[0]);
+  open = asked();
+  ASSERT_EQ(open.size(), 1U);
+  EXPECT_TRUE(a.core.move("s", "b"));
+  EXPECT_FALSE(a.core.set_standby("s", "c")) << "it moves to b";
+  answer(open[0]);
+  EXPECT_EQ(store_.entries().at("/tandem/v1/live/sessions/s/standby").value, "c");
+  pass(1s);
+  EXPECT_EQ(state(c), SessionState::kNone);
+  EXPECT_EQ(state(b), SessionState::kServing);
+}
+
 TEST_F(OwnershipTest, ADeadStandbyDelaysNoClaim) {
   Server& a = start("a");
   Server& b = start("b");
@@ -279,7 +328,8 @@ TEST_F(OwnershipTest, UsesATicketOnceInTheWholeServiceAndOnlyForItsOwnSession) {
   EXPECT_TRUE(a.core.use_ticket("s", "2"));
   settle();
   EXPECT_FALSE(store_.entries().contains("/tandem/v1/tickets/2"));
-  EXPECT_TRUE(has(a, Notice::Kind::kTicketRefused, "2"));
+  EXPECT_TRUE(has(a, Notice::Kind::kTicketUnanswered, "2"));
+  EXPECT_FALSE(has(a, Notice::Kind::kTicketRefused, "2"));
 }
 
 /// A console was joined by its ticket at an owner that has died.

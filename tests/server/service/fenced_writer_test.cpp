@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -140,6 +141,29 @@ TEST_F(FencedWriterTest, WritesAHurriedValueFirstAndWithoutThePause) {
   writer_.hurry("/v/s9");
   EXPECT_TRUE(write());
   EXPECT_EQ(value("/v/s9"), "x");
+}
+
+/// Each of 48 sessions has a snapshot twice a second, and the directory takes a second for 32 of them.
+TEST_F(FencedWriterTest, NoSessionWaitsForEverInADirectoryThatIsTooSlowForAll) {
+  constexpr int kSessions = 48;
+  directory::Revision owned[kSessions];
+  for (int n = 0; n < kSessions; ++n) owned[n] = own("s" + std::to_string(n));
+  std::optional<directory::Request> sent;
+  for (int half_second = 0; half_second < 120; ++half_second, now_ += 500ms) {
+    for (int n = 0; n < kSessions; ++n) {
+      const std::string name = "s" + std::to_string(n);
+      std::string text = std::to_string(half_second);
+      text.resize(n % 2 == 0 ? 4 : std::size_t{48} << 10, ' ');  // a transaction has room for ten long ones
+      writer_.set(name, "/v/" + name, std::move(text), owned[n]);
+    }
+    if (half_second % 2 == 0) {
+      if (sent) writer_.on_reply(store_.execute(operation_, *sent));
+      sent = writer_.poll_request(now_, ++operation_, 3s);
+      ASSERT_TRUE(sent);
+    }
+  }
+  for (int n = 0; n < kSessions; ++n)
+    EXPECT_GT(std::stoi("0" + value("/v/s" + std::to_string(n))), 120 - 2 * 6) << "s" << n << ": at most 6 s old";
 }
 
 TEST_F(FencedWriterTest, TransactionThatIsExecutedAfterALaterOneChangesNothing) {

@@ -146,6 +146,70 @@ TEST_F(ServiceTicketsTest, TicketWithoutAnAnswerIsReportedAndStaysValid) {
   EXPECT_EQ(results(owner).at(2), Outcome::kAccepted);
 }
 
+/// The session is lost while the use waits. Its next owner may be this server.
+TEST_F(ServiceTicketsTest, IsNotRefusedAsUsedByAServerThatLostTheSession) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(1), Outcome::kAccepted) << "the lease for uses is there";
+  a->directory.cut = true;
+  pass(4s);
+  use(*a, "lab", "t2", 2);
+  pass(100ms);
+  a->directory.cut = false;
+  pass(1s);
+  EXPECT_EQ(results(*a).at(2), Outcome::kNoAnswer);
+  EXPECT_FALSE(has("tickets/t2"));
+  use(*a, "lab", "t3", 3);
+  EXPECT_EQ(results(*a).at(3), Outcome::kNoAnswer) << "of another server";
+}
+
+TEST_F(ServiceTicketsTest, IsNotRefusedAsUsedWhenTheLeaseForItsUseIsGone) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(500ms);
+  const auto lease = store_.entries().at("/tandem/v1/tickets/t1").lease;
+  static_cast<void>(store_.execute(1, directory::Revoke{lease}));
+  use(*a, "lab", "t2", 2);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(2), Outcome::kNoAnswer);
+  use(*a, "lab", "t2", 3);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(3), Outcome::kAccepted) << "under a new lease";
+}
+
+TEST_F(ServiceTicketsTest, RefusedTicketsLeaveNoLeases) {
+  start_two();
+  use(*a, "lab", "t1", 1);
+  pass(500ms);
+  const std::size_t leases = store_.leases();
+  for (std::uint64_t n = 2; n < 12; ++n) {
+    use(*a, "lab", "t1", n);
+    pass(500ms);
+    EXPECT_EQ(results(*a).at(n), Outcome::kUsed);
+  }
+  EXPECT_EQ(store_.leases(), leases);
+}
+
+/// Otherwise a full directory, which grants none, would be asked for one as fast as it answers.
+TEST_F(ServiceTicketsTest, LeaseIsAskedForWithPausesWhileItIsNotGranted) {
+  start_two();
+  ServiceTickets& tickets = a->member.tickets();
+  use(*a, "lab", "t1", 1);
+  int asked = 0;
+  for (directory::OperationId operation = 1; operation <= 100; ++operation, now_ += 10ms) {
+    if (!tickets.poll_request(now_, operation, 2s)) continue;
+    ++asked;
+    directory::Reply full;
+    full.operation = operation;
+    full.outcome = directory::Outcome::kUnknown;
+    EXPECT_TRUE(tickets.on_reply(full));
+  }
+  EXPECT_EQ(asked, 10);
+  pass(500ms);
+  EXPECT_EQ(results(*a).at(1), Outcome::kAccepted);
+}
+
 TEST_F(ServiceTicketsTest, DirectoryForgetsTheUseAfterTheTicketEndedAndNotBefore) {
   start_two();
   use(*a, "lab", "t1", 1);
@@ -168,7 +232,7 @@ TEST_F(ServiceTicketsTest, RefusesTicketsForSessionsOfOtherServersAndBeyondItsQu
   for (std::uint64_t n = 0; n <= ServiceTickets::kWaitingMax; ++n) use(*a, "lab", "x" + std::to_string(n), 100 + n);
   pass(2s);
   const auto all = results(*a);
-  EXPECT_EQ(all.at(1), Outcome::kUsed);
+  EXPECT_EQ(all.at(1), Outcome::kNoAnswer);
   EXPECT_EQ(all.at(100), Outcome::kAccepted);
   EXPECT_EQ(all.at(100 + ServiceTickets::kWaitingMax), Outcome::kNoAnswer);
   EXPECT_EQ(all.size(), ServiceTickets::kWaitingMax + 2);
