@@ -15,14 +15,15 @@
 
 #include "server/directory/io/etcd_channel.h"
 #include "server/directory/io/etcd_codec.h"
+#include "server/directory/io/keeps_lease.h"
 
 namespace tandem::directory {
 
 namespace {
 
 constexpr std::size_t kRepliesMax = 65536;
-/// While no member answers, a failure is passed on only after this time. Callers try again at each failure, and would
-/// otherwise do nothing else.
+/// While no member answers, or the one that does is full, a failure is passed on only after this time. Callers try
+/// again at each failure, and would otherwise do nothing else.
 constexpr std::chrono::milliseconds kFailurePause{100};
 using std::chrono::steady_clock;
 
@@ -73,7 +74,7 @@ class EtcdDirectory::Core {
   void begin(OperationId operation, const Request& request) {
     const std::lock_guard lock(mutex_);
     ++counters_.begun;
-    if (requests_.size() + contexts_.size() >= kOpenMax) {
+    if (requests_.size() + contexts_.size() >= (keeps_lease(request) ? kOpenMax : kOpenMax - kReserved)) {
       ++counters_.overflowed;
       return push(unknown(operation, "too many requests are open"));
     }
@@ -125,13 +126,17 @@ class EtcdDirectory::Core {
   void fail(OperationId operation, const grpc::Status& status, std::size_t member) {
     const std::lock_guard lock(mutex_);
     Reply reply = failed(operation, status);
-    if (reply.outcome == Outcome::kUnknown && member == member_) {
+    // The member is there: it is full, as all others are, has too many requests, or got a message that is too large.
+    const bool exhausted = status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
+    if (exhausted) {
+      failed_members_ = 0;
+    } else if (reply.outcome == Outcome::kUnknown && member == member_) {
       member_ = (member_ + 1) % options_.endpoints.size();
       ++counters_.endpoint_changes;
       ++failed_members_;
     }
-    if (reply.outcome != Outcome::kUnknown || failed_members_ < options_.endpoints.size())
-      return push(std::move(reply));
+    const bool pause = exhausted || failed_members_ >= options_.endpoints.size();
+    if (reply.outcome != Outcome::kUnknown || !pause) return push(std::move(reply));
     held_back_.emplace_back(steady_clock::now() + kFailurePause, std::move(reply));
     wake_.notify_all();
   }

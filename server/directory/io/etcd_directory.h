@@ -10,11 +10,14 @@ namespace tandem::directory {
 /// The directory in etcd, through gRPC. A thread of its own begins the calls; gRPC's threads take the answers. `begin`
 /// and `poll` only move a request or a reply through a queue: they never wait for the network.
 ///
-/// Every call goes to one member of etcd. When a call fails there, the next ones go to the next endpoint.
+/// Every call goes to one member of etcd. When a call fails there, the next ones go to the next endpoint; not if the
+/// member answers that it is full.
 class EtcdDirectory final : public Directory {
  public:
   /// Requests and watches that may be open at a time; further ones get a reply kUnknown.
   static constexpr std::size_t kOpenMax = 2048;
+  /// Of these, for requests by which a server keeps its lease: Grant, Renew, and transactions that only read.
+  static constexpr std::size_t kReserved = 64;
 
   struct Counters {
     std::uint64_t begun = 0, unknown = 0, refused = 0, overflowed = 0;
