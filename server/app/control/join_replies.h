@@ -26,4 +26,12 @@ namespace tandem::server {
       0};
 }
 
+/// As `nothing_to_resume`, to a console.
+[[nodiscard]] inline rpc::ErrorReply console_is_gone() {
+  return {rpc::ErrorCode::kResume,
+          "this console cannot come back: its connection ended more than 60 s ago, or at another server; ask an "
+          "operator for a new ticket",
+          0};
+}
+
 }  // namespace tandem::server

@@ -10,6 +10,7 @@
 #include "common/io/log.h"
 #include "server/app/control/audit_writer.h"
 #include "server/app/control/join_replies.h"
+#include "server/app/control/new_welcome.h"
 #include "server/app/control/setup_bytes.h"
 #include "server/app/control/slot_join.h"
 #include "server/policy/roles.h"
@@ -30,28 +31,6 @@ bool is_console(const rpc::Welcome& joined) noexcept {
   return place_of(joined.server_cid) == kConsolePlace || is_watcher(joined);
 }
 std::size_t seat_index(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) - std::size_t{1}; }
-
-/// A Welcome with fresh connection id and resume secret.
-rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes,
-                          const std::string& seat = {}, std::vector<std::byte> setup = {}, std::string person = {}) {
-  const SessionRegistration& session = entry.registration;
-  const auto drawn = auth::random_bytes<std::array<std::byte, 2>>();
-  const bool aes = has_aes && transport::fastest_cipher() == transport::Cipher::kAes256Gcm;
-  return {.session_id = session.id,
-          .session_name = session.name,
-          .epoch = session.epoch,
-          .server_cid = connection_id(static_cast<std::uint16_t>(std::to_integer<unsigned>(drawn[0]) << 8 |
-                                                                 std::to_integer<unsigned>(drawn[1])),
-                                      entry.session().slot(), place),
-          .cipher = aes ? rpc::Cipher::kAes256Gcm : rpc::Cipher::kChaCha20Poly1305,
-          .seat = seat,
-          .role = role,
-          .setup = std::move(setup),
-          .udp_port = session.shard->address().port(),
-          .resume_secret = Secret<32>{auth::random_bytes<std::array<std::byte, 32>>()},
-          .limits = {},
-          .person = std::move(person)};
-}
 
 /// Key to which the resume secrets of this workstation are bound. Ephemeral keys are shared by all clients and change
 /// with each start.
@@ -218,31 +197,27 @@ void SessionJoins::release_consoles(SessionEntry& entry) {
 
 void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
                                 std::function<void(JoinReply)> answer) {
-  const auto* ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential);
-  if (ticket == nullptr)
+  const auto* const ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential);
+  if (ticket == nullptr && !std::holds_alternative<rpc::ResumeCredential>(request.hello.credential))
     return answer(ErrorReply{ErrorCode::kNoSeat,
                              "a join without a seat needs a ticket, such as from " +
                                  ticket_command(entry, request.hello.watch ? "--role observer" : "--role operator",
                                                 request.workstation.name) +
                                  "; seats: " + entry.session().seat_catalogue().seat_names(),
                              0});
-  const auto role = auth::claimed_role(ticket->bytes);
+  const auto role = ticket != nullptr ? auth::claimed_role(ticket->bytes) : std::nullopt;
   if (role && !may_join_console(*role))
     return answer(ErrorReply{ErrorCode::kNotAllowed,
                              "the role " + std::string(to_text(*role)) +
                                  " may see nothing of a session without a seat; ask for a ticket with one",
                              0});
-  if (!request.hello.watch) return answer(admit_console(entry, request, *ticket, kConsolePlace));
+  if (!request.hello.watch) return answer(admit_console(entry, request, kConsolePlace));
   reserve_slot(
       registry_, entry, entry.watchers, ShardRequest::Peers::kWatchers, "places of watching consoles",
-      [this, &entry, request, ticket = *ticket](std::uint8_t place) {
-        return admit_console(entry, request, ticket, place);
-      },
-      std::move(answer));
+      [this, &entry, request](std::uint8_t place) { return admit_console(entry, request, place); }, std::move(answer));
 }
 
-JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& request,
-                                      const rpc::TicketCredential& ticket, std::uint8_t place) {
+JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& request, std::uint8_t place) {
   std::vector<std::byte> scene;
   if (request.hello.watch) {
     scene = encoded(entry.scene());
@@ -253,11 +228,20 @@ JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& re
                                wire::kSetupMax),
                         0};
   }
-  const auto redeemed = tickets_.redeem(entry, request, ticket, std::nullopt, io::monotonic_now());
+  const bool aes = request.hello.has_aes;
+  if (const auto* const resume = std::get_if<rpc::ResumeCredential>(&request.hello.credential)) {
+    const auto* const own = entry.consoles.may_come_back(resume->secret, request.workstation, io::monotonic_now());
+    if (own == nullptr) return console_is_gone();
+    rpc::Welcome w = make_welcome(entry, place, own->role, aes, "", std::move(scene), own->person);
+    w.resume_secret = resume->secret;
+    return w;
+  }
+  const auto redeemed = tickets_.redeem(entry, request, std::get<rpc::TicketCredential>(request.hello.credential),
+                                        std::nullopt, io::monotonic_now());
   if (!redeemed) return redeemed.error();
-  rpc::Welcome w =
-      make_welcome(entry, place, redeemed->role, request.hello.has_aes, "", std::move(scene), redeemed->person);
-  entry.consoles.add(w.resume_secret, redeemed->ticket_id);
+  rpc::Welcome w = make_welcome(entry, place, redeemed->role, aes, "", std::move(scene), redeemed->person);
+  entry.consoles.add(w.resume_secret, w.server_cid,
+                     {redeemed->ticket_id, redeemed->role, redeemed->person, request.workstation});
   return w;
 }
 
@@ -280,7 +264,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
   if (is_console(welcome)) {
-    entry->consoles.join(welcome.resume_secret);
+    entry->consoles.join(welcome.resume_secret, welcome.server_cid);
     entry->keep_consoles();
     io::log_event(io::Level::kInfo,
                   {.event = "console-joined",
@@ -318,7 +302,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
       joins.every_tick = recorder;
       joins.done = [this, entry, occupy, welcome](ShardRequest& asked) {
         occupy(entry->watchers, asked);
-        if (!entry->consoles.contains(welcome.resume_secret)) stop_watching(*entry, welcome);  // it has gone already
+        if (!is_current(welcome)) stop_watching(*entry, welcome);  // it has gone already
       };
     } else {
       joins.done = [entry, occupy](ShardRequest& asked) { occupy(entry->link_tests, asked); };
@@ -353,7 +337,7 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
     return tickets_.restore(entry->seats[seat_index(welcome)].end_join(), *entry, welcome.person);
   if (!is_console(welcome)) return entry->link_tests.cancel_join();
   if (is_watcher(welcome)) entry->watchers.cancel_join();
-  tickets_.restore(entry->consoles.take(welcome.resume_secret), *entry, welcome.person);
+  tickets_.restore(entry->consoles.take(welcome.resume_secret, welcome.server_cid), *entry, welcome.person);
   entry->keep_consoles();
 }
 
@@ -364,6 +348,9 @@ void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& wor
   if (std::as_const(registry_).find(named) == nullptr)
     if (auto away = redirect_.find(named, joined.version >= rpc::kVersionOfServices))
       return std::visit([&](auto& reply) { answer(std::move(reply)); }, *away);
+  const SessionEntry* const entry = std::as_const(registry_).find(joined.session_id);
+  if (entry != nullptr && is_console(joined) && entry->consoles.replaced(joined.resume_secret, joined.server_cid))
+    return answer(ErrorReply{ErrorCode::kNotAllowed, "this console came back over another connection", 0});
   commands_.execute(joined, workstation, std::move(command), std::move(answer));
 }
 
@@ -371,7 +358,7 @@ bool SessionJoins::is_current(const rpc::Welcome& joined) const {
   const SessionEntry* const entry = std::as_const(registry_).find(joined.session_id);
   if (entry == nullptr) return false;
   if (!joined.seat.empty()) return entry->seats[seat_index(joined)].owned_by(joined.server_cid);
-  return is_console(joined) ? entry->consoles.contains(joined.resume_secret)
+  return is_console(joined) ? entry->consoles.contains(joined.resume_secret, joined.server_cid)
                             : entry->link_tests.find(joined.server_cid).has_value();
 }
 
@@ -391,10 +378,13 @@ void SessionJoins::on_disconnected(const rpc::Welcome& joined, bool in_vain) {
   SessionEntry* const entry = registry_.find(joined.session_id);
   if (entry == nullptr || !is_console(joined)) return;
   stop_watching(*entry, joined);
-  const auto ticket = entry->consoles.take(joined.resume_secret);
-  entry->keep_consoles();
+  ConsoleTickets& consoles = entry->consoles;
   const bool commands = allowed(joined.role, Right::kStopSession) != Grant::kNo && !watches_only(joined.role);
-  if (in_vain && commands) tickets_.restore(ticket, *entry, joined.person);
+  if (in_vain && commands && !consoles.came_back(joined.resume_secret))
+    tickets_.restore(consoles.take(joined.resume_secret, joined.server_cid), *entry, joined.person);
+  else
+    consoles.leave(joined.resume_secret, joined.server_cid, io::monotonic_now());
+  entry->keep_consoles();
 }
 
 }  // namespace tandem::server
