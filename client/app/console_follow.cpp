@@ -17,7 +17,8 @@ std::expected<Joined, std::string> joined_again(const JoinOptions& options,
   while (true) {
     auto again = join(options);
     if (again) return std::move(*again);
-    if (again.error().ticket_refused || io::monotonic_now() >= until) return std::unexpected(again.error().reason);
+    if (again.error().refused == rpc::ErrorCode::kTicket || io::monotonic_now() >= until)
+      return std::unexpected(again.error().reason);
     pollfd signal{options.signals, POLLIN, 0};
     if (again.error().interrupted || poll(&signal, 1, kRetryMs) > 0) return std::unexpected(std::string{});
   }

@@ -27,6 +27,12 @@ class ControlClient;
 
 namespace tandem::client {
 
+/// Facts by which a console whose connection was lost comes back.
+struct ConsoleReturn {
+  rpc::Id session{};
+  Secret<32> secret;  ///< of its Welcome
+};
+
 /// Options of a request to a server: a seat, a link test, a console or the session list.
 struct JoinOptions {
   io::SocketAddress server = {};
@@ -47,6 +53,9 @@ struct JoinOptions {
   /// With `console`: joins for a drain, only at a server that `server` and `alternatives` name. If another one has the
   /// session, or they name several of a service, the join fails before the ticket is used.
   bool drains = false;
+  /// With `console`: comes back as the console of an earlier connection, which this one replaces, instead of by the
+  /// ticket.
+  std::optional<ConsoleReturn> back{};
 };
 
 /// A joined seat.
@@ -86,7 +95,8 @@ struct JoinError {
   /// Where the connected server sends this client, no server answers that the service vouches for. The connection is
   /// still that of the connected one.
   bool owner_unreachable = false;
-  bool ticket_refused = false;  ///< the ticket does not admit, now or later
+  std::optional<rpc::ErrorCode> refused{};  ///< code of the server's reply; nullopt: it gave none
+  bool absent = false;                      ///< no program listens at the address
 };
 
 /// Joins a seat, or starts a link test, over a TLS connection. Both ends prove their keys. The client presents a ticket

@@ -84,6 +84,11 @@ rpc::Hello base_hello(const JoinOptions& options) {
 std::expected<rpc::Hello, JoinError> make_hello(ServerConnection& server) {
   const JoinOptions& options = server.options();
   rpc::Hello hello = base_hello(options);
+  if (options.back) {
+    hello.session = options.back->session;
+    hello.credential = rpc::ResumeCredential{options.back->secret};
+    return hello;
+  }
   const auto code = auth::canonical_session_code(options.session);
   auth::Id16 id;
   const bool is_id = auth::from_hex(options.session, id), by_name = !options.session.empty() && !is_id && !code;

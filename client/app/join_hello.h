@@ -12,8 +12,9 @@ namespace tandem::client {
 /// no session and has no credential.
 [[nodiscard]] rpc::Hello base_hello(const JoinOptions& options);
 
-/// Returns the Hello of a join: the session and the credential. The credential is the ticket or code of the options, or
-/// on the server's own computer a ticket signed here. Asks the server for its sessions where a name must be found.
+/// Returns the Hello of a join: the session and the credential. The credential is the secret, ticket or code of the
+/// options, or on the server's own computer a ticket signed here. Asks the server for its sessions where a name must be
+/// found.
 /// @pre `server` is connected
 [[nodiscard]] std::expected<rpc::Hello, JoinError> make_hello(ServerConnection& server);
 

@@ -220,7 +220,8 @@ JoinError ServerConnection::to_join_error(const auth::ClientError& error, const 
   const std::string server = io::to_text(at), timeout = format("%g s", seconds(options_.timeout));
   if (error.kind == Kind::kUnreachable)
     return {.reason = "no server at " + server + ": nothing listens there (tried for " + timeout + "). Start " +
-                      start_command() + ", and use the address it prints as `listening on`"};
+                      start_command() + ", and use the address it prints as `listening on`",
+            .absent = error.absent};
   if (error.kind == Kind::kStream && error.end == auth::StreamErrorCode::kDeadline)
     return {.reason = "no answer from " + server + " within " + timeout +
                       "; check that a tandem-server of this version listens there, and that the network (or "

@@ -53,8 +53,7 @@ class ServerConnection {
   template <class Reply>
   [[nodiscard]] std::expected<Reply, JoinError> expect(rpc::Body reply) const {
     if (const auto* rejected = std::get_if<rpc::ErrorReply>(&reply))
-      return std::unexpected(
-          JoinError{.reason = rejection_text(*rejected), .ticket_refused = rejected->code == rpc::ErrorCode::kTicket});
+      return std::unexpected(JoinError{.reason = rejection_text(*rejected), .refused = rejected->code});
     if (auto* expected = std::get_if<Reply>(&reply)) return std::move(*expected);
     return join_failure(kUnexpectedReply);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,9 +15,15 @@
 
 namespace tandem::console {
 
-/// Browsers that have access, by the secret of their cookie. Several cookies may have the same person. A cookie that
-/// does not last ends a while after the last open socket with it. Bounded: the cookie that is idle for longest ends
-/// when one more is added.
+/// How long a cookie stays.
+enum class CookieLife : std::uint8_t {
+  kIdle,     ///< ends a while after the last open socket with it
+  kLasting,  ///< does not end by idling
+  kPinned,   ///< never ends: it is not made again
+};
+
+/// Browsers that have access, by the secret of their cookie. Several cookies may have the same person. Bounded: the
+/// cookie that is idle for longest ends when one more is added, unless it is pinned.
 template <class Person>
 class BrowserSessions {
  public:
@@ -25,17 +32,18 @@ class BrowserSessions {
   /// @param idle  how long a cookie stays without an open socket
   explicit BrowserSessions(Duration idle) : idle_(idle) {}
 
-  /// @param lasts  true: the cookie does not end by idling
-  /// @return false: kMax cookies have open sockets, and nothing was added
-  [[nodiscard]] bool add(std::string secret, std::shared_ptr<Person> person, bool lasts, Time now) {
+  /// @return false: kMax cookies have open sockets or are pinned, and nothing was added
+  [[nodiscard]] bool add(std::string secret, std::shared_ptr<Person> person, CookieLife life, Time now) {
     if (rows_.size() >= kMax) {
       auto oldest = rows_.end();
-      for (auto row = rows_.begin(); row != rows_.end(); ++row)
-        if (row->sockets == 0 && (oldest == rows_.end() || row->idle_since < oldest->idle_since)) oldest = row;
+      for (auto row = rows_.begin(); row != rows_.end(); ++row) {
+        if (row->sockets > 0 || row->life == CookieLife::kPinned) continue;
+        if (oldest == rows_.end() || row->idle_since < oldest->idle_since) oldest = row;
+      }
       if (oldest == rows_.end()) return false;
       rows_.erase(oldest);
     }
-    rows_.push_back({std::move(secret), std::move(person), lasts, 0, now});
+    rows_.push_back({std::move(secret), std::move(person), life, 0, now});
     return true;
   }
   /// Returns the person of a cookie; null: unknown. The time depends on the number of cookies only.
@@ -60,8 +68,9 @@ class BrowserSessions {
   }
   /// Ends the cookies that were idle for too long. @return their number
   std::size_t expire(Time now) {
-    return std::erase_if(
-        rows_, [&](const Row& row) { return !row.lasts && row.sockets == 0 && now - row.idle_since >= idle_; });
+    return std::erase_if(rows_, [&](const Row& row) {
+      return row.life == CookieLife::kIdle && row.sockets == 0 && now - row.idle_since >= idle_;
+    });
   }
   /// Returns whether `accepts` holds for the person of any cookie.
   template <class Accepts>
@@ -79,7 +88,7 @@ class BrowserSessions {
   struct Row {
     std::string secret;
     std::shared_ptr<Person> person;
-    bool lasts = false;
+    CookieLife life = CookieLife::kIdle;
     std::size_t sockets = 0;
     Time idle_since{};
   };

@@ -16,7 +16,8 @@ namespace tandem::server {
 
 /// Clients without a seat that exchange datagrams with a session, in a fixed number of slots: link-test peers and
 /// watchers. Each sends one type of datagram, which keeps its slot, and gets one type in return, at its validated
-/// address. Nothing that they send reaches a seat or a tool.
+/// address. Nothing that they send reaches a seat or a tool. A peer that was silent for too long gets nothing, and its
+/// slot is free. Its next datagram connects it again, unless another peer has the slot by then.
 class PeerSlots {
  public:
   /// @param count        number of slots
@@ -38,8 +39,8 @@ class PeerSlots {
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// A connected peer may get a datagram at every tick.
   [[nodiscard]] bool any_every_tick() const noexcept { return any_every_tick_; }
-  /// Removes a peer: it receives CLOSE, then its slot is free. @return false if the slot does not hold connection
-  /// `cid`
+  /// Removes a peer: it receives CLOSE, then its slot is free. A silent one cannot connect again.
+  /// @return false if the slot does not hold connection `cid`
   bool remove(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept;
 
   /// Takes a datagram. CLOSE frees the slot.
@@ -50,8 +51,7 @@ class PeerSlots {
   template <class Decode>
   bool on_datagram(Time now, const PeerAddress& from, const transport::Header& header, std::span<const std::byte> bytes,
                    PathTokens& tokens, wire::Type asks, Decode&& decode) noexcept {
-    const auto found = std::ranges::find_if(
-        peers_, [&](const Peer& v) { return v.connected && v.connection->link().own_cid() == header.cid; });
+    const auto found = std::ranges::find_if(peers_, [&](const Peer& v) { return v.holds(header.cid); });
     if (found == peers_.end()) return false;
     may_send_ = true;  // a challenge
     Connection& connection = *found->connection;
@@ -63,9 +63,12 @@ class PeerSlots {
         connection.link().drop_body();
       } else if (opened->newer) {
         connection.on_accepted_message(now, from, *opened, decoded->preamble, tokens);
+        found->stage = Stage::kConnected;
+        any_ = true;
+        any_every_tick_ |= found->every_tick;
       }
     } else if (opened->type == wire::Type::kClose && codec_.decode_close(opened->plaintext)) {
-      found->connected = false;
+      found->stage = Stage::kFree;
     } else {
       connection.link().drop_body();
     }
@@ -74,8 +77,8 @@ class PeerSlots {
 
   /// A peer gets CLOSE, at every tick.
   [[nodiscard]] bool closing() const noexcept { return removing_ || session_end_->sends_close(); }
-  /// Removes peers that have been silent for more than 2 s, and marks the datagrams of this tick. A tick without a turn
-  /// of any peer needs no call, unless `closing`.
+  /// Frees the slots of peers that have been silent for more than 2 s, and marks the datagrams of this tick. A tick
+  /// without a turn of any peer needs no call, unless `closing`.
   /// @param turn_every_tick  an answer is due to peers that may get one at every tick
   /// @param turn             an answer is due to the others
   /// @return whether an answer is due to a peer
@@ -90,7 +93,7 @@ class PeerSlots {
                                                       Answer&& answer) noexcept {
     if (!may_send_) return std::nullopt;
     for (Peer& v : peers_) {
-      if (!v.connected) continue;
+      if (v.stage != Stage::kConnected) continue;
       if (const auto challenge = v.connection->poll_challenge(now, tick, codec_, buffer)) return challenge;
       if (!v.send_due) continue;
       v.send_due = false;
@@ -105,11 +108,23 @@ class PeerSlots {
   }
 
  private:
+  enum class Stage : std::uint8_t {
+    kFree,    ///< never held, or its peer has left or was removed
+    kSilent,  ///< free too, but its peer may connect again
+    kConnected,
+  };
   struct Peer {
     std::optional<Connection> connection;  ///< kept after the peer has left, until another joins
-    bool connected = false, send_due = false, every_tick = true;
+    Stage stage = Stage::kFree;
+    bool send_due = false, every_tick = true;
     unsigned closes_left = 0;  ///< CLOSE datagrams still to send to a removed peer
     wire::CloseReason close_reason = wire::CloseReason::kRemoved;
+
+    [[nodiscard]] bool holds(std::uint32_t cid) const noexcept {
+      return stage != Stage::kFree && connection->link().own_cid() == cid;
+    }
+    /// Changes to kSilent if the peer is silent. A peer that is being removed then leaves.
+    void update(Time now) noexcept;
   };
   /// Why the datagram that is due is CLOSE; nullopt: it is an answer.
   [[nodiscard]] std::optional<wire::CloseReason> close_reason(Peer& peer) const noexcept;

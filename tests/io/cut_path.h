@@ -46,7 +46,9 @@ class CutPath {
 
   [[nodiscard]] const std::string& address() const { return address_; }
   void cut() { cut_ = true; }
-  void heal() { cut_ = false; }
+  /// TCP only passes, as through a firewall that blocks UDP.
+  void cut_datagrams() { datagrams_cut_ = true; }
+  void heal() { cut_ = datagrams_cut_ = false; }
 
  private:
   struct Pipe {
@@ -72,7 +74,7 @@ class CutPath {
         files.push_back({pipe.server.get(), POLLIN, 0});
       }
     ::poll(files.data(), files.size(), 5);
-    forward_datagrams(cut);
+    forward_datagrams(cut || datagrams_cut_);
     if (cut) return;
     accept();
     for (Pipe& pipe : pipes_) {
@@ -124,7 +126,7 @@ class CutPath {
   io::Fd tcp_, udp_;
   std::list<Pipe> pipes_;
   std::list<Peer> peers_;
-  std::atomic<bool> cut_{false}, stopping_{false};
+  std::atomic<bool> cut_{false}, datagrams_cut_{false}, stopping_{false};
   std::thread thread_;
 };
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include "tests/common/auth/io/from_address.h"
 #include "tests/io/multi_client_fixture.h"
 #include "tests/io/web_fixture.h"
 
@@ -59,6 +60,34 @@ TEST(GatewayAccess, RefusesForeignHostsAndOrigins) {
   EXPECT_TRUE(none.read().is_null()) << "nothing without a cookie";
   EXPECT_EQ(none.close_code(), 4401U);
   EXPECT_NE(none.close_reason().find("/join"), std::string::npos);
+  EXPECT_EQ(gateway.page().status(), 101U);
+}
+
+// All of 127.0.0.0/8 is this computer, so that 127.0.0.2 acts as another one.
+TEST(GatewayAccess, IsPossibleBesideAComputerWithManyConnections) {
+  const Process host = hosting("one_axis");
+  WebGateway gateway(address_of(host), {"--audience", "20"});
+  gateway.open_url();
+  const auto at = *io::parse_address("127.0.0.1:" + std::to_string(gateway.at.port), 1);
+  const std::string request = "GET / HTTP/1.1\r\nHost: " + gateway.at.host_header() + "\r\n\r\n";
+  for (const std::string& sent : {std::string(), request.substr(0, 20), request}) {
+    std::vector<io::Fd> others;
+    for (int n = 0; n < 400; ++n) {
+      others.push_back(server::test::silent_from("127.0.0.2", at));
+      static_cast<void>(::send(others.back().get(), sent.data(), sent.size(), MSG_NOSIGNAL));
+    }
+    for (int n = 0; n < 10; ++n) EXPECT_EQ(http_get(gateway.at, "/").status, 200U) << n << " beside " << sent;
+    EXPECT_EQ(gateway.page().status(), 101U);
+  }
+}
+
+TEST(GatewayAccess, IsPossibleBesideManyWebSocketsWithoutACookie) {
+  const Process host = hosting("one_axis");
+  WebGateway gateway(address_of(host));
+  gateway.open_url();
+  std::vector<WebPage> others;
+  for (int n = 0; n < 80; ++n) others.emplace_back(gateway.at, "");
+  EXPECT_EQ(others.back().status(), 503U);
   EXPECT_EQ(gateway.page().status(), 101U);
 }
 

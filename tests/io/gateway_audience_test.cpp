@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/io/cut_path.h"
 #include "tests/io/multi_client_fixture.h"
 #include "tests/io/web_fixture.h"
 
@@ -120,14 +121,40 @@ TEST(GatewayAudience, GivesThePlaceOfAPageThatVanishedToAnother) {
   EXPECT_EQ(status, 101U);
 }
 
-TEST(GatewayAudience, SaysThatItsConnectionIsLost) {
-  const MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
+/// A gateway whose audience watches by a ticket.
+WebGateway with_ticket(const MultiClientFixture& fixture, const std::string& server) {
   Process made({TANDEM_SERVER, "ticket", "--session", "a", "--workstation", "desk", "--role", "observer", "--state",
                 fixture.state});
   EXPECT_EQ(made.wait(), 0) << made.err();
   fixture.folder.write("observer.ticket", made.out());
-  WebGateway gateway(fixture.address, {"--sign-in", "--state", fixture.own, "--audience", "5", "--audience-ticket",
-                                       fixture.folder.file("observer.ticket")});
+  return WebGateway(server, {"--sign-in", "--state", fixture.own, "--audience", "5", "--audience-ticket",
+                             fixture.folder.file("observer.ticket")});
+}
+
+TEST(GatewayAudience, SeesLiveValuesAgainAfterAGapOfTheNetwork) {
+  const MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
+  CutPath path(fixture.address);
+  const WebGateway gateway = with_ticket(fixture, path.address());
+  WebPage page(gateway.at, cookie_of(watch(gateway.at)));
+  ASSERT_FALSE(state_where(page, is_live).is_null());
+  const auto notices = [&page](const char* server) {
+    return !page.until([&](const Json& m) { return m["type"] == "notice" && m.value("server", "") == server; })
+                .is_null();
+  };
+  path.cut_datagrams();
+  ASSERT_FALSE(state_where(page, [](const Json& state) { return !is_live(state); }).is_null());
+  path.heal();
+  EXPECT_FALSE(state_where(page, is_live).is_null()) << "its ticket was used";
+  path.cut();
+  ASSERT_TRUE(notices("lost"));
+  path.heal();
+  EXPECT_TRUE(notices("back")) << "its ticket was used";
+  EXPECT_FALSE(state_where(page, is_live).is_null());
+}
+
+TEST(GatewayAudience, SaysThatItsConnectionIsLost) {
+  const MultiClientFixture fixture{"session { name: \"a\" scene: \"one_axis\" }"};
+  WebGateway gateway = with_ticket(fixture, fixture.address);
   ASSERT_EQ(watch(gateway.at).status, 303U);
   fixture.host.signal(SIGKILL);
   HttpReply reply;

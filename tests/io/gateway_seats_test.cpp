@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/io/cut_path.h"
 #include "tests/io/web_fixture.h"
 
 namespace tandem::test {
@@ -121,6 +122,20 @@ TEST(BrowserSeats, AreRefusedWithTheReason) {
     EXPECT_EQ(over["joined"], false);
     EXPECT_NE(over["ended"].get<std::string>().find(seat), std::string::npos) << over;
   }
+}
+
+TEST(BrowserSeats, EndWithTheReasonIfNoDatagramArrives) {
+  const Process host = hosting("one_axis");
+  CutPath path(address_of(host));
+  path.cut_datagrams();
+  WebGateway gateway(path.address(), {"--allow-browser-seats"});
+  gateway.open_url();
+  WebPage page = gateway.page();
+  EXPECT_EQ(take(page, "trainer")["ok"], true);
+  const Json over = seat_where(page, [](const Json& seat) { return seat["ended"].is_string(); });
+  ASSERT_FALSE(over.is_null());
+  EXPECT_NE(over["ended"].get<std::string>().find("may block UDP"), std::string::npos) << over;
+  EXPECT_EQ(take(page, "trainee")["ok"], true) << "the place at the gateway is free";
 }
 
 TEST(BrowserSeats, EndWithTheGateway) {

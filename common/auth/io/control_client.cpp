@@ -103,7 +103,8 @@ std::expected<ControlClient, ClientError> ControlClient::connect(const io::Socke
     return std::unexpected(ClientError{
         ClientError::Kind::kUnreachable, StreamErrorCode::kNetwork,
         where + (late ? " does not answer; check the address and the firewalls"
-                      : " cannot be reached: " + failed.message() + "; check that tandem-server runs there")});
+                      : " cannot be reached: " + failed.message() + "; check that tandem-server runs there"),
+        failed == asio::error::connection_refused});
   asio::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   state->stream = ControlStream::make(std::move(socket), state->tls.context(), ControlStream::Side::kClient);

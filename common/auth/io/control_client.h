@@ -18,6 +18,7 @@ struct ClientError {
   enum class Kind { kUnreachable, kRefusedKey, kStream, kBadFrame, kInterrupted } kind = Kind::kStream;
   StreamErrorCode end = StreamErrorCode::kNetwork;  ///< for kStream
   std::string text;                                 ///< for users
+  bool absent = false;                              ///< for kUnreachable: no program listens there
 };
 
 /// A client's control connection with blocking calls. Each step has a deadline and ends at once when `signals` becomes

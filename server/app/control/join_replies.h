@@ -1,17 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "proto/rpc/rpc_messages.h"
 #include "server/app/control/join_handler.h"
 #include "server/app/control/session_entry.h"
-#include "server/session/connection_id.h"
 
 namespace tandem::server {
 
@@ -57,26 +51,12 @@ namespace tandem::server {
   return std::nullopt;
 }
 
-/// A Welcome with fresh connection id and resume secret.
-[[nodiscard]] inline rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes,
-                          const std::string& seat = {}, std::vector<std::byte> setup = {}, std::string person = {}) {
-  const SessionRegistration& session = entry.registration;
-  const auto drawn = auth::random_bytes<std::array<std::byte, 2>>();
-  const bool aes = has_aes && transport::fastest_cipher() == transport::Cipher::kAes256Gcm;
-  return {.session_id = session.id,
-          .session_name = session.name,
-          .epoch = session.epoch,
-          .server_cid = connection_id(static_cast<std::uint16_t>(std::to_integer<unsigned>(drawn[0]) << 8 |
-                                                                 std::to_integer<unsigned>(drawn[1])),
-                                      entry.session().slot(), place),
-          .cipher = aes ? rpc::Cipher::kAes256Gcm : rpc::Cipher::kChaCha20Poly1305,
-          .seat = seat,
-          .role = role,
-          .setup = std::move(setup),
-          .udp_port = session.shard->address().port(),
-          .resume_secret = Secret<32>{auth::random_bytes<std::array<std::byte, 32>>()},
-          .limits = {},
-          .person = std::move(person)};
+/// As `nothing_to_resume`, to a console.
+[[nodiscard]] inline rpc::ErrorReply console_is_gone() {
+  return {rpc::ErrorCode::kResume,
+          "this console cannot come back: its connection ended more than 60 s ago, or at another server; ask an "
+          "operator for a new ticket",
+          0};
 }
 
 }  // namespace tandem::server

@@ -10,6 +10,7 @@
 #include "common/io/log.h"
 #include "server/app/control/audit_writer.h"
 #include "server/app/control/join_replies.h"
+#include "server/app/control/new_welcome.h"
 #include "server/app/control/setup_bytes.h"
 #include "server/app/control/slot_join.h"
 #include "server/policy/roles.h"
@@ -194,31 +195,27 @@ void SessionJoins::release_consoles(SessionEntry& entry) {
 
 void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
                                 std::function<void(JoinReply)> answer) {
-  const auto* ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential);
-  if (ticket == nullptr)
+  const auto* const ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential);
+  if (ticket == nullptr && !std::holds_alternative<rpc::ResumeCredential>(request.hello.credential))
     return answer(ErrorReply{ErrorCode::kNoSeat,
                              "a join without a seat needs a ticket, such as from " +
                                  ticket_command(entry, request.hello.watch ? "--role observer" : "--role operator",
                                                 request.workstation.name) +
                                  "; seats: " + entry.session().seat_catalogue().seat_names(),
                              0});
-  const auto role = auth::claimed_role(ticket->bytes);
+  const auto role = ticket != nullptr ? auth::claimed_role(ticket->bytes) : std::nullopt;
   if (role && !may_join_console(*role))
     return answer(ErrorReply{ErrorCode::kNotAllowed,
                              "the role " + std::string(to_text(*role)) +
                                  " may see nothing of a session without a seat; ask for a ticket with one",
                              0});
-  if (!request.hello.watch) return answer(admit_console(entry, request, *ticket, kConsolePlace));
+  if (!request.hello.watch) return answer(admit_console(entry, request, kConsolePlace));
   reserve_slot(
       registry_, entry, entry.watchers, ShardRequest::Peers::kWatchers, "places of watching consoles",
-      [this, &entry, request, ticket = *ticket](std::uint8_t place) {
-        return admit_console(entry, request, ticket, place);
-      },
-      std::move(answer));
+      [this, &entry, request](std::uint8_t place) { return admit_console(entry, request, place); }, std::move(answer));
 }
 
-JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& request,
-                                      const rpc::TicketCredential& ticket, std::uint8_t place) {
+JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& request, std::uint8_t place) {
   std::vector<std::byte> scene;
   if (request.hello.watch) {
     scene = encoded(entry.scene());
@@ -229,11 +226,20 @@ JoinReply SessionJoins::admit_console(SessionEntry& entry, const JoinRequest& re
                                wire::kSetupMax),
                         0};
   }
-  const auto redeemed = tickets_.redeem(entry, request, ticket, std::nullopt, io::monotonic_now());
+  const bool aes = request.hello.has_aes;
+  if (const auto* const resume = std::get_if<rpc::ResumeCredential>(&request.hello.credential)) {
+    const auto* const own = entry.consoles.may_come_back(resume->secret, request.workstation, io::monotonic_now());
+    if (own == nullptr) return console_is_gone();
+    rpc::Welcome w = make_welcome(entry, place, own->role, aes, "", std::move(scene), own->person);
+    w.resume_secret = resume->secret;
+    return w;
+  }
+  const auto redeemed = tickets_.redeem(entry, request, std::get<rpc::TicketCredential>(request.hello.credential),
+                                        std::nullopt, io::monotonic_now());
   if (!redeemed) return redeemed.error();
-  rpc::Welcome w =
-      make_welcome(entry, place, redeemed->role, request.hello.has_aes, "", std::move(scene), redeemed->person);
-  entry.consoles.add(w.resume_secret, redeemed->ticket_id);
+  rpc::Welcome w = make_welcome(entry, place, redeemed->role, aes, "", std::move(scene), redeemed->person);
+  entry.consoles.add(w.resume_secret, w.server_cid,
+                     {redeemed->ticket_id, redeemed->role, redeemed->person, request.workstation});
   return w;
 }
 
@@ -256,7 +262,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
   if (is_console(welcome)) {
-    entry->consoles.join(welcome.resume_secret);
+    entry->consoles.join(welcome.resume_secret, welcome.server_cid);
     entry->keep_consoles();
     io::log_event(io::Level::kInfo,
                   {.event = "console-joined",
@@ -294,7 +300,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
       joins.every_tick = recorder;
       joins.done = [this, entry, occupy, welcome](ShardRequest& asked) {
         occupy(entry->watchers, asked);
-        if (!entry->consoles.contains(welcome.resume_secret)) stop_watching(*entry, welcome);  // it has gone already
+        if (!is_current(welcome)) stop_watching(*entry, welcome);  // it has gone already
       };
     } else {
       joins.done = [entry, occupy](ShardRequest& asked) { occupy(entry->link_tests, asked); };
@@ -330,7 +336,7 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
     return tickets_.restore(entry->seats[seat_index(welcome)].end_join(), welcome.session_name, welcome.person);
   if (!is_console(welcome)) return entry->link_tests.cancel_join();
   if (is_watcher(welcome)) entry->watchers.cancel_join();
-  tickets_.restore(entry->consoles.take(welcome.resume_secret), welcome.session_name, welcome.person);
+  tickets_.restore(entry->consoles.take(welcome.resume_secret, welcome.server_cid), welcome.session_name, welcome.person);
   entry->keep_consoles();
 }
 
@@ -341,6 +347,9 @@ void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& wor
   if (std::as_const(registry_).find(named) == nullptr)
     if (auto away = redirect_.find(named, joined.version >= rpc::kVersionOfServices))
       return std::visit([&](auto& reply) { answer(std::move(reply)); }, *away);
+  const SessionEntry* const entry = std::as_const(registry_).find(joined.session_id);
+  if (entry != nullptr && is_console(joined) && entry->consoles.replaced(joined.resume_secret, joined.server_cid))
+    return answer(ErrorReply{ErrorCode::kNotAllowed, "this console came back over another connection", 0});
   commands_.execute(joined, workstation, std::move(command), std::move(answer));
 }
 
@@ -348,7 +357,7 @@ bool SessionJoins::is_current(const rpc::Welcome& joined) const {
   const SessionEntry* const entry = std::as_const(registry_).find(joined.session_id);
   if (entry == nullptr) return false;
   if (!joined.seat.empty()) return entry->seats[seat_index(joined)].owned_by(joined.server_cid);
-  return is_console(joined) ? entry->consoles.contains(joined.resume_secret)
+  return is_console(joined) ? entry->consoles.contains(joined.resume_secret, joined.server_cid)
                             : entry->link_tests.find(joined.server_cid).has_value();
 }
 
@@ -368,10 +377,13 @@ void SessionJoins::on_disconnected(const rpc::Welcome& joined, bool in_vain) {
   SessionEntry* const entry = registry_.find(joined.session_id);
   if (entry == nullptr || !is_console(joined)) return;
   stop_watching(*entry, joined);
-  const auto ticket = entry->consoles.take(joined.resume_secret);
-  entry->keep_consoles();
+  ConsoleTickets& consoles = entry->consoles;
   const bool commands = allowed(joined.role, Right::kStopSession) != Grant::kNo && !watches_only(joined.role);
-  if (in_vain && commands) tickets_.restore(ticket, joined.session_name, joined.person);
+  if (in_vain && commands && !consoles.came_back(joined.resume_secret))
+    tickets_.restore(consoles.take(joined.resume_secret, joined.server_cid), joined.session_name, joined.person);
+  else
+    consoles.leave(joined.resume_secret, joined.server_cid, io::monotonic_now());
+  entry->keep_consoles();
 }
 
 }  // namespace tandem::server

@@ -50,9 +50,8 @@ class SessionJoins final : public JoinHandler {
 
  private:
   void join_console(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
-  /// Redeems the ticket of a console. @param place  in its connection id
-  [[nodiscard]] JoinReply admit_console(SessionEntry& entry, const JoinRequest& request,
-                                        const rpc::TicketCredential& ticket, std::uint8_t place);
+  /// Redeems the ticket of a console, or finds the right of one that comes back. @param place  in its connection id
+  [[nodiscard]] JoinReply admit_console(SessionEntry& entry, const JoinRequest& request, std::uint8_t place);
   void join_link_test(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
   void join_seat(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
   /// Decides after the session has reported the state of the seat. A ticket is redeemed last, because it is then used.

@@ -19,6 +19,10 @@ constexpr double kLost = 5;            // silence of the server that ends the se
 constexpr int kPeriodMs = 16;          // between two pictures
 constexpr std::size_t kSamples = 256;  // ticks between two pictures, with a margin
 constexpr const char* kDevice = "sim:keyboard";
+constexpr const char* kServerLost = "the server was lost; take the seat again";
+constexpr const char* kNeverHeard =
+    "the server admitted the seat, but no datagram arrives; a firewall between this gateway and the server may block "
+    "UDP. `tandem-client link-test` on the gateway's computer judges the link";
 
 std::string end_text(wire::CloseReason why) {
   switch (why) {
@@ -149,7 +153,7 @@ std::string BrowserSeat::watch(Held& held) {
              : held.runner.device_lost() ? "the simulated device ended"
                                          : end_text(status.close_reason);
     if (leaving && now - *leaving > kLeave) return "left";
-    if (!leaving && status.heard && status.silence_s > kLost) return "the server was lost; take the seat again";
+    if (!leaving && status.silence_s > kLost) return status.heard ? kServerLost : kNeverHeard;
     aim(held, now);
     if (!sampled) continue;
     update([&](SeatPicture& picture) {

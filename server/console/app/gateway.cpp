@@ -56,7 +56,7 @@ Gateway::Gateway(Options options, GatewayLinks links, std::shared_ptr<Mailbox> m
     audience_->link = std::make_shared<ServerLink>(std::move(link), std::move(links.audience));
     views_.add(audience_->link);
     audience_secret_ = random_secret();
-    static_cast<void>(browsers_.add(audience_secret_, audience_, true, io::monotonic_now()));  // the first cookie
+    static_cast<void>(browsers_.add(audience_secret_, audience_, CookieLife::kPinned, io::monotonic_now()));
   }
 }
 
@@ -123,7 +123,7 @@ std::string Gateway::redeem(std::string_view token, Time now) {
   for (OneTimeToken& waiting : tokens_) redeemed = waiting.redeem(token, now) || redeemed;
   if (!house_ || !redeemed) return {};
   std::string secret = random_secret();
-  return browsers_.add(secret, house_, true, now) ? secret : std::string{};
+  return browsers_.add(secret, house_, CookieLife::kLasting, now) ? secret : std::string{};
 }
 
 bool Gateway::has_person(const rpc::Id& session) const {
@@ -167,7 +167,7 @@ void Gateway::finish(std::uint64_t number, const std::expected<void, std::string
   person->proved = !picture->person.empty();
   person->name = person->proved ? picture->person : name_for(person->name, picture->role);
   std::string secret = random_secret();
-  if (!browsers_.add(secret, person, false, io::monotonic_now()))
+  if (!browsers_.add(secret, person, CookieLife::kIdle, io::monotonic_now()))
     return done(std::unexpected("64 browsers are open already; close one, then ask for a new ticket"));
   if (watch) views_.add(person->link);
   done(secret);

@@ -33,8 +33,14 @@ beast::string_view boosted(std::string_view text) { return {text.data(), text.si
 
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(WebStream stream, WebState& state, const auth::Source& from)
-      : stream_(std::move(stream)), state_(state), from_(from), slot_(state.http) {}
+  HttpConnection(WebStream stream, WebState& state, const auth::Origin& from)
+      : stream_(std::move(stream)),
+        state_(state),
+        from_(from),
+        slot_(state.http.arrive(from, io::monotonic_now(), [this] { stream_.close(); })) {}
+  ~HttpConnection() { state_.http.leave(slot_); }
+  HttpConnection(const HttpConnection&) = delete;
+  HttpConnection& operator=(const HttpConnection&) = delete;
 
   void start() {
     stream_.lowest().expires_after(kTimeout);
@@ -66,12 +72,14 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   void on_request() {
+    state_.http.on_request(slot_);
     const std::string_view host = view(request_[http::field::host]), target = view(request_.target());
     if (!host_allowed(host))
       return answer(http::status::misdirected_request, "open the address that tandem-console printed\n");
     const std::string cookie(cookie_value(view(request_[http::field::cookie]), "tandem"));
     const bool own_origin = origin_allowed(view(request_[http::field::origin]), host, state_.tls != nullptr);
     auto person = state_.gateway.browsers().find(cookie);
+    if (person && !person->audience) state_.http.note(from_, io::monotonic_now());
     if (is_upgrade()) return upgrade(target, own_origin, std::move(person), cookie);
     if (request_.method() == http::verb::post) {
       if (target != "/join") return answer(http::status::not_found, "no such address\n");
@@ -110,12 +118,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void upgrade(std::string_view target, bool own_origin, std::shared_ptr<Person> person, const std::string& cookie) {
     if (target != "/live") return answer(http::status::not_found, "the WebSocket is /live\n");
     if (!own_origin) return answer(http::status::forbidden, "only the page of this gateway may open it\n");
-    const bool watches = person && person->audience;
-    if (watches ? state_.audience >= state_.gateway.audience_max() : state_.live >= kLiveMax)
-      return answer(http::status::service_unavailable, "too many pages are open already\n");
+    std::size_t& open = !person ? state_.strangers : person->audience ? state_.audience : state_.live;
+    const std::size_t most = !person ? kStrangersMax : person->audience ? state_.gateway.audience_max() : kLiveMax;
+    if (open >= most) return answer(http::status::service_unavailable, "too many pages are open already\n");
     stream_.lowest().expires_never();
+    state_.http.leave(slot_);
     open_live_socket(std::move(stream_), request_, state_.gateway, state_.sockets, std::move(person), cookie,
-                     ConnectionSlot(watches ? state_.audience : state_.live));
+                     ConnectionSlot(open));
   }
 
   /// @param known  the browser has the cookie of a person already, and keeps it
@@ -147,12 +156,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const auto body = parse_join_body(type, request_.body());
     request_.body().clear();  // it has the ticket
     if (!body) return refuse_join(http::status::bad_request, form, body.error());
-    const auto begun =
-        state_.gateway.join(*body, from_, io::monotonic_now(), [self = shared_from_this(), form](const auto& secret) {
-          if (!secret) return self->refuse_join(http::status::forbidden, form, secret.error());
-          if (form) return self->redirect("/", *secret);
-          self->answer_json(http::status::ok, true, "", *secret);
-        });
+    const auto begun = state_.gateway.join(*body, auth::Source::of(from_), io::monotonic_now(),
+                                           [self = shared_from_this(), form](const auto& secret) {
+                                             if (!secret)
+                                               return self->refuse_join(http::status::forbidden, form, secret.error());
+                                             if (form) return self->redirect("/", *secret);
+                                             self->answer_json(http::status::ok, true, "", *secret);
+                                           });
     if (!begun)
       refuse_join(begun.error().busy ? http::status::too_many_requests : http::status::bad_request, form,
                   begun.error().why);
@@ -267,8 +277,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   WebStream stream_;
   WebState& state_;
-  auth::Source from_;
-  ConnectionSlot slot_;
+  auth::Origin from_;
+  HttpSlots::Id slot_;
   beast::flat_buffer buffer_{kHeaderMax + kJoinBodyMax};
   std::optional<http::request_parser<http::string_body>> parser_;
   Request request_;
@@ -277,7 +287,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
 }  // namespace
 
-void serve_http(WebStream stream, WebState& state, const auth::Source& from) {
+void serve_http(WebStream stream, WebState& state, const auth::Origin& from) {
   std::make_shared<HttpConnection>(std::move(stream), state, from)->start();
 }
 

@@ -138,6 +138,7 @@ void ServerLink::adopt(JoinedLink joined) {
   feed_.reset();
   follows_until_.reset();
   console_ = std::move(joined.console);
+  comes_back_ = !options_.again;
   std::shared_ptr<const SceneSpec> scene;
   if (joined.feed) scene = std::make_shared<const SceneSpec>(joined.feed->scene());
   update([&](LivePicture& picture) {
@@ -171,7 +172,7 @@ void ServerLink::adopt(JoinedLink joined) {
 void ServerLink::lose(const std::string& why, bool answers) {
   feed_.reset();
   console_.connection.reset();
-  if (!options_.again && console_.service) follows_until_ = Clock::now() + kFollow;
+  if (!options_.again && (console_.service || !answers)) follows_until_ = Clock::now() + kFollow;
   update([&](LivePicture& picture) {
     picture.connected = false;
     picture.again = joins_again();
@@ -191,8 +192,23 @@ void ServerLink::stop_following(const std::string& why) {
   });
 }
 
+client::JoinOptions ServerLink::join_options() const {
+  client::JoinOptions options = options_.join;
+  if (comes_back_) options.back = client::ConsoleReturn{console_.welcome.session_id, console_.welcome.resume_secret};
+  return options;
+}
+
+std::expected<JoinedLink, client::JoinError> ServerLink::join_once() {
+  auto joined = join_link(join_options(), options_.watch);
+  const auto refused = joined ? std::nullopt : joined.error().refused;
+  // An older server knows no secret of a console.
+  if (!comes_back_ || (refused != rpc::ErrorCode::kResume && refused != rpc::ErrorCode::kNoSeat)) return joined;
+  comes_back_ = false;
+  return join_link(options_.join, options_.watch);
+}
+
 bool ServerLink::join() {
-  auto joined = join_link(options_.join, options_.watch);
+  auto joined = join_once();
   if (options_.joined) {
     const auto report = std::exchange(options_.joined, {});
     if (joined) {
@@ -204,7 +220,9 @@ bool ServerLink::join() {
     return false;
   }
   if (!joined) {
-    if (joined.error().ticket_refused) stop_following(joined.error().reason);
+    const client::JoinError& why = joined.error();
+    const bool over = why.absent || (why.refused && is_final(*why.refused));
+    if (why.refused == rpc::ErrorCode::kTicket || (over && !console_.service)) stop_following(why.reason);
     return false;
   }
   adopt(std::move(*joined));
@@ -285,8 +303,12 @@ void ServerLink::ask_notes(std::uint32_t newest) {
 
 /// Joins once more if datagrams are missing, beside the connection that works.
 void ServerLink::regain_feed() {
-  auto joined = join_link(options_.join, true);
-  if (joined && joined->feed) adopt(std::move(*joined));
+  client::JoinOptions options = join_options();
+  options.watch = true;
+  auto feed = client::TelemetryFeed::open(options);
+  if (!feed) return;
+  client::Console console = feed->console();
+  adopt({std::move(console), newest()->status, std::move(*feed)});
 }
 
 void ServerLink::execute(const rpc::Body& body, const Reply& reply) {
@@ -332,7 +354,7 @@ void ServerLink::work() {
     hold.unlock();
     if (!console_.connection) {
       const bool first = options_.joined != nullptr;
-      if (!first && !joins_again()) {  // a ticket is valid once
+      if (!first && !joins_again()) {
         stop_following();
         hold.lock();
         wake_.wait(hold, [this] { return over_ || !orders_.empty(); });
@@ -354,7 +376,8 @@ void ServerLink::work() {
     }
     if (live()) {
       watched = asked;
-    } else if (good && console_.connection && options_.again && options_.watch && asked - watched >= kFeedRetry) {
+    } else if (good && console_.connection && options_.watch && (options_.again || (comes_back_ && !feed_)) &&
+               asked - watched >= kFeedRetry) {
       watched = asked;
       regain_feed();
     }

@@ -37,14 +37,14 @@ struct JoinedLink {
 class ServerLink final : public LiveSource {
  public:
   static constexpr std::size_t kOrdersMax = 16;
-  static constexpr std::chrono::seconds kFollow{15};
+  static constexpr std::chrono::seconds kFollow{60};
 
   struct Options {
     client::JoinOptions join;  ///< `signals` is not used
     bool watch = true;         ///< with datagrams
-    /// Joins again whenever the connection is lost. Without it a link follows a session that its service has moved to
-    /// another server, for kFollow, or until its ticket is refused: the old server makes the tickets of consoles valid
-    /// again.
+    /// Joins by itself whenever the connection is lost. Without it a link has a ticket, which is valid once. It then
+    /// tries for kFollow to come back with the secret of its Welcome. In a service it also follows a session to another
+    /// server, until its ticket is refused: the old server makes the tickets of consoles valid again.
     bool again = false;
     bool list = false;                ///< also reads the list of the server's sessions
     std::function<void()> news = {};  ///< called by any thread after a new picture
@@ -76,6 +76,10 @@ class ServerLink final : public LiveSource {
   /// @param answers  the server itself ended the connection's rights, or named another server
   void lose(const std::string& why, bool answers = false);
   [[nodiscard]] bool join();
+  /// Joins as the options say, or comes back with the secret of the last Welcome.
+  [[nodiscard]] std::expected<JoinedLink, client::JoinError> join_once();
+  /// Options of a join: with the secret if the link comes back.
+  [[nodiscard]] client::JoinOptions join_options() const;
   [[nodiscard]] bool joins_again() const;
   /// @param why  the server gave, which the picture then has in place of the cause of the loss; empty: none
   void stop_following(const std::string& why = {});
@@ -102,7 +106,8 @@ class ServerLink final : public LiveSource {
   client::Console console_;
   std::unique_ptr<FeedThread> feed_;
   std::optional<JoinedLink> first_;
-  std::optional<std::chrono::steady_clock::time_point> follows_until_;  ///< after a loss in a service
+  std::optional<std::chrono::steady_clock::time_point> follows_until_;  ///< after a loss, if it has a ticket
+  bool comes_back_ = false;  ///< with the secret of the Welcome in `console_`, which no server has refused
   std::uint32_t notes_after_ = 0, notes_known_ = 0;  ///< last note read; newest note of the server when all were read
   bool notes_again_ = false;                         ///< all notes must be read again
   bool scenes_stale_ = true;

@@ -28,12 +28,9 @@ using Tcp = net::ip::tcp;
 constexpr std::chrono::milliseconds kPeriod{50};
 constexpr int kSendBuffer = 65536;  // of a connection [bytes]: a slow browser gets few old states
 
-auth::Source source_of(const Tcp::socket& socket) {
-  Error error;
-  const net::ip::address address = socket.remote_endpoint(error).address();
-  if (error) return {};
-  if (address.is_v4()) return auth::Source::of(auth::Origin::v4(address.to_v4().to_uint()));
-  return auth::Source::of(auth::Origin::of_v6(address.to_v6().to_bytes()));
+auth::Origin origin_of(const net::ip::address& address) {
+  return address.is_v4() ? auth::Origin::v4(address.to_v4().to_uint())
+                         : auth::Origin::of_v6(address.to_v6().to_bytes());
 }
 
 /// TLS 1.2 and 1.3 with OpenSSL's own choice of ciphers, without compression and renegotiation.
@@ -73,15 +70,18 @@ class WebServer {
         retry_ = true;
         return;
       }
-      if (state_.http < kHttpMax + state_.gateway.audience_max()) {
-        static_cast<void>(socket.set_option(Tcp::no_delay{true}, error));
-        static_cast<void>(socket.set_option(net::socket_base::send_buffer_size{kSendBuffer}, error));
-        const auth::Source from = source_of(socket);
-        boost::beast::tcp_stream plain(std::move(socket));
-        serve_http(tls_ != nullptr ? WebStream(std::move(plain), *tls_) : WebStream(std::move(plain)), state_, from);
-      }
+      if (const Tcp::endpoint from = socket.remote_endpoint(error); !error) serve(std::move(socket), from.address());
       accept();
     });
+  }
+
+  void serve(Tcp::socket socket, const net::ip::address& from) {
+    Error ignored;
+    static_cast<void>(socket.set_option(Tcp::no_delay{true}, ignored));
+    static_cast<void>(socket.set_option(net::socket_base::send_buffer_size{kSendBuffer}, ignored));
+    boost::beast::tcp_stream plain(std::move(socket));
+    serve_http(tls_ != nullptr ? WebStream(std::move(plain), *tls_) : WebStream(std::move(plain)), state_,
+               origin_of(from));
   }
 
   void wait() {
@@ -153,7 +153,7 @@ std::expected<void, std::string> run_web_server(
     });
   };
   Gateway gateway(options.gateway, std::move(links), mailbox, news);
-  WebState state{gateway, options.tls ? &*options.tls : nullptr};
+  WebState state{gateway, options.tls ? &*options.tls : nullptr, HttpSlots(kHttpMax + gateway.audience_max())};
   std::optional<net::ssl::context> tls;
   if (options.tls) tls.emplace(tls_context(*options.tls));
   net::io_context context{1};  // ends before what its connections refer to

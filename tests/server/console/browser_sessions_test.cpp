@@ -22,8 +22,8 @@ std::shared_ptr<int> person(int number) { return std::make_shared<int>(number); 
 TEST(BrowserSessions, KnowAPersonByTheSecretOnly) {
   Sessions sessions{60s};
   EXPECT_EQ(sessions.find(""), nullptr);
-  ASSERT_TRUE(sessions.add("aa", person(1), true, Time{}));
-  ASSERT_TRUE(sessions.add("ab", person(2), true, Time{}));
+  ASSERT_TRUE(sessions.add("aa", person(1), CookieLife::kLasting, Time{}));
+  ASSERT_TRUE(sessions.add("ab", person(2), CookieLife::kLasting, Time{}));
   EXPECT_EQ(*sessions.find("aa"), 1);
   EXPECT_EQ(*sessions.find("ab"), 2);
   for (const char* wrong : {"", "a", "ac", "aaa", "AA"}) EXPECT_EQ(sessions.find(wrong), nullptr) << wrong;
@@ -31,8 +31,8 @@ TEST(BrowserSessions, KnowAPersonByTheSecretOnly) {
 
 TEST(BrowserSessions, EndSixtySecondsAfterTheLastSocket) {
   Sessions sessions{60s};
-  ASSERT_TRUE(sessions.add("ticket", person(1), false, Time{}));
-  ASSERT_TRUE(sessions.add("house", person(2), true, Time{}));
+  ASSERT_TRUE(sessions.add("ticket", person(1), CookieLife::kIdle, Time{}));
+  ASSERT_TRUE(sessions.add("house", person(2), CookieLife::kLasting, Time{}));
   sessions.opened("ticket");
   sessions.opened("ticket");
   EXPECT_EQ(sessions.expire(Time{} + 3600s), 0U) << "two sockets are open";
@@ -45,7 +45,7 @@ TEST(BrowserSessions, EndSixtySecondsAfterTheLastSocket) {
   EXPECT_EQ(sessions.expire(Time{} + 7260s), 1U);
   EXPECT_EQ(sessions.find("ticket"), nullptr);
   EXPECT_NE(sessions.find("house"), nullptr) << "it lasts";
-  ASSERT_TRUE(sessions.add("never", person(3), false, Time{} + 7260s));
+  ASSERT_TRUE(sessions.add("never", person(3), CookieLife::kIdle, Time{} + 7260s));
   EXPECT_EQ(sessions.expire(Time{} + 7320s), 1U) << "no socket ever came";
 }
 
@@ -53,7 +53,7 @@ TEST(BrowserSessions, ReleaseThePersonAtTheEnd) {
   Sessions sessions{60s};
   auto one = person(1);
   const std::weak_ptr<int> seen = one;
-  ASSERT_TRUE(sessions.add("a", std::move(one), false, Time{}));
+  ASSERT_TRUE(sessions.add("a", std::move(one), CookieLife::kIdle, Time{}));
   EXPECT_FALSE(seen.expired());
   sessions.expire(Time{} + 60s);
   EXPECT_TRUE(seen.expired()) << "the control connection ends with it";
@@ -62,16 +62,30 @@ TEST(BrowserSessions, ReleaseThePersonAtTheEnd) {
 TEST(BrowserSessions, AreBoundedAndForgetTheLongestIdle) {
   Sessions sessions{60s};
   for (std::size_t i = 0; i < Sessions::kMax; ++i)
-    ASSERT_TRUE(sessions.add("c" + std::to_string(i), person(0), i == 0, Time{} + std::chrono::seconds(i)));
+    ASSERT_TRUE(
+        sessions.add("c" + std::to_string(i), person(0), CookieLife::kLasting, Time{} + std::chrono::seconds(i)));
   sessions.opened("c0");
-  ASSERT_TRUE(sessions.add("new", person(0), false, Time{} + 100s));
+  ASSERT_TRUE(sessions.add("new", person(0), CookieLife::kIdle, Time{} + 100s));
   EXPECT_NE(sessions.find("c0"), nullptr) << "its socket is open";
   EXPECT_EQ(sessions.find("c1"), nullptr);
   EXPECT_NE(sessions.find("c2"), nullptr);
   for (std::size_t i = 2; i < Sessions::kMax; ++i) sessions.opened("c" + std::to_string(i));
   sessions.opened("new");
-  EXPECT_FALSE(sessions.add("more", person(0), false, Time{} + 200s)) << "all have open sockets";
+  EXPECT_FALSE(sessions.add("more", person(0), CookieLife::kIdle, Time{} + 200s)) << "all have open sockets";
   EXPECT_EQ(sessions.size(), Sessions::kMax);
+}
+
+// All browsers of an audience share one cookie, which the gateway makes once.
+TEST(BrowserSessions, KeepAPinnedCookieForAnyNumberOfOthers) {
+  Sessions sessions{60s};
+  ASSERT_TRUE(sessions.add("audience", person(1), CookieLife::kPinned, Time{}));
+  for (std::size_t i = 0; i < 2 * Sessions::kMax; ++i) {
+    const CookieLife life = i % 2 == 0 ? CookieLife::kLasting : CookieLife::kIdle;
+    ASSERT_TRUE(sessions.add("c" + std::to_string(i), person(2), life, Time{} + std::chrono::seconds(1 + i)));
+  }
+  EXPECT_NE(sessions.find("audience"), nullptr);
+  sessions.expire(Time{} + 3600s);
+  EXPECT_NE(sessions.find("audience"), nullptr);
 }
 
 // No order of calls ends a cookie with an open socket, or exceeds the bound.
@@ -88,7 +102,8 @@ TEST(BrowserSessions, KeepOpenOnesForAnyOrderOfCalls) {
       now += std::chrono::seconds(rng.below(20));
       switch (rng.below(4)) {
         case 0:
-          if (sessions.find(secret) == nullptr) static_cast<void>(sessions.add(secret, person(0), false, now));
+          if (sessions.find(secret) == nullptr)
+            static_cast<void>(sessions.add(secret, person(0), CookieLife::kIdle, now));
           break;
         case 1:
           if (sessions.find(secret) != nullptr) {

@@ -28,6 +28,7 @@ struct Watched : SessionFixture {
   struct Watcher {
     std::unique_ptr<SessionWatch> watch;
     std::uint8_t at = 0;
+    std::uint32_t cid = 0;  ///< at the session
     bool speaks = true;
     int telemetry = 0, datagrams = 0;  ///< received
   };
@@ -39,6 +40,7 @@ struct Watched : SessionFixture {
     watchers.back()->watch = std::make_unique<SessionWatch>(telemetry_layout(scene), session->seat_catalogue().tick(),
                                                             joined->channel_params);
     watchers.back()->at = static_cast<std::uint8_t>(200 + n);
+    watchers.back()->cid = joined->channel_params.peer_cid;
     return *watchers.back();
   }
   void step() {
@@ -229,6 +231,62 @@ TEST(Watchers, LoseTheirSlotAfterTwoSecondsOfSilence) {
   EXPECT_EQ(one.datagrams, 0);
   EXPECT_EQ(s.session->watchers().slots().places_free(s.now), Watchers::kMax);
   EXPECT_FALSE(s.session->watchers().any());
+}
+
+/// A watcher that sends nothing for 2.5 s, as if its datagrams were lost.
+Watched::Watcher& silent_one(Watched& s, bool recorder = false) {
+  Watched::Watcher& one = s.add(recorder);
+  s.steps(500);
+  one.speaks = false;
+  s.steps(2500);
+  EXPECT_FALSE(s.session->watchers().any());
+  one.speaks = true;
+  one.telemetry = 0;
+  return one;
+}
+
+TEST(Watchers, ReceiveAgainAfterASilence) {
+  for (const bool recorder : {false, true}) {
+    Watched s;
+    Watched::Watcher& one = silent_one(s, recorder);
+    for (std::size_t n = 1; n < Watchers::kMax; ++n) s.add();
+    s.steps(1000);
+    EXPECT_GT(one.telemetry, recorder ? 500 : 30) << "seven others leave its slot to it";
+  }
+}
+
+TEST(Watchers, DoNotReturnOnceAnotherHasTheirSlot) {
+  Watched s;
+  const Watched::Watcher& one = silent_one(s);
+  for (std::size_t n = 0; n < Watchers::kMax; ++n) s.add();
+  s.steps(1000);
+  EXPECT_EQ(one.telemetry, 0);
+  for (std::size_t n = 1; n <= Watchers::kMax; ++n) EXPECT_GT(s.watchers[n]->telemetry, 30) << n;
+}
+
+TEST(Watchers, DoNotReturnOnceTheyAreRemoved) {
+  Watched s;
+  const Watched::Watcher& one = silent_one(s);
+  EXPECT_TRUE(s.session->watchers().slots().remove(0, one.cid, wire::CloseReason::kRevoked));
+  s.steps(1000);
+  EXPECT_EQ(one.telemetry, 0);
+  EXPECT_FALSE(s.session->watchers().any());
+}
+
+TEST(Watchers, DoNotReturnByBytesThatAreNotTheirs) {
+  Watched s;
+  const Watched::Watcher& one = silent_one(s);
+  std::array<std::byte, transport::kDatagramMax> buffer;
+  const auto size = one.watch->poll_transmit(s.now, buffer);
+  ASSERT_TRUE(size);
+  for (std::size_t i = 0; i < *size; ++i) {
+    buffer[i] ^= std::byte{1};
+    s.session->on_datagram(s.now, address(one.at), std::span{buffer}.first(*size));
+    EXPECT_FALSE(s.session->watchers().any()) << i;
+    buffer[i] ^= std::byte{1};
+  }
+  s.session->on_datagram(s.now, address(one.at), std::span{buffer}.first(*size));
+  EXPECT_TRUE(s.session->watchers().any());
 }
 
 TEST(Watchers, FillEightSlotsAndAreRefusedThen) {

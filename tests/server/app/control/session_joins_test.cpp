@@ -207,6 +207,42 @@ TEST(SessionJoins, AdmitAConsoleOfADeadOwnerAgainByItsTicketAndOnlyThatOne) {
   EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kTicket);
 }
 
+/// A gap of the network ends a connection at its client first; the server may notice it a minute later.
+TEST(SessionJoins, AdmitAConsoleAgainByItsSecretAndItsOldConnectionNoMore) {
+  Joining j;
+  const JoinRequest request = Joining::request("", j.operators_ticket({std::byte{5}}));
+  const JoinReply first = j.join(request);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(first)) << error_of(first).text;
+  const rpc::Welcome before = std::get<rpc::Welcome>(first);
+  JoinRequest again = Joining::request("", rpc::ResumeCredential{before.resume_secret});
+  EXPECT_EQ(error_of(j.join(again)).code, ErrorCode::kResume) << "its Welcome is not sent yet";
+  j.joins.on_joined(request, before, {});
+  JoinRequest thief = again;
+  thief.workstation = {"touch-08", {std::byte{8}}, 0};
+  EXPECT_EQ(error_of(j.join(thief)).code, ErrorCode::kResume) << "another key";
+  const JoinReply lost = j.join(again);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(lost)) << error_of(lost).text;
+  j.joins.on_join_failed(std::get<rpc::Welcome>(lost));
+  EXPECT_TRUE(j.joins.is_current(before)) << "nothing has replaced it yet";
+  const JoinReply second = j.join(again);
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(second)) << error_of(second).text;
+  const rpc::Welcome after = std::get<rpc::Welcome>(second);
+  EXPECT_EQ(after.role, AccessRole::kOperator);
+  j.joins.on_joined(again, after, {});
+  EXPECT_TRUE(j.joins.is_current(after));
+  EXPECT_FALSE(j.joins.is_current(before)) << "one console by one ticket";
+  std::optional<rpc::Body> reply;
+  j.joins.command(before, request.workstation, rpc::StopSession{id_of(1), ""}, [&](rpc::Body b) { reply = b; });
+  ASSERT_TRUE(reply);
+  EXPECT_EQ(error_of(*reply).code, ErrorCode::kNotAllowed);
+  j.joins.on_disconnected(before, false);
+  EXPECT_TRUE(j.joins.is_current(after));
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kTicket);
+  j.joins.on_disconnected(after, true);
+  EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kTicket) << "its first connection may have used it";
+  EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(j.join(again))) << "its connection has just ended";
+}
+
 TEST(SessionJoins, ReplyThatASessionIsEndingThatTheShardDoesNotServe) {
   Joining j;
   const SessionEntry& over = j.add("over", 2, kCode, false);

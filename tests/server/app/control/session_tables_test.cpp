@@ -12,24 +12,87 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(ConsoleTickets, ReturnATicketOnce) {
-  ConsoleTickets consoles;
-  Secret<32> first, second;
-  second.bytes[0] = std::byte{1};
-  const auth::Id16 ticket{std::byte{5}};
-  consoles.add(first, ticket);
-  EXPECT_TRUE(consoles.contains(first));
-  EXPECT_FALSE(consoles.contains(second));
-  EXPECT_EQ(consoles.take(second), std::nullopt);
-  EXPECT_EQ(consoles.take(first), ticket);
-  EXPECT_EQ(consoles.take(first), std::nullopt);
-  EXPECT_FALSE(consoles.contains(first));
-}
-
 Secret<32> console(int number) {
   Secret<32> secret;
   secret.bytes[0] = static_cast<std::byte>(number);
   return secret;
+}
+constexpr std::uint32_t kCid = 70, kOther = 71;
+const WorkstationRow kDesk{"desk", {std::byte{7}}, 1000};
+
+/// A console whose Welcome was sent.
+ConsoleTickets joined_console(const auth::Id16& ticket) {
+  ConsoleTickets consoles;
+  consoles.add(console(1), kCid, {ticket, AccessRole::kOperator, "ann", kDesk});
+  consoles.join(console(1), kCid);
+  return consoles;
+}
+
+TEST(ConsoleTickets, ReturnATicketOnce) {
+  ConsoleTickets consoles;
+  const auth::Id16 ticket{std::byte{5}};
+  consoles.add(console(1), kCid, {ticket});
+  EXPECT_TRUE(consoles.contains(console(1), kCid));
+  EXPECT_FALSE(consoles.contains(console(2), kCid));
+  EXPECT_EQ(consoles.take(console(2), kCid), std::nullopt);
+  EXPECT_EQ(consoles.take(console(1), kCid), ticket);
+  EXPECT_EQ(consoles.take(console(1), kCid), std::nullopt);
+  EXPECT_FALSE(consoles.contains(console(1), kCid));
+}
+
+TEST(ConsoleTickets, LetAConsoleComeBackWithItsSecretForAMinute) {
+  const auth::Id16 ticket{std::byte{5}};
+  ConsoleTickets consoles = joined_console(ticket);
+  const auto may = [&](Time now) { return consoles.may_come_back(console(1), kDesk, now) != nullptr; };
+  EXPECT_TRUE(may(Time{})) << "the server may not have noticed the end";
+  consoles.leave(console(1), kCid, Time{10s});
+  EXPECT_TRUE(consoles.empty());
+  EXPECT_FALSE(consoles.contains(console(1), kCid));
+  EXPECT_TRUE(consoles.returning_next().empty()) << "it has left";
+  EXPECT_TRUE(may(Time{69s}));
+  EXPECT_FALSE(may(Time{70s}));
+  EXPECT_EQ(consoles.may_come_back(console(1), kDesk, Time{69s})->person, "ann");
+  EXPECT_EQ(consoles.may_come_back(console(2), kDesk, Time{69s}), nullptr);
+  WorkstationRow other = kDesk;
+  other.spki = {std::byte{8}};
+  EXPECT_EQ(consoles.may_come_back(console(1), other, Time{69s}), nullptr);
+  other = kDesk;
+  other.enrolled_at = 2000;
+  EXPECT_EQ(consoles.may_come_back(console(1), other, Time{69s}), nullptr) << "its key was revoked meanwhile";
+  consoles.join(console(1), kOther);
+  EXPECT_TRUE(consoles.contains(console(1), kOther));
+  EXPECT_EQ(consoles.returning_next(), std::vector{ticket});
+}
+
+TEST(ConsoleTickets, GiveTheRightOfAConsoleToItsNewestConnectionAlone) {
+  ConsoleTickets consoles = joined_console({std::byte{5}});
+  EXPECT_FALSE(consoles.came_back(console(1)));
+  consoles.join(console(1), kOther);
+  EXPECT_TRUE(consoles.came_back(console(1)));
+  EXPECT_FALSE(consoles.contains(console(1), kCid));
+  EXPECT_TRUE(consoles.replaced(console(1), kCid));
+  EXPECT_FALSE(consoles.replaced(console(1), kOther));
+  consoles.leave(console(1), kCid, Time{10s});
+  EXPECT_EQ(consoles.take(console(1), kCid), std::nullopt);
+  EXPECT_TRUE(consoles.contains(console(1), kOther)) << "the end of the old connection changes nothing";
+}
+
+TEST(ConsoleTickets, AreBoundedForConsolesThatAreAway) {
+  ConsoleTickets consoles;
+  for (int n = 0; n < 100; ++n) {
+    consoles.add(console(n), kCid, {});
+    consoles.join(console(n), kCid);
+    consoles.leave(console(n), kCid, Time{10s});
+  }
+  const WorkstationRow none{};
+  EXPECT_EQ(consoles.may_come_back(console(35), none, Time{11s}), nullptr);
+  EXPECT_NE(consoles.may_come_back(console(36), none, Time{11s}), nullptr);
+}
+
+TEST(ConsoleTickets, LetNoConsoleComeBackThatHasGotNoWelcome) {
+  ConsoleTickets consoles;
+  consoles.add(console(1), kCid, {{}, AccessRole::kOperator, "", kDesk});
+  EXPECT_EQ(consoles.may_come_back(console(1), kDesk, Time{}), nullptr);
 }
 
 TEST(ConsoleTickets, OfTheFormerOwnerReturnOnceUntilTheirTimeIsOver) {
@@ -39,11 +102,11 @@ TEST(ConsoleTickets, OfTheFormerOwnerReturnOnceUntilTheirTimeIsOver) {
   EXPECT_TRUE(consoles.returns(one, Time{9s}));
   EXPECT_FALSE(consoles.returns(one, Time{10s}));
   EXPECT_FALSE(consoles.returns(other, Time{9s}));
-  consoles.add(console(1), one);
+  consoles.add(console(1), kCid, {one});
   EXPECT_FALSE(consoles.returns(one, Time{9s})) << "it must not admit a second console";
   EXPECT_TRUE(consoles.returned(console(1)));
-  consoles.join(console(1));
-  EXPECT_EQ(consoles.take(console(1)), one);
+  consoles.join(console(1), kCid);
+  EXPECT_EQ(consoles.take(console(1), kCid), one);
   EXPECT_FALSE(consoles.returns(one, Time{9s})) << "its console has left";
   EXPECT_TRUE(consoles.returns(two, Time{9s}));
 }
@@ -51,11 +114,11 @@ TEST(ConsoleTickets, OfTheFormerOwnerReturnOnceUntilTheirTimeIsOver) {
 TEST(ConsoleTickets, ReturnAgainWhenTheWelcomeWasNotSent) {
   const auth::Id16 one{std::byte{1}}, fresh{std::byte{2}};
   ConsoleTickets consoles({one}, Time{10s});
-  consoles.add(console(1), one);
-  consoles.add(console(2), fresh);
+  consoles.add(console(1), kCid, {one});
+  consoles.add(console(2), kCid, {fresh});
   EXPECT_FALSE(consoles.returned(console(2)));
-  EXPECT_EQ(consoles.take(console(1)), one);
-  EXPECT_EQ(consoles.take(console(2)), fresh);
+  EXPECT_EQ(consoles.take(console(1), kCid), one);
+  EXPECT_EQ(consoles.take(console(2), kCid), fresh);
   EXPECT_TRUE(consoles.returns(one, Time{}));
   EXPECT_FALSE(consoles.returns(fresh, Time{})) << "a ticket that no former owner has had";
 }
@@ -63,10 +126,10 @@ TEST(ConsoleTickets, ReturnAgainWhenTheWelcomeWasNotSent) {
 TEST(ConsoleTickets, NextOwnerGetsThoseOfJoinedConsolesAndThoseThatReturn) {
   const auth::Id16 one{std::byte{1}}, two{std::byte{2}}, fresh{std::byte{3}}, unsent{std::byte{4}};
   ConsoleTickets consoles({one, two}, Time{10s});
-  consoles.add(console(1), one);  // its Welcome is not sent yet
-  consoles.add(console(2), fresh);
-  consoles.join(console(2));
-  consoles.add(console(3), unsent);
+  consoles.add(console(1), kCid, {one});  // its Welcome is not sent yet
+  consoles.add(console(2), kCid, {fresh});
+  consoles.join(console(2), kCid);
+  consoles.add(console(3), kCid, {unsent});
   EXPECT_EQ(consoles.returning_next(), (std::vector{one, fresh, two}));
   EXPECT_EQ(consoles.release_all(), (std::vector{one, fresh, unsent}));
   EXPECT_TRUE(consoles.empty());
