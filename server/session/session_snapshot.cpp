@@ -20,7 +20,8 @@ static_assert(std::endian::native == std::endian::little, "numbers are copied as
 using Key = std::array<std::byte, 32>;
 
 // Releases of before RestoreCounts read and write the list of removed workstations as it is. Therefore later additions
-// are entries of it that no fingerprint of a key can be: a label, flags, the epoch that wrote it, and numbers at the end.
+// are entries of it that no fingerprint of a key can be: a label, flags, the epoch that wrote it, and numbers at the
+// end.
 constexpr std::string_view kCountsLabel = "tandem-runs", kLifeLabel = "tandem-life";
 static_assert(kCountsLabel.size() == kLifeLabel.size());
 constexpr std::size_t kFlagsAt = kCountsLabel.size(), kEpochAt = kFlagsAt + 1;

@@ -38,16 +38,16 @@ namespace tandem::server {
                                                                  const std::string& code, AccessRole role) {
   if (entry.removed.contains(request.workstation.spki))
     return rpc::ErrorReply{rpc::ErrorCode::kNotAllowed,
-                      "the participant of this workstation was removed from the session; to join again, ask an "
-                      "operator for a ticket",
-                      0};
+                           "the participant of this workstation was removed from the session; to join again, ask an "
+                           "operator for a ticket",
+                           0};
   if (entry.registration.code.empty() || code != entry.registration.code)
     return rpc::ErrorReply{rpc::ErrorCode::kCode, "this is not the session's code", 0};
   if (role == AccessRole::kInstructor)
     return rpc::ErrorReply{rpc::ErrorCode::kNotAllowed,
-                      "the instructor's seat needs a ticket: on the server, " +
-                          ticket_command(entry, "--seat " + request.hello.seat, request.workstation.name),
-                      0};
+                           "the instructor's seat needs a ticket: on the server, " +
+                               ticket_command(entry, "--seat " + request.hello.seat, request.workstation.name),
+                           0};
   return std::nullopt;
 }
 

@@ -188,7 +188,8 @@ JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& requ
 }
 
 void SessionJoins::release_consoles(SessionEntry& entry) {
-  for (const auth::Id16& ticket : entry.consoles.release_all()) tickets_.restore(ticket, entry.registration.name, "", "ticket_restored");
+  for (const auth::Id16& ticket : entry.consoles.release_all())
+    tickets_.restore(ticket, entry.registration.name, "", "ticket_restored");
 }
 
 // ---- Consoles and link tests ----
@@ -336,7 +337,8 @@ void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
     return tickets_.restore(entry->seats[seat_index(welcome)].end_join(), welcome.session_name, welcome.person);
   if (!is_console(welcome)) return entry->link_tests.cancel_join();
   if (is_watcher(welcome)) entry->watchers.cancel_join();
-  tickets_.restore(entry->consoles.take(welcome.resume_secret, welcome.server_cid), welcome.session_name, welcome.person);
+  tickets_.restore(entry->consoles.take(welcome.resume_secret, welcome.server_cid), welcome.session_name,
+                   welcome.person);
   entry->keep_consoles();
 }
 

@@ -19,8 +19,8 @@ namespace tandem::server {
 struct OwnedSession {
   std::shared_ptr<const SessionOptions> options;
   auth::Id16 id{};
-  std::string code;                           ///< 10 characters of 0-9 A-Z; empty: tickets only
-  std::optional<Time> ends_at{};              ///< time limit by the wall clock; that of the snapshot is better; nullopt: none
+  std::string code;               ///< 10 characters of 0-9 A-Z; empty: tickets only
+  std::optional<Time> ends_at{};  ///< time limit by the wall clock; that of the snapshot is better; nullopt: none
   std::optional<SessionSnapshot> snapshot{};  ///< newest one that its former owner kept; nullopt: a new session
   std::vector<auth::Id16> consoles{};         ///< tickets of the consoles at its former owner
   /// Of the ownership in the directory. It becomes the session's epoch: higher than that of each former owner.

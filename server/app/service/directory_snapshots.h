@@ -48,10 +48,10 @@ class DirectorySnapshots final : public SnapshotKeeper {
   struct Entry {
     SessionSnapshot snapshot;
     std::shared_ptr<CheckpointMailbox> mailbox;
-    std::vector<std::byte> taken{};  ///< bytes of the checkpoint as last taken
-    bool changed = false;            ///< something else than the checkpoint
+    std::vector<std::byte> taken{};   ///< bytes of the checkpoint as last taken
+    bool changed = false;             ///< something else than the checkpoint
     std::optional<Time> life_ends{};  ///< of a session with a limit; nullopt before its first `take`
-    std::uint32_t number = 0;        ///< differs between all sessions of this server, also of one name
+    std::uint32_t number = 0;         ///< differs between all sessions of this server, also of one name
     std::vector<auth::Id16> consoles{};
     bool consoles_changed = false;
   };

@@ -120,9 +120,8 @@ TEST(BusyShard, IsNamedToClientsThatAskAndEndsNothing) {
   Joining j;
   const auto full = std::make_shared<bool>(false);
   for (int i = 0; !*full && i < 10000; ++i)
-    j.registry.post(j.lesson, {.what = ShardRequest::What::kQueryPeers, .done = [full](ShardRequest& r) {
-                                 *full = *full || r.result == JoinResult::kBusy;
-                               }});
+    j.registry.post(j.lesson, {.what = ShardRequest::What::kQueryPeers,
+                               .done = [full](ShardRequest& r) { *full = *full || r.result == JoinResult::kBusy; }});
   const JoinRequest request = Joining::request("trainee", rpc::CodeCredential{kCode});
   EXPECT_EQ(error_of(j.join(request)).code, ErrorCode::kFull) << "a client asks again after that";
   EXPECT_FALSE(j.lesson.seats[1].joining());

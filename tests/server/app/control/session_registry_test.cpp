@@ -83,9 +83,8 @@ TEST(SessionRegistry, NamesAFewOfManySessionsInARejection) {
 void fill_queue(RegistryFixture& f, const SessionEntry& entry) {
   const auto full = std::make_shared<bool>(false);  // requests that wait are answered after this function
   for (int i = 0; !*full && i < 10000; ++i)
-    f.registry.post(entry, {.what = ShardRequest::What::kQueryPeers, .done = [full](ShardRequest& r) {
-                              *full = *full || r.result == JoinResult::kBusy;
-                            }});
+    f.registry.post(entry, {.what = ShardRequest::What::kQueryPeers,
+                            .done = [full](ShardRequest& r) { *full = *full || r.result == JoinResult::kBusy; }});
   ASSERT_TRUE(*full);
 }
 
