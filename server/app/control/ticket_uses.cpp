@@ -18,8 +18,8 @@ ErrorReply not_used_reply(TicketUses::Outcome outcome) {
             "this ticket was used before, at a server of the service; ask an operator for another one", 0};
   return {
       ErrorCode::kNotNow,
-      "the directory of the service does not answer, so the server cannot know whether the ticket was used; the ticket "
-      "stays valid, try again",
+      "this server cannot know now whether the ticket was used: the directory of the service does not answer, or another "
+      "server has the session; the ticket stays valid, try again",
       2};
 }
 
