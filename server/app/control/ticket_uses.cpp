@@ -16,11 +16,10 @@ ErrorReply not_used_reply(TicketUses::Outcome outcome) {
   if (outcome == TicketUses::Outcome::kUsed)
     return {ErrorCode::kTicket,
             "this ticket was used before, at a server of the service; ask an operator for another one", 0};
-  return {
-      ErrorCode::kNotNow,
-      "this server cannot know now whether the ticket was used: the directory of the service does not answer, or another "
-      "server has the session; the ticket stays valid, try again",
-      2};
+  return {ErrorCode::kNotNow,
+          "this server cannot know whether the ticket was used: the directory of the service does not answer, or "
+          "another server has the session; the ticket stays valid, try again",
+          2};
 }
 
 }  // namespace
