@@ -105,7 +105,7 @@ void SessionMoves::advance(Time now, const std::string& session, Entry& entry) {
   if (entry.move.steps_until_move < 0) return;
   const bool uses = directory_.tickets.uses_wait(session);
   if (uses) {
-    entry.move.steps_until_move = kStepsUntilMove;  // what was used is restored then, as its client joins elsewhere
+    entry.move.steps_until_move = kStepsUntilMove;  // the ticket is restored then: its client joins elsewhere
   } else if (entry.move.steps_until_move > 0) {
     --entry.move.steps_until_move;
     return;

@@ -184,7 +184,7 @@ TEST(ShardRequests, AreBoundedAndCompletedAtTheEndWhileTheirSessionMoves) {
   rig.ask(count);
   EXPECT_EQ(busy, 1U) << "questions are bounded";
   rig.post(count);
-  EXPECT_EQ(over, 0U) << "what must not be lost is not";
+  EXPECT_EQ(over, 0U) << "all others wait";
   rig.requests.stop_watching();
   EXPECT_EQ(over, ShardRequests::kHeldMax + 1);
 }

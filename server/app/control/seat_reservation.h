@@ -44,7 +44,7 @@ class SeatReservation {
     joining_ = true;
     join_void_ = false;
   }
-  /// The join in progress must fail, because the seat is being taken away from whoever has it or resumes it.
+  /// The join in progress must fail, because the seat is being taken away from its owner.
   void void_join() noexcept { join_void_ = true; }
   [[nodiscard]] bool join_void() const noexcept { return join_void_; }
   /// The client gets a Welcome. The seat's data change when `admit` follows.

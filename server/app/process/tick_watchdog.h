@@ -8,7 +8,7 @@
 
 namespace tandem::server {
 
-/// Decides whether the system's watchdog may be told that all shards tick. A busy shard counts many more ticks than an
+/// Decides whether the system's watchdog may hear that all shards tick. A busy shard counts many more ticks than an
 /// idle one, so each is compared with its own count only.
 class TickWatchdog {
  public:

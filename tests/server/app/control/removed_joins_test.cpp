@@ -1,9 +1,9 @@
 // Joins that meet the removal of the seat's participant, and joins while a shard has no place for a question.
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include <memory>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "tests/server/app/control/joining.h"
@@ -57,7 +57,7 @@ struct Removal : Joining {
   [[nodiscard]] JoinReply join_when_free(const JoinRequest& by) {
     JoinReply reply = join(by);
     for (int i = 0; i < 3000 && error_of(reply).code == ErrorCode::kSeatTaken; ++i) {
-      std::this_thread::sleep_for(10ms);
+      poll(nullptr, 0, 10);
       reply = join(by);
     }
     return reply;
