@@ -33,7 +33,8 @@ class CuttableDirectory final : public directory::Directory {
   void begin(directory::OperationId operation, const directory::Request& request) override {
     const auto* const transaction = std::get_if<directory::Transaction>(&request);
     const auto writes = [](const directory::Step& step) { return std::holds_alternative<directory::Put>(step); };
-    if (cut || (full && transaction != nullptr && std::ranges::any_of(transaction->then, writes)))
+    if (cut || (grants_nothing && std::holds_alternative<directory::Grant>(request)) ||
+        (full && transaction != nullptr && std::ranges::any_of(transaction->then, writes)))
       return unknown(operation);
     if (std::holds_alternative<directory::Watch>(request)) watches_.push_back(operation);
     inner_.begin(operation, request);
@@ -53,7 +54,7 @@ class CuttableDirectory final : public directory::Directory {
     while (reply && answers_lost) reply = inner_.poll();
     return reply;
   }
-  bool cut = false, answers_lost = false;
+  bool cut = false, answers_lost = false, grants_nothing = false;
   bool full = false;  ///< as etcd at its quota: it renews leases and answers reads, and writes nothing
 
  private:

@@ -49,9 +49,15 @@ struct Removal : Joining {
     EXPECT_FALSE(seat().owner());
     EXPECT_FALSE(joins.is_current(welcome));
     EXPECT_EQ(error_of(join(resume)).code, ErrorCode::kResume);
-    JoinRequest other = request("trainee", rpc::CodeCredential{kCode});
-    other.workstation = {"touch-08", {std::byte{8}}, 0};
-    expect_welcome(join_when_free(other));
+    for (int i = 0; i < 1000 && taken(); ++i) poll(nullptr, 0, 10);
+    EXPECT_FALSE(taken()) << "the session has the removed participant still";
+  }
+  /// Whether the session has a client in the seat.
+  [[nodiscard]] bool taken() {
+    std::optional<rpc::Body> status;
+    commands.execute(operating, {}, rpc::StatusRequest{id_of(1)}, [&](rpc::Body body) { status = std::move(body); });
+    wait_until([&] { return status.has_value(); });
+    return std::get<rpc::Status>(*status).seats[1].taken;
   }
   /// Joins, again while the hand of the removed participant is being released.
   [[nodiscard]] JoinReply join_when_free(const JoinRequest& by) {
