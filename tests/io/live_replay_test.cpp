@@ -261,7 +261,7 @@ TEST(LiveReplay, SaysWhyARecordingHasNoInputs) {
 TEST(LiveReplay, PutsMainScoresIntoTheReportOfTheServer) {
   const Folder folder;
   Process host = hosting(
-      "one_axis", {"--duration", "3", "--record", folder.file("a.mcap"), "--scores", "--json", folder.file("a.json")});
+      "one_axis", {"--duration", "6", "--record", folder.file("a.mcap"), "--scores", "--json", folder.file("a.json")});
   Process trainer = client(address_of(host), "trainer");
   EXPECT_TRUE(host.wait()) << host.err();
   EXPECT_TRUE(trainer.wait()) << trainer.err();

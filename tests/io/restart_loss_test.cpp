@@ -34,13 +34,15 @@ constexpr double kSilence = 0.020, kGone = 0.120;  // [s]
 constexpr double kHandsChange = 5;                 // session time [s]
 constexpr double kAimBefore = 0.020;  // [s] before `kHandsChange` for the kill, as precisely as a process can be killed
 constexpr double kStart = -0.15;      // [m] position of the wall
-constexpr double kBelowTank = 1e-3;   // [J] within one tick, and of a late tick
 constexpr double kOvershoot = 0.006,
                  kOvershootKg = 0.1;  // [m]; up to this mass as in virtual time, heavier devices are only printed
 constexpr double kDrag = 3;           // [N]
 constexpr double kDamping = 5;        // [N s/m] remaining damping after the force has ended
 constexpr int kSessions = 5;          // attempts in which the hands may not press as they should
 constexpr std::size_t kAround = 5;    // ticks around a tick from which its speed is estimated
+
+/// Energy that the gate cannot see [J]: within one tick, and of a late tick, where the hand has moved under the force.
+double unseen(const Case& c) { return std::max(1e-3, 1e-4 * c.force_n); }
 
 double tank(double mass_kg) { return std::min(0.100, std::max(0.020, 0.180 * mass_kg)); }
 
@@ -164,13 +166,13 @@ bool lose_once(Grip grip, const char* name) {
     const double target = target_of(c, grip == Grip::kHolding ? 135 : 1000);
     const Loss loss = loss_of(Trace(folder.read(std::string(c.seat) + ".csv")), target);
     as_the_table_says = as_the_table_says && pressed_as_planned(loss, c);
-    EXPECT_LE(loss.energy_j, tank(c.mass_kg) + kBelowTank);
+    EXPECT_LE(loss.energy_j, tank(c.mass_kg) + unseen(c));
     EXPECT_LE(loss.left_n, 0.05) << "the remaining force is damping only";
     if (grip == Grip::kHolding && c.mass_kg <= kOvershootKg) {
       EXPECT_LE(loss.beyond_m, kOvershoot);
     }
     const Json j = folder.json(std::string(c.seat) + ".json");
-    EXPECT_LE(j["gate"]["given_after_loss_max_j"].get<double>(), tank(c.mass_kg) + kBelowTank);
+    EXPECT_LE(j["gate"]["given_after_loss_max_j"].get<double>(), tank(c.mass_kg) + unseen(c));
     EXPECT_EQ(j["machine"]["trace_dropped"], 0);
     std::printf(
         "[  figures ] %-13s %4.1f N %.2f kg: pressed %5.2f N, seen after %.1f ms (%d ticks), %4.1f of %.0f mJ, %s%.1f "
