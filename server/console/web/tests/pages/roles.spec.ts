@@ -164,7 +164,7 @@ test('the real server: an evaluator who paused sees who may resume, and the page
   await expect(page.locator('.timeline-panel .log li span')).toHaveText('–');
   await lesson.host.end('SIGKILL');
   await expect(phaseOf(page)).toHaveText('unknown', { timeout: 20_000 });
-  await expect(page.locator('.server-lost')).toHaveText(/Orders reach nothing/);
+  await expect(page.locator('.server-lost')).toHaveText(/Orders reach nothing/, { timeout: 40_000 });
   const signIn = page.getByRole('link', { name: 'Sign in again with a new ticket' });
   await signIn.click();
   await expect(page).toHaveURL(`${lesson.url}/join`);
