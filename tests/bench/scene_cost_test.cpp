@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tests/bench/scene_rows.h"
+#include "tests/common/base/counts.h"
 
 namespace tandem::bench {
 namespace {
@@ -46,6 +47,10 @@ TEST(SceneCost, OfRecordingAllInputsIsAtMost3Percent) {
   if (std::system("valgrind --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "valgrind is not installed";
   for (const auto& [without_name, with_name, most] :
        {std::tuple{"recorded_eight", "inputs_eight", 1.03}, std::tuple{"recorded_contact", "inputs", 1.05}}) {
+    if (test::reduced_counts() && row_of(with_name).seats > 2) {
+      std::printf("[ NOT RUN  ] %s: only with ./test --full\n", row_of(with_name).what);
+      continue;
+    }
     const auto without = cost_of(TANDEM_SCENE_COST, row_of(without_name)),
                with = cost_of(TANDEM_SCENE_COST, row_of(with_name));
     ASSERT_TRUE(without && with) << "callgrind failed";

@@ -4,26 +4,13 @@
 #include <ctime>
 
 #include "common/io/clock.h"
+#include "netsim/proxy/app/wall_clock_lead.h"
 
 namespace tandem::netsim {
 namespace {
 
 /// Upper bound of a datagram's wait in the kernel, in case the wall clock jumps.
 constexpr Duration kAgeMax{1'000'000'000};
-
-/// Returns CLOCK_REALTIME minus CLOCK_MONOTONIC. Up to three attempts avoid a reading distorted by a pause of this
-/// thread.
-Duration wall_ahead() noexcept {
-  Duration ahead{};
-  for (int i = 0; i < 3; ++i) {
-    const Duration before = io::read_clock(CLOCK_MONOTONIC);
-    const Duration wall = io::read_clock(CLOCK_REALTIME);
-    const Duration after = io::read_clock(CLOCK_MONOTONIC);
-    ahead = wall - (before + (after - before) / 2);
-    if (after - before < Duration{2'000}) break;
-  }
-  return ahead;
-}
 
 }  // namespace
 
@@ -43,7 +30,9 @@ void ProxyClock::wait_until(Duration moment, Duration spin) const noexcept {
 }
 
 void ProxyClock::update_wall_clock() noexcept {
-  wall_at_start_ = wall_ahead() + started_.load(std::memory_order_relaxed);
+  const Duration lead =
+      wall_clock_lead([] { return io::read_clock(CLOCK_MONOTONIC); }, [] { return io::read_clock(CLOCK_REALTIME); });
+  wall_at_start_ = lead + started_.load(std::memory_order_relaxed);
 }
 
 Time ProxyClock::arrival(Duration stamp, Duration now) const noexcept {

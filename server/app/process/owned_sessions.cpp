@@ -30,10 +30,12 @@ std::string SessionTable::open_owned(OwnedSession owned) {
     if (const std::int64_t age = now - owned.snapshot->written_s; age >= 0 && age <= kSnapshotAgeMax) age_s = age;
     owned.snapshot->written_s = now;
     found.incompatibility = incompatibility(*owned.snapshot, name, owned.options->scene, owned.snapshot->written_s);
-    // For the same reason the session has the rest of its time that its former owner counted.
-    if (const auto left = owned.snapshot->life_left_s; left && owned.ends_at)
-      owned.ends_at = io::monotonic_now() + std::chrono::seconds(*left);
-    if (found.incompatibility.empty()) found.snapshot = std::move(owned.snapshot);
+    if (found.incompatibility.empty()) {
+      // For the same reason the session has the rest of its time that its former owner counted.
+      if (const auto left = owned.snapshot->life_left_s; left && owned.ends_at)
+        owned.ends_at = io::monotonic_now() + std::chrono::seconds(*left);
+      found.snapshot = std::move(owned.snapshot);
+    }
   }
   auto opened = SessionInstance::open(*owned.options,
                                       {.slot = static_cast<std::uint8_t>(place->slot),

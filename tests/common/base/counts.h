@@ -26,4 +26,7 @@ inline std::size_t draws(std::size_t reduced, std::size_t full, std::size_t nigh
   return name == "nightly" ? nightly : name == "full" ? full : reduced;
 }
 
+/// Returns whether TANDEM_COUNTS leaves the long parts of tests out: it does unless full or nightly.
+inline bool reduced_counts() { return draws(1, 0, 0) == 1; }
+
 }  // namespace tandem::test

@@ -142,7 +142,7 @@ RecordingReplay replay_all(const std::vector<std::string>& files) {
 }
 
 TEST(LateRecording, ReplaysRandomSessionsBitForBitFromAnyTickOn) {
-  const std::uint64_t count = tandem::test::seeds(20);
+  const std::uint64_t count = tandem::test::seeds(8);
   std::uint64_t equal = 0, rows = 0, unseen = 0, blocks = 0, recorded = 0, spooled = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

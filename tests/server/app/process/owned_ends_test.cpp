@@ -31,6 +31,27 @@ TEST(OwnedEnds, HaveTheRestOfTheirTimeByTheClockOfTheirFormerOwner) {
   }
 }
 
+/// A snapshot of a session that had the same name may be left over. Its state is not used, nor is its time.
+TEST(OwnedEnds, HaveTheirOwnTimeIfTheSnapshotIsNotUsed) {
+  Member m;
+  m.rig.start();
+  ASSERT_EQ(m.rig.table->open_owned(m.owned(10)), "");
+  SessionSnapshot other = m.kept.last;
+  other.checkpoint = m.checkpoint();
+  other.checkpoint.scene[0] ^= std::byte{1};
+  other.life_left_s = 60;
+  m.rig.table->give_up("exam");
+  m.service_until_over();
+  OwnedSession again = m.owned(500);
+  again.snapshot = other;
+  again.ends_at = io::monotonic_now() + 1h;
+  ASSERT_EQ(m.rig.table->open_owned(std::move(again)), "");
+  m.rig.table->service(io::monotonic_now() + 61s);
+  EXPECT_FALSE(m.only().end);
+  m.rig.table->service(io::monotonic_now() + 3601s);
+  EXPECT_EQ(m.only().end, EndReason::kTimeLimit);
+}
+
 /// A server that is being stopped must not hand a finished session to the next one.
 TEST(OwnedEnds, AreOverIfTheyEndByThemselvesWhileTheServerEnds) {
   for (const bool ends : {true, false}) {
