@@ -174,13 +174,16 @@ TEST_F(Service, HandsInContactActOnWhileTheDiskOfTheirServerIsStuck) {
   pressed.service().set("a", {.under = on_slow_disk(word, {})});
   pressed.start({"a"});
   pressed.join(pressed.service().address("a"));
-  const std::string used = pressed.service().folder().file("trainer.ticket");
-  const Words words{"--session", "lab", "--ticket-file", used, "--state", pressed.service().enrolled("other")};
-  pressed.service().folder().write("disk", "audit");
-  Process refused = client(pressed.service().address("a"), "trainer", words);
+  const test::Folder& folder = pressed.service().folder();
+  const std::string once = LiveService::run({"enroll", "other", "--state", folder.file("a")});
+  folder.write("disk", "lists");
+  Process enrolled({TANDEM_CLIENT, "enroll", first_line(once), "--state", folder.file("own-other")});
+  const auto stuck = [&] { return std::filesystem::exists(folder.file("a/.workstations.textproto.new")); };
+  for (int i = 0; i < 500 && !stuck(); ++i) std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_TRUE(stuck()) << "else this test shows nothing";
   std::this_thread::sleep_for(milliseconds(6000));  // a sync takes 4 s, a lease 3 s
-  pressed.service().folder().write("disk", "ok");
-  EXPECT_NE(refused.wait(), 0);
+  folder.write("disk", "ok");
+  static_cast<void>(enrolled.wait());  // 1 if it did not wait so long
   EXPECT_EQ(pressed.expect_safe(0).size(), 0u) << "hands were free";
 }
 

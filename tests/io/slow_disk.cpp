@@ -2,7 +2,7 @@
 // that TANDEM_SLOW_DISK names before each write and sync of a recording: ok, slow or full. With the word inputs it is
 // full for files without a name, in which a server keeps inputs, and for no other. With the word nospace it is full for
 // checkpoints, and with the word stuck each of their syncs takes seconds; no other word concerns them. With the word
-// audit each sync of the audit log takes seconds.
+// lists each sync of the list of workstations takes seconds.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -18,18 +18,18 @@ namespace {
 
 constexpr useconds_t kSlow = 1'500'000, kStuck = 4'000'000;  // [us] of each call
 
-enum class File { kOther, kRecording, kInputs, kCheckpoint, kAudit };
+enum class File { kOther, kRecording, kInputs, kCheckpoint, kLists };
 
 File kind_of(int file) {
   char link[4096];
   const std::string of = "/proc/self/fd/" + std::to_string(file);
   const long n = syscall(SYS_readlink, of.c_str(), link, sizeof link);
   const std::string_view name(link, n > 0 ? static_cast<std::size_t>(n) : 0);
-  return name.ends_with(".mcap.part")        ? File::kRecording
-         : name.ends_with("(deleted)")       ? File::kInputs
-         : name.ends_with(".checkpoint.new") ? File::kCheckpoint
-         : name.ends_with("/audit.log")      ? File::kAudit
-                                             : File::kOther;
+  return name.ends_with(".mcap.part")                     ? File::kRecording
+         : name.ends_with("(deleted)")                    ? File::kInputs
+         : name.ends_with(".checkpoint.new")              ? File::kCheckpoint
+         : name.ends_with("/.workstations.textproto.new") ? File::kLists
+                                                          : File::kOther;
 }
 
 /// @return whether the call succeeds
@@ -49,7 +49,7 @@ bool pass(int file) {
     return false;
   }
   if (kind == File::kRecording && std::strncmp(word, "slow", 4) == 0) usleep(kSlow);
-  if (kind == File::kAudit && std::strncmp(word, "audit", 5) == 0) usleep(kStuck);
+  if (kind == File::kLists && std::strncmp(word, "lists", 5) == 0) usleep(kStuck);
   if (kind == File::kCheckpoint && std::strncmp(word, "stuck", 4) == 0) usleep(kStuck);
   return true;
 }

@@ -152,6 +152,27 @@ TEST_P(Screens, ShowTheWholeServerSessionAtEveryWidth) {
   EXPECT_EQ(host.wait(), 0) << host.picture();
 }
 
+// Text below which the status line was longer: a name with remains of that line behind it is another name.
+TEST(ServerScreen, PrintsACreatedSessionWithoutRemainsOfTheStatusLine) {
+  TerminalProcess host({TANDEM_SERVER, "run", "free_motion", "--duration", "600"}, 200, 60);
+  ASSERT_TRUE(host.wait_for("waiting for trainer (not joined), trainee (not joined)")) << host.picture();
+  const std::string all = flat(host.terminal().all());
+  const auto at = all.find("listening on ");
+  ASSERT_NE(at, std::string::npos) << host.picture();
+  const std::string address = all.substr(at + 13, all.find(' ', at + 13) - at - 13);
+  Process create({TANDEM_CLIENT, "control", "--server", address, "create", "m", "one_axis"});
+  EXPECT_EQ(create.wait(), 0) << create.err();
+  ASSERT_TRUE(host.wait_for("--session m")) << host.picture();
+  host.watch(600ms);
+  for (const std::string& row : host.terminal().all()) {
+    const auto name = row.find(" --session ");
+    if (name != std::string::npos && row.find("tandem-client join") != std::string::npos)
+      EXPECT_EQ(row.substr(name), " --session m") << host.picture();
+  }
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0) << host.picture();
+}
+
 INSTANTIATE_TEST_SUITE_P(Terminals, Screens, testing::Values(Terminal::Resize::kReflows, Terminal::Resize::kCuts),
                          [](const auto& i) {
                            return i.param == Terminal::Resize::kReflows ? "ThatReflow" : "ThatCut";

@@ -68,13 +68,17 @@ class ServerKeystore {
   [[nodiscard]] TicketRedeemer& tickets() noexcept { return tickets_; }
   [[nodiscard]] const ServingFile& serving() const noexcept { return serving_; }
 
-  /// Writes one line to the audit log; never pass a secret. Without a directory nothing is written. @return the error;
-  /// the log keeps it too
+  /// Writes one line to the audit log; never pass a secret. Without a directory nothing is written. @return the error
+  /// (AuditLog::write); the log keeps it too
   std::string audit(std::int64_t now, std::string_view event, std::string_view name, std::string_view detail = {});
   /// Retries to write the lines that the audit log lost. @return the remaining error
   std::string retry_audit(std::int64_t now);
   /// Makes this process rotate the audit log from now on; otherwise it only appends.
   void enable_audit_rotation(const AuditLimits& limits) noexcept { audit_->enable_rotation(limits); }
+  /// Lets a thread write the audit log from now on, so that `audit` never waits for the disk.
+  void write_audit_behind() {
+    if (folder_) audit_->write_behind(folder_);
+  }
   [[nodiscard]] const AuditLog& audit_log() const noexcept { return *audit_; }
 
  private:

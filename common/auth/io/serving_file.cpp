@@ -27,7 +27,8 @@ std::string ServingFile::begin() {
 }
 
 std::string ServingFile::write(const ServingSpec& serving) const {
-  return folder_ ? folder_->replace(kFile, std::string_view(print_serving(serving))) : std::string{};
+  if (!folder_) return {};
+  return folder_->replace(kFile, std::string_view(print_serving(serving)), StateDirectory::Sync::kNo);
 }
 
 std::expected<std::optional<ServingSpec>, std::string> ServingFile::read() const {

@@ -128,14 +128,14 @@ std::expected<std::optional<SecretBuffer>, std::string> StateDirectory::read(con
   return bytes;
 }
 
-std::string StateDirectory::replace(const std::string& name, std::span<const std::byte> bytes) const {
+std::string StateDirectory::replace(const std::string& name, std::span<const std::byte> bytes, Sync sync) const {
   const std::string beside = "." + name + ".new";
   unlinkat(folder_.get(), beside.c_str(), 0);  // of a process that died here
   {
     const io::Fd file{
         openat(folder_.get(), beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kFileMode)};
     if (!file.open()) return call_error(name, "written");
-    if (!write_all(file.get(), bytes) || fsync(file.get()) != 0) {
+    if (!write_all(file.get(), bytes) || (sync == Sync::kYes && fsync(file.get()) != 0)) {
       std::string text = call_error(name, "written");
       unlinkat(folder_.get(), beside.c_str(), 0);
       return text;
@@ -146,11 +146,11 @@ std::string StateDirectory::replace(const std::string& name, std::span<const std
     unlinkat(folder_.get(), beside.c_str(), 0);
     return text;
   }
-  return fsync(folder_.get()) == 0 ? std::string{} : call_error(name, "synced");
+  return sync == Sync::kNo || fsync(folder_.get()) == 0 ? std::string{} : call_error(name, "synced");
 }
 
-std::string StateDirectory::replace(const std::string& name, std::string_view text) const {
-  return replace(name, bytes_of(text));
+std::string StateDirectory::replace(const std::string& name, std::string_view text, Sync sync) const {
+  return replace(name, bytes_of(text), sync);
 }
 
 std::string StateDirectory::write_problem() const {

@@ -34,9 +34,13 @@ class StateDirectory {
   [[nodiscard]] bool has(const std::string& name) const noexcept;
   /// @return the file's bytes, nullopt if there is no such file, or the error
   [[nodiscard]] std::expected<std::optional<SecretBuffer>, std::string> read(const std::string& name) const;
-  /// @return the error, empty if the data are on disk
-  [[nodiscard]] std::string replace(const std::string& name, std::span<const std::byte> bytes) const;
-  [[nodiscard]] std::string replace(const std::string& name, std::string_view text) const;
+  /// Whether a replacement waits for the disk. Without it a power cut may leave an empty file: only for a file that
+  /// each start writes anew.
+  enum class Sync { kYes, kNo };
+  /// @return the error, empty if the data are on disk (kYes) or with the system (kNo)
+  [[nodiscard]] std::string replace(const std::string& name, std::span<const std::byte> bytes,
+                                    Sync sync = Sync::kYes) const;
+  [[nodiscard]] std::string replace(const std::string& name, std::string_view text, Sync sync = Sync::kYes) const;
   /// Returns why no file of 16 KiB could be written here; empty: it could. Writes such a file, and removes it.
   [[nodiscard]] std::string write_problem() const;
   [[nodiscard]] std::string remove(const std::string& name) const;

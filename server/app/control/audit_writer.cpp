@@ -62,13 +62,13 @@ void AuditWriter::service() {
   }
   trust_.retry_audit(now);
   const auth::AuditLog& log = trust_.audit_log();
-  const bool fails = !log.error().empty();
-  const std::uint64_t lost = log.lost() - std::exchange(lost_reported_, log.lost());
+  const std::uint64_t all_lost = log.lost(), lost = all_lost - std::exchange(lost_reported_, all_lost);
+  const std::string error = log.error();  // read after the number: its lines failed with this error, or it is over
+  const bool fails = !error.empty();
   if (fails != std::exchange(fails_, fails)) {
     if (fails && on_event_)
-      on_event_(
-          {ControlEvent::kTrouble, "", "", "the audit log fails, and /readyz is 503 until it works: " + log.error()});
-    const std::string again = "the audit log is written again; lines lost so far: " + std::to_string(log.lost());
+      on_event_({ControlEvent::kTrouble, "", "", "the audit log fails, and /readyz is 503 until it works: " + error});
+    const std::string again = "the audit log is written again; lines lost so far: " + std::to_string(all_lost);
     if (!fails && on_message_) on_message_(again);
     // It failed and recovered since the last call.
     if (!fails) io::log_event(io::Level::kWarn, {.event = "audit_recovered", .text = again});

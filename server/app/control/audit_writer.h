@@ -17,7 +17,7 @@ namespace tandem::server {
 
 /// State of the audit log.
 struct AuditState {
-  std::string_view trouble{};  ///< current write error; empty: none
+  std::string trouble{};       ///< current write error; empty: none
   std::uint64_t lost = 0;      ///< lines that could not be written
   std::uint64_t left_out = 0;  ///< lines about rejected peers that the throttle suppressed
 };

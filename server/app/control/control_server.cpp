@@ -168,6 +168,7 @@ void ControlServer::schedule_revocation_check() {
 
 std::string ControlServer::start() {
   if (trust_.on_disk()) {
+    trust_.write_audit_behind();
     if (std::string problem = write_serving_file(); !problem.empty()) return problem;
     schedule_serving_file();
     schedule_revocation_check();

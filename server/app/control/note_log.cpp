@@ -66,11 +66,14 @@ std::string NoteLog::append(const SessionNote& note, std::int64_t wall_s) const 
                       {"author", note.author},
                       {"kind", rpc::to_text(note.kind)},
                       {"note", LineJson::parse(note.json, nullptr, false)}};
-  const std::string text = line.dump(-1, ' ', false, LineJson::error_handler_t::replace) + "\n";
+  std::string text = line.dump(-1, ' ', false, LineJson::error_handler_t::replace) + "\n";
   const std::string path = path_of(note.session, note.session_id);
-  const io::Fd file{::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600)};
+  const io::Fd file{::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600)};
   struct stat status{};
   if (!file.open() || ::fstat(file.get(), &status) != 0) return path + ": " + std::strerror(errno);
+  // A crash may have left a part of a line. This note would be unreadable as its end.
+  if (char last = 0; status.st_size > 0 && ::pread(file.get(), &last, 1, status.st_size - 1) == 1 && last != '\n')
+    text.insert(text.begin(), '\n');
   if (static_cast<std::uint64_t>(status.st_size) + text.size() > kFileMax)
     return format("the notes of this session would exceed %llu MiB", static_cast<unsigned long long>(kFileMax >> 20U));
   const ssize_t size = ::write(file.get(), text.data(), text.size());

@@ -9,6 +9,7 @@
 namespace tandem::server {
 
 void ServerOutput::print(const std::string& text) {
+  if (!may_be_stored()) clear();  // on a terminal the rest of a longer status line would stay behind the text
   std::fputs(io::wrap_for_terminal(text, stream_).c_str(), stream_);
   std::fflush(stream_);
 }

@@ -19,7 +19,7 @@
 #include "server/app/monitor/clock_watch.h"
 #include "server/app/monitor/load_events.h"
 #include "server/app/process/session_table.h"
-#include "server/app/process/tick_watchdog.h"
+#include "server/app/process/watchdog_feed.h"
 #include "server/app/recording/leftover_repair.h"
 #include "server/app/service/service_host.h"
 
@@ -54,6 +54,8 @@ class ServerProcess {
     sessions_->announce_all();
     output_.print(format("Ctrl-C ends the session%s gently\n", sessions_->all().size() == 1 ? "" : "s"));
     io::systemd_notify("READY=1");
+    watchdog_.emplace([this] { return shards_.punctual(); }, [] { io::systemd_notify("WATCHDOG=1"); },
+                      io::monotonic_now);
     while (!sessions_->all().empty() || (options_.service && !drain_began_)) run_once();
     if (service_) service_->leave();  // first, because other servers wait for it
     complete_recordings();
@@ -156,7 +158,7 @@ class ServerProcess {
     if (due && !drain_began_ && service_ && service_->left_by_all())
       drain("ended by a drain command, after all sessions have moved to other servers");
     if (drain_began_ && now - *drain_began_ > kDrainMax) exit_now("the sessions did not end within 3 s");
-    feed_watchdog();
+    watchdog_->main_loop_ran();
     report_machine();
     while (auto order = control_->orders().take())
       if (!service_ || !service_->take(*order)) sessions_->execute(std::move(*order));
@@ -236,11 +238,6 @@ class ServerProcess {
     ::_exit(io::kExitTrouble);
   }
 
-  /// Sends the systemd watchdog signal if all shards tick in time.
-  void feed_watchdog() {
-    if (watchdog_.update(shards_.punctual())) io::systemd_notify("WATCHDOG=1");
-  }
-
   const ServerOptions& options_;
   io::Fd signals_;
   io::CpuLatencyRequest awake_;
@@ -254,8 +251,8 @@ class ServerProcess {
   ClockWatch clock_watch_;
   std::optional<LeftoverRepair> leftovers_;
   std::optional<Time> drain_began_;
-  TickWatchdog watchdog_;
   bool memory_locked_ = false, realtime_reported_ = false;
+  std::optional<WatchdogFeed> watchdog_;  ///< last: its thread reads the shards
 };
 
 }  // namespace

@@ -46,7 +46,10 @@ std::expected<std::size_t, std::string> ShardPool::add(double tick_hz) {
     return std::unexpected(format("this server has %zu threads for ticks, the most", shards_.size()));
   auto socket = io::bind_udp_beside(socket_);
   if (!socket) return std::unexpected(socket.error());
-  shards_.push_back(std::make_unique<Shard>(std::move(*socket), tick_hz));
+  {
+    const std::lock_guard lock(adding_);
+    shards_.push_back(std::make_unique<Shard>(std::move(*socket), tick_hz));
+  }
   rates_.push_back(tick_hz);
   steering_.sockets = rates_.size();
   if (running_) threads_.emplace_back([shard = shards_.back().get()] { shard->run(); });
@@ -84,6 +87,7 @@ void ShardPool::join() {
 }
 
 std::vector<std::optional<std::uint64_t>> ShardPool::punctual() const {
+  const std::lock_guard lock(adding_);
   std::vector<std::optional<std::uint64_t>> all;
   for (const auto& shard : shards_) {
     std::optional<std::uint64_t>& in_time = all.emplace_back();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -49,13 +50,15 @@ class ShardPool {
   /// Ends all sessions; they release their hands first. @param why reason in the clients' CLOSE
   void stop(wire::CloseReason why = wire::CloseReason::kServerStops) noexcept;
   void join();
-  /// Ticks so far of each shard that began within 1 ms of their time; nullopt: it has ended.
+  /// Ticks so far of each shard that began within 1 ms of their time; nullopt: it has ended. Any
+  /// thread.
   [[nodiscard]] std::vector<std::optional<std::uint64_t>> punctual() const;
 
  private:
   std::vector<double> rates_;  ///< one per shard
   io::Steering steering_;
-  io::UdpSocket socket_;  ///< one of the sockets, for `assign` and `add`
+  io::UdpSocket socket_;       ///< one of the sockets, for `assign` and `add`
+  mutable std::mutex adding_;  ///< `punctual` on another thread reads the list while `add` changes it
   std::vector<std::unique_ptr<Shard>> shards_;
   std::vector<std::thread> threads_;
   bool running_ = false;

@@ -6,7 +6,11 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
 
+#include "common/auth/io/directory_lock.h"
 #include "tests/common/auth/io/temporary_folder.h"
 #include "tests/common/auth/support.h"
 
@@ -122,6 +126,51 @@ TEST(AuditLog, SanitisesUntrustedText) {
   for (const char* shown : {"\\\\x1b[2Jred\\\\x0a{\\\"ts\\\":1}", "\\\\u202egnp.exe", "\\\\xff"})
     EXPECT_NE(text.find(shown), std::string::npos) << shown << "\n" << text;
   for (const char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << static_cast<int>(c);
+}
+
+// A console's order to stop must not wait for the disk behind a line of the log. The lock stands for a disk that is
+// stuck: a writer waits for it for DirectoryLock::kTimeout, then gives its line up.
+TEST(AuditLog, WritesBehindWithoutWaiting) {
+  const Folder folder;
+  const auto state = std::make_shared<const StateDirectory>(opened(folder));
+  std::optional<AuditLog> log(std::in_place);
+  log->write_behind(state);
+  EXPECT_EQ(log->write(*state, kNow, "first", "", ""), "");
+  while (folder.read("audit.log").empty()) std::this_thread::yield();
+  {
+    const auto stuck = DirectoryLock::wait(*state, AuditLog::kFile);
+    ASSERT_TRUE(stuck);
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(log->write(*state, kNow, "line-" + std::to_string(i), "", ""), "");
+    EXPECT_EQ(count(folder.read("audit.log"), "\n"), 1u) << "the disk has none of them";
+  }
+  log.reset();  // the end of a server writes what waits
+  const std::string all = folder.read("audit.log");
+  EXPECT_EQ(count(all, "\n"), 101u);
+  for (int i = 1; i < 100; ++i)
+    EXPECT_LT(all.find("line-" + std::to_string(i - 1) + "\""), all.find("line-" + std::to_string(i) + "\""))
+        << "in order";
+}
+
+TEST(AuditLog, CountsLinesBeyondThoseThatMayWait) {
+  const Folder folder;
+  const auto state = std::make_shared<const StateDirectory>(opened(folder));
+  std::optional<AuditLog> log(std::in_place);
+  log->write_behind(state);
+  constexpr std::size_t kAll = AuditLog::kQueuedMax + 1000;
+  {
+    const auto stuck = DirectoryLock::wait(*state, AuditLog::kFile);
+    ASSERT_TRUE(stuck);
+    for (std::size_t i = 0; i < kAll; ++i) EXPECT_EQ(log->write(*state, kNow, "event", "", ""), "");
+    EXPECT_GE(log->lost(), 500u) << "some lines are on their way to the disk";
+    EXPECT_LE(log->lost(), 1000u);
+  }
+  while (log->write(*state, kNow, "last", "", ""), folder.read("audit.log").find("last") == std::string::npos)
+    std::this_thread::yield();
+  const auto lost = log->lost();
+  log.reset();
+  const std::string all = folder.read("audit.log");
+  EXPECT_EQ(count(all, "\"event\":\"event\"") + lost, kAll);
+  EXPECT_NE(all.find("\"audit_lost\""), std::string::npos);
 }
 
 }  // namespace

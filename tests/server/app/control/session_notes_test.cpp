@@ -187,6 +187,10 @@ TEST(NoteLog, GivesBackItsNotesAfterARestart) {
   EXPECT_EQ(notes[0].note.time_s, 2.5);
   EXPECT_TRUE(notes[1].closed);
   EXPECT_EQ(notes[1].form, "GOALS");
+  ASSERT_EQ(log.append(mark("eve", "after a crash"), 102), "");
+  const auto later = log.load("lesson", {});
+  ASSERT_EQ(later.size(), 3u) << "the half line before it takes no note along";
+  EXPECT_EQ(later[2].author, "person/eve");
   EXPECT_TRUE(NoteLog("").load("lesson", {}).empty());
   std::filesystem::remove_all(folder);
 }
