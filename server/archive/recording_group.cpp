@@ -1,6 +1,7 @@
 #include "server/archive/recording_group.h"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -14,16 +15,29 @@ std::string folder_of(const std::string& file) {
   return slash == std::string::npos ? std::string() : file.substr(0, slash);
 }
 
-/// Whether the part behind the last one is being written. The name of part N is that of part 1 with -N.
+/// Number in the name of a file of a recording: 1 for STEM + ending, N for STEM-N + ending, 0 for other names.
+unsigned number_in(std::string_view file, std::string_view stem, std::string_view ending) {
+  if (!file.starts_with(stem) || !file.ends_with(ending) || file.size() < stem.size() + ending.size()) return 0;
+  const std::string_view text = file.substr(stem.size(), file.size() - stem.size() - ending.size());
+  if (text.empty()) return 1;
+  unsigned number = 0;
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data() + 1, end, number);
+  return text.front() == '-' && parsed.ec == std::errc{} && parsed.ptr == end ? number : 0;
+}
+
+/// Whether a part behind the last one is being written. Its number in its name is higher, but not always by one: a
+/// recording leaves out names that other files have.
 bool grows(const std::vector<RecordingRow>& rows, const RecordingGroup& group,
            const std::vector<std::string>& unfinished) {
   const RecordingRow& last = rows[group.rows.back()];
-  constexpr std::string_view kEnding = ".mcap";
-  std::string name = last.file.substr(0, last.file.size() - std::min(last.file.size(), kEnding.size()));
-  const std::string number = "-" + std::to_string(last.summary.part.number);
-  if (last.summary.part.number > 1 && name.ends_with(number)) name.resize(name.size() - number.size());
-  const std::string next = name + "-" + std::to_string(last.summary.part.number + 1) + ".mcap.part";
-  return std::ranges::find(unfinished, next) != unfinished.end();
+  const RecordedPart& part = last.summary.part;
+  if (part.recording.empty() || part.last.value_or(false)) return false;
+  const std::string folder = folder_of(last.file);
+  const std::string stem = folder + (folder.empty() ? "" : "/") + part.recording;
+  const unsigned number = std::max(part.number, number_in(last.file, stem, ".mcap"));
+  return std::ranges::any_of(unfinished,
+                             [&](const std::string& file) { return number_in(file, stem, ".mcap.part") > number; });
 }
 
 /// Orders the rows of a group and finds what is missing.

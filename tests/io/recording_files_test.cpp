@@ -275,6 +275,19 @@ TEST(RecordingFiles, SayWhatAFullDiskCost) { expect_true_counts_on_a_failing_dis
 TEST(RecordingFiles, SayWhatAFailingDiskCost) { expect_true_counts_on_a_failing_disk(FileFault::Kind::kInputOutput); }
 TEST(RecordingFiles, SayWhatAHalfWrittenBlockCost) { expect_true_counts_on_a_failing_disk(FileFault::Kind::kHalf); }
 
+TEST(RecordingFiles, ReportAnEndThatTheDiskDidNotConfirm) {
+  const Folder folder;
+  Recording recording(folder);
+  recording.run(4);
+  tandem::test::inject(folder.file(""), {.kind = FileFault::Kind::kNoSync, .lasting = true});
+  EXPECT_TRUE(recording.close().empty()) << "the file is not called complete";
+  tandem::test::no_faults();
+  const auto problems = recording.files().take_problems();
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].find(folder.file("a.mcap") + ": the disk did not confirm the end"), 0u) << problems[0];
+  EXPECT_EQ(read(folder, "a.mcap").rows(), 1000u);
+}
+
 TEST(RecordingFiles, StayReadableWhenTheDiskIsFullToTheEnd) {
   const Folder folder;
   Recording recording(folder);

@@ -2,6 +2,7 @@
 #include "server/recording/io/recording_repair.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "common/base/rng.h"
 #include "tests/common/base/counts.h"
@@ -93,6 +94,56 @@ TEST(RecordingRepair, TouchesNoFileThatIsWritten) {
   EXPECT_EQ(repair.kind, RecordingRepair::Kind::kInUse) << repair.text;
   EXPECT_EQ(recording_leftovers(folder.file("")).size(), 1u);
   EXPECT_EQ(recording.close().size(), 1u);
+}
+
+// NFSv4 locks only files that are open for writing.
+TEST(RecordingRepair, TouchesNoFileThatIsWrittenOnNfs) {
+  const Folder folder;
+  Recording recording(folder);
+  recording.run(4);
+  recording.settle([&] { return std::filesystem::file_size(folder.file("a.mcap.part")) > 0; });
+  tandem::test::inject(folder.file(""), {.kind = FileFault::Kind::kWritersLocks});
+  const RecordingRepair repair = repair_recording(folder.file("a.mcap.part"));
+  tandem::test::no_faults();
+  EXPECT_EQ(repair.kind, RecordingRepair::Kind::kInUse) << repair.text;
+  EXPECT_EQ(recording.close().size(), 1u);
+}
+
+TEST(RecordingRepair, TouchesNoFileThatItCannotLock) {
+  const Folder folder;
+  Recording recording(folder);
+  recording.run(4);
+  recording.close();
+  const std::string whole = folder.read("a.mcap");
+  for (const std::string& bytes : {whole, whole.substr(0, whole.size() / 2)}) {
+    folder.write("b.mcap.part", bytes);
+    tandem::test::inject(folder.file(""), {.kind = FileFault::Kind::kNoLocks});
+    const RecordingRepair repair = repair_recording(folder.file("b.mcap.part"));
+    tandem::test::no_faults();
+    EXPECT_EQ(repair.kind, RecordingRepair::Kind::kFailed);
+    EXPECT_NE(repair.text.find("repair the copy"), std::string::npos) << repair.text;
+    EXPECT_EQ(folder.read("b.mcap.part"), bytes);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("b.mcap")));
+  }
+}
+
+TEST(RecordingRepair, FailsWithoutEnoughMemory) {
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "a sanitizer ends the program at an allocation that fails";
+#endif
+  const Folder folder;
+  folder.write("big.mcap.part", "begin");
+  std::filesystem::resize_file(folder.file("big.mcap.part"), std::uintmax_t{64} << 30U);  // takes no space
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  const rlimit limit{rlim_t{4} << 30U, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &limit), 0);
+  RecordingRepair repair;
+  EXPECT_NO_THROW(repair = repair_recording(folder.file("big.mcap.part")));
+  ::setrlimit(RLIMIT_AS, &before);
+  EXPECT_EQ(repair.kind, RecordingRepair::Kind::kFailed);
+  EXPECT_NE(repair.text.find("not enough memory"), std::string::npos) << repair.text;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("big.mcap.part")));
 }
 
 TEST(RecordingRepair, NamesForeignFilesAndReplacesNone) {

@@ -2,6 +2,7 @@
 #include "tests/support/file_faults.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -86,6 +87,11 @@ Verdict judge(const char* word, Call call, const std::string& path) {
       hit = true;
       errno = EMFILE;
       return Verdict::kFail;
+    case Kind::kNoSync:
+      if (call != Call::kSync) return Verdict::kPass;
+      hit = true;
+      errno = EIO;
+      return Verdict::kFail;
     case Kind::kHalf:
       if (call == Call::kWrite && number == now.at) return Verdict::kHalf;
       [[fallthrough]];
@@ -94,10 +100,23 @@ Verdict judge(const char* word, Call call, const std::string& path) {
       hit = true;
       errno = ENOSPC;
       return Verdict::kFail;
+    case Kind::kNoLocks:
+    case Kind::kWritersLocks:
     case Kind::kNone:
       break;
   }
   return Verdict::kPass;
+}
+
+/// Decides the outcome of a lock. Sets errno if it fails.
+bool lock_fails(int file) {
+  if (path_of(file, nullptr).empty()) return false;
+  const Kind kind = injected().kind;
+  const bool reader = (::fcntl(file, F_GETFL) & O_ACCMODE) == O_RDONLY;
+  if (kind != Kind::kNoLocks && (kind != Kind::kWritersLocks || !reader)) return false;
+  hit = true;
+  errno = kind == Kind::kNoLocks ? ENOLCK : EBADF;
+  return true;
 }
 
 template <class Real>
@@ -164,6 +183,9 @@ int fdatasync(int file) {
 int ftruncate(int file, off_t size) {
   return static_cast<int>(call(judge("ftruncate", Call::kOther, path_of(file, nullptr)),
                                [&] { return syscall(SYS_ftruncate, file, size); }));
+}
+int flock(int file, int what) noexcept {
+  return tandem::test::lock_fails(file) ? -1 : static_cast<int>(syscall(SYS_flock, file, what));
 }
 int openat(int folder, const char* name, int flags, ...) {
   va_list rest;

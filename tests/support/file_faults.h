@@ -5,7 +5,7 @@
 
 /// Injects disk faults below the C library's file calls of the program that links this. It counts the calls that touch
 /// files below one folder: open, write, pwrite, fsync, fdatasync, rename, ftruncate, unlink. The interception covers
-/// all code of the program, so no call site is missed.
+/// all code of the program, so no call site is missed. Locks (flock) are not counted.
 namespace tandem::test {
 
 struct FileFault {
@@ -14,6 +14,9 @@ struct FileFault {
     kNoSpace,        ///< ENOSPC from write, fsync, rename, and from an open that creates a file
     kInputOutput,    ///< EIO from every call
     kNoDescriptors,  ///< EMFILE from open
+    kNoSync,         ///< EIO from fsync and fdatasync
+    kNoLocks,        ///< ENOLCK from every flock
+    kWritersLocks,   ///< EBADF from every flock of a descriptor that cannot write, as on NFSv4
     kHalf,           ///< half of a write reaches the file, the next write gives ENOSPC; other calls: as kNoSpace
     kKill,           ///< the process ends before the call
     kKillHalfway,    ///< half of a write reaches the file, then the process ends; other calls: it ends after them

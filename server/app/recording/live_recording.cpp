@@ -24,7 +24,6 @@ std::expected<std::unique_ptr<LiveRecording>, std::string> LiveRecording::start(
     bool pseudonyms, std::shared_ptr<RecordingDesk> desk, std::unique_ptr<KeptInputs::Reader> inputs) {
   auto files = RecordingFiles::open(path, session.scene(), info, limits, io::monotonic_now());
   if (!files) return std::unexpected(std::move(files.error()));
-  desk->set_status(rpc::StatusRecording{.by_server = true, .pseudonyms = pseudonyms});
   const std::string part = (*files)->part();
   std::unique_ptr<LiveRecording> made{
       new LiveRecording(std::move(*files), session, pseudonyms, std::move(desk), std::move(inputs))};
@@ -37,6 +36,7 @@ LiveRecording::LiveRecording(std::unique_ptr<RecordingFiles> files, const LiveSe
     : session_(&session),
       pseudonyms_(pseudonyms),
       desk_(std::move(desk)),
+      number_(desk_->begin(rpc::StatusRecording{.by_server = true, .pseudonyms = pseudonyms})),
       inputs_(std::move(inputs)),
       ticks_(std::make_shared<TickFeed>(session.scene().seats.size(), session.scene().tools.size())),
       files_(std::move(files)),
@@ -65,7 +65,7 @@ void LiveRecording::run() {
   }
   const Time began = io::monotonic_now();
   step(began);
-  desk_->set_status(std::nullopt);
+  desk_->set_status(number_, std::nullopt);
   finish_inputs();
   const Time ends = io::monotonic_now();
   if (files_->begun() && ticks_->newest() > tick_) files_->count_dropped(ticks_->newest() - tick_);
@@ -88,7 +88,7 @@ void LiveRecording::step(Time now) {
   if (!files_->begun() || files_->ended()) return;
   add_ticks();
   add_inputs();
-  const RecordingDesk::Items items = desk_->take();
+  const RecordingDesk::Items items = desk_->take(number_);
   RecordingWriter& writer = files_->writer();
   for (const LessonEvent& event : items.events) writer.add_event(event);
   for (const LessonMark& mark : items.marks) writer.add_mark(mark);
@@ -204,8 +204,8 @@ void LiveRecording::report() {
     trouble_ = trouble;
   }
   if (files_->ended()) return;
-  desk_->set_status(
-      rpc::StatusRecording{.by_server = true, .pseudonyms = pseudonyms_, .dropped = lost(), .trouble = trouble});
+  desk_->set_status(number_, rpc::StatusRecording{
+                                 .by_server = true, .pseudonyms = pseudonyms_, .dropped = lost(), .trouble = trouble});
 }
 
 }  // namespace tandem::server

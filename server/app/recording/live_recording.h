@@ -80,6 +80,7 @@ class LiveRecording {
   const LiveSession* session_;
   bool pseudonyms_;
   std::shared_ptr<RecordingDesk> desk_;
+  std::uint32_t number_;  ///< at the desk
   std::unique_ptr<KeptInputs::Reader> inputs_;
   std::shared_ptr<TickFeed> ticks_;
   std::unique_ptr<RecordingFiles> files_;

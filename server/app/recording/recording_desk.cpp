@@ -22,9 +22,15 @@ std::optional<rpc::StatusRecording> RecordingDesk::status() const {
   return status_;
 }
 
-void RecordingDesk::set_status(std::optional<rpc::StatusRecording> status) {
+std::uint32_t RecordingDesk::begin(rpc::StatusRecording status) {
   const std::lock_guard lock(lock_);
   status_ = std::move(status);
+  return ++recording_;
+}
+
+void RecordingDesk::set_status(std::uint32_t recording, std::optional<rpc::StatusRecording> status) {
+  const std::lock_guard lock(lock_);
+  if (recording == recording_) status_ = std::move(status);
 }
 
 void RecordingDesk::set_person(std::size_t seat, const std::string& person, const std::string& workstation) {
@@ -83,8 +89,9 @@ void RecordingDesk::add_note(const SessionNote& note) {
   items_.sheets.push_back(std::move(sheet));
 }
 
-RecordingDesk::Items RecordingDesk::take() {
+RecordingDesk::Items RecordingDesk::take(std::uint32_t recording) {
   const std::lock_guard lock(lock_);
+  if (recording != recording_) return {};
   Items taken = std::move(items_);
   items_ = {};
   items_.lost = taken.lost;

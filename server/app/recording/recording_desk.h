@@ -44,6 +44,10 @@ class RecordingDesk {
   /// Adds a mark or a sheet. Its JSON has been checked to be an object.
   void add_note(const SessionNote& note);
 
+  /// A recording begins, and any earlier one may change nothing here from now on: it may still be ending.
+  /// @return its number, from 1, for `set_status` and `take`
+  [[nodiscard]] std::uint32_t begin(rpc::StatusRecording status);
+
   // ---- The recording's thread ----
   /// Events, marks and sheets that came since the last call.
   struct Items {
@@ -52,13 +56,14 @@ class RecordingDesk {
     std::vector<LessonSheet> sheets;
     std::uint64_t lost = 0;  ///< items that did not fit, so far
   };
-  [[nodiscard]] Items take();
+  /// @return none for an earlier recording than the newest
+  [[nodiscard]] Items take(std::uint32_t recording);
   /// Participants by seat, as the file names them; empty: none yet.
   [[nodiscard]] std::vector<std::string> persons() const;
   /// Seats whose name is that of a workstation, by seat.
   [[nodiscard]] std::vector<bool> workstations() const;
-  /// Sets the state; nullopt: the recording is over.
-  void set_status(std::optional<rpc::StatusRecording> status);
+  /// Sets the state, unless a later recording has begun; nullopt: the recording is over.
+  void set_status(std::uint32_t recording, std::optional<rpc::StatusRecording> status);
 
  private:
   /// Name for the file. @pre the lock is held
@@ -72,6 +77,7 @@ class RecordingDesk {
   std::map<std::string, std::string> names_;                              ///< pseudonym of each participant
   std::array<std::pair<std::uint32_t, std::string>, kOrdersMax> orders_;  ///< number and person, by number
   std::uint32_t order_ = 0;                                               ///< number of the last one
+  std::uint32_t recording_ = 0;                                           ///< number of the newest recording
   Items items_;
   std::optional<rpc::StatusRecording> status_;
 };

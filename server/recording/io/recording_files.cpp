@@ -82,7 +82,7 @@ void RecordingFiles::end_file(bool last) {
   static_cast<void>(pass_on());
   file_->begin_close();
   total_bytes_ += std::exchange(file_bytes_, 0);
-  ending_.push_back(std::move(file_));
+  ending_.push_back({std::move(file_), std::exchange(unsynced_, 0)});
 }
 
 void RecordingFiles::begin(std::int64_t start_unix_ns) {
@@ -202,11 +202,16 @@ void RecordingFiles::begin_close() {
 }
 
 bool RecordingFiles::closed() {
-  std::erase_if(ending_, [this](const std::unique_ptr<io::AppendFile>& file) {
+  std::erase_if(ending_, [this](const EndingFile& ending) {
+    const auto& [file, unsynced] = ending;
     const io::AppendFile::State state = file->state();
     if (!state.closed) return false;
     if (!state.close_error.empty()) {
       problems_.push_back(state.close_error);
+    } else if (!empty_ && state.unsynced > unsynced) {
+      problems_.push_back(file->path() +
+                          ": the disk did not confirm the end of this file, so some of it may be missing; copy it to "
+                          "another disk and check this one");
     } else if (!empty_) {
       completed_.push_back(file->path());
     } else if (::unlink(file->path().c_str()) == 0) {
@@ -221,7 +226,7 @@ bool RecordingFiles::closed() {
 }
 
 void RecordingFiles::abandon() {
-  for (const auto& file : ending_)
+  for (const auto& [file, unsynced] : ending_)
     if (std::string problem = file->close(0ms); !problem.empty()) problems_.push_back(std::move(problem));
   ending_.clear();
 }
@@ -233,7 +238,7 @@ std::vector<std::string> RecordingFiles::take_problems() { return std::exchange(
 Duration RecordingFiles::disk_cpu() const {
   Duration all = disk_cpu_;
   if (file_) all += Duration{file_->state().cpu};
-  for (const auto& file : ending_) all += Duration{file->state().cpu};
+  for (const auto& [file, unsynced] : ending_) all += Duration{file->state().cpu};
   return all;
 }
 

@@ -92,6 +92,10 @@ class RecordingFiles {
   [[nodiscard]] std::string part() const { return file_ ? file_->part() : std::string(); }
 
  private:
+  struct EndingFile {
+    std::unique_ptr<io::AppendFile> file;
+    std::uint64_t unsynced = 0;  ///< failed syncs that were reported
+  };
   RecordingFiles(std::string path, const SceneSpec& scene, RecordingInfo info, const RecordingLimits& limits);
   /// Opens the next file. @return the error
   [[nodiscard]] std::string open_next();
@@ -109,10 +113,10 @@ class RecordingFiles {
   const SceneSpec* scene_;
   RecordingInfo info_;
   RecordingLimits limits_;
-  std::unique_ptr<RecordingWriter> writer_;              ///< null before `begin`
-  std::unique_ptr<io::AppendFile> file_;                 ///< present file; null after `begin_close`
-  std::vector<std::unique_ptr<io::AppendFile>> ending_;  ///< files that are being completed
-  bool empty_ = false;                                   ///< the last of them has no content and is to be removed
+  std::unique_ptr<RecordingWriter> writer_;  ///< null before `begin`
+  std::unique_ptr<io::AppendFile> file_;     ///< present file; null after `begin_close`
+  std::vector<EndingFile> ending_;           ///< files that are being completed
+  bool empty_ = false;                       ///< the last of them has no content and is to be removed
   std::vector<std::string> completed_, removed_, problems_;
   std::string trouble_, open_error_;
   unsigned number_ = 0;  ///< in the name of the present file
@@ -123,7 +127,7 @@ class RecordingFiles {
   std::uint64_t exempt_ = 0;        ///< [bytes] that the rate does not count, of inputs from before the recording
   std::uint64_t total_bytes_ = 0, file_bytes_ = 0, recorded_ = 0, lost_inputs_ = 0;
   Duration disk_cpu_{};         ///< of files that are complete
-  std::uint64_t unsynced_ = 0;  ///< failed syncs that were reported
+  std::uint64_t unsynced_ = 0;  ///< failed syncs of the present file that were reported
   std::uint64_t gap_ = 0;       ///< ticks lost since the last event about them
   std::int64_t time_ns_ = 0;    ///< TickRecord::time_ns of the last tick
   std::string gap_reason_;

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <expected>
 #include <filesystem>
+#include <new>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -114,18 +115,25 @@ std::string kept_text(const mcap::RepairResult& repaired) {
 
 }  // namespace
 
-RecordingRepair repair_recording(const std::string& path, const Progress& on_progress) {
+RecordingRepair repair_recording(const std::string& path, const Progress& on_progress) try {
   using Kind = RecordingRepair::Kind;
   const auto failed = [&path](const std::string& why) {
     return RecordingRepair{Kind::kFailed, path, path + ": " + why};
   };
-  const io::Fd file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
+  // For writing too: on NFSv4 only such a file can be locked.
+  const io::Fd file{::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW)};
   struct stat status{};
-  if (!file.open() || ::fstat(file.get(), &status) != 0)
-    return failed(std::string("cannot be opened: ") + std::strerror(errno));
+  if (!file.open() || ::fstat(file.get(), &status) != 0) {
+    const bool refused = errno == EACCES || errno == EPERM || errno == EROFS;
+    return failed(std::string("cannot be opened for writing: ") + std::strerror(errno) +
+                  (refused ? "; repair it as a user who may write it, or repair a copy" : ""));
+  }
   if (!S_ISREG(status.st_mode)) return failed("is no file");
-  if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    return {Kind::kInUse, path, path + ": a program writes this recording now; end it first"};
+  if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) return {Kind::kInUse, path, path + ": a program writes this recording now; end it first"};
+    return failed(std::string("cannot be locked, so a program may be writing it now: ") + std::strerror(errno) +
+                  "; when its program has ended, copy it to a local disk and repair the copy");
+  }
   auto bytes = read_all(file.get(), static_cast<std::uint64_t>(status.st_size), on_progress);
   if (!bytes) return failed(bytes.error());
   if (bytes->empty()) return failed("is empty: its program ended before the disk took a byte; delete it");
@@ -150,6 +158,10 @@ RecordingRepair repair_recording(const std::string& path, const Progress& on_pro
     return {Kind::kRepaired, target,
             target + ": repaired, " + kept_text(*repaired) + "; " + path + " stays: " + std::strerror(errno)};
   return {Kind::kRepaired, target, target + ": repaired, " + kept_text(*repaired)};
+} catch (const std::bad_alloc&) {
+  // A server repairs large files beside its sessions, which must go on.
+  return {RecordingRepair::Kind::kFailed, path,
+          path + ": not enough memory; run `tandem-server repair " + path + "` when the server is stopped"};
 }
 
 std::vector<std::string> recording_leftovers(const std::string& folder) {

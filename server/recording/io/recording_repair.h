@@ -13,7 +13,7 @@ struct RecordingRepair {
     kRepaired,  ///< `path` is a complete file
     kComplete,  ///< it was complete; a name NAME.mcap.part became NAME.mcap
     kInUse,     ///< a program writes the file now; it is unchanged
-    kFailed,    ///< the file is unchanged
+    kFailed,    ///< the file is unchanged, also if it cannot be locked: a program may be writing it
   };
   Kind kind = Kind::kFailed;
   std::string path;  ///< of the complete file

@@ -144,9 +144,23 @@ TEST(RecordingGroups, ThatStillGrowAreKept) {
   EXPECT_EQ(chosen({"a/lab-3.mcap.part"}), (std::vector<std::size_t>{2}));
   EXPECT_EQ(chosen({"b/lab-3.mcap.part", "a/lab-2.mcap.part"}), (std::vector<std::size_t>{0, 1, 2}))
       << "neither of them is the next file of the recording";
+  EXPECT_EQ(chosen({"a/other-2.mcap.part"}), (std::vector<std::size_t>{0, 1, 2})) << "other.mcap was the last part";
   rows.pop_back();
   rows.pop_back();
   EXPECT_TRUE(chosen({"a/lab-2.mcap.part"}).empty());
+}
+
+// A recording leaves out the names that other files have.
+TEST(RecordingGroups, ThatGrowBehindATakenNameAreKept) {
+  std::vector<RecordingRow> rows{part("lab.mcap", 1, false)};
+  const auto chosen = [&](const std::vector<std::string>& unfinished) {
+    return files_beyond_limits(rows, unfinished, {.days = 1, .bytes = 0}, kBegin + 1000 * 24 * 60 * kMinute);
+  };
+  EXPECT_TRUE(chosen({"lab-3.mcap.part"}).empty());
+  EXPECT_EQ(chosen({"lab-x.mcap.part", "labs-3.mcap.part"}), std::vector<std::size_t>{0}) << "of other recordings";
+  rows.push_back(part("lab-3.mcap", 2, false));
+  EXPECT_TRUE(chosen({"lab-4.mcap.part"}).empty());
+  EXPECT_EQ(chosen({"lab-2.mcap.part"}), (std::vector<std::size_t>{0, 1})) << "it is before the last one";
 }
 
 TEST(RecordingGroups, LackNoPartThatIsBeingRecorded) {
@@ -154,7 +168,8 @@ TEST(RecordingGroups, LackNoPartThatIsBeingRecorded) {
   const auto group = [&](const std::vector<std::string>& unfinished) { return group_recordings(rows, unfinished)[0]; };
   EXPECT_EQ(group({"a/lab-3.mcap.part"}).problem, "");
   EXPECT_TRUE(group({"a/lab-3.mcap.part"}).grows);
-  EXPECT_NE(group({"a/lab-4.mcap.part"}).problem.find("part 3 of the recording is missing"), std::string::npos);
+  EXPECT_TRUE(group({"a/lab-4.mcap.part"}).grows) << "another file may have had the name a/lab-3.mcap";
+  EXPECT_NE(group({}).problem.find("part 3 of the recording is missing"), std::string::npos);
   EXPECT_FALSE(group({"b/lab-3.mcap.part"}).grows);
   const std::string text = recordings_text(rows, true, {"a/lab-3.mcap.part"});
   EXPECT_EQ(text.find("missing"), std::string::npos) << text;
