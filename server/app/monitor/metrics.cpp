@@ -171,6 +171,8 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
                shard->load().cpu_share());
     page.gauge("tandem_shed_level",
                "Load-shedding level: 0 none, 1 telemetry, 2-3 observers, 4-5 evaluators, 6 new joins", who,
+    page.count("tandem_overloads_total", "Times at which the ticks of the thread became so late", who,
+               static_cast<double>(shard->load().overloads()));
                static_cast<double>(shard->load().state().level));
     page.gauge("tandem_overloaded", "1: the ticks of the thread are late, and all hands of its sessions are released",
                who, shard->load().state().overloaded ? 1 : 0);
