@@ -1,64 +1,15 @@
 // The checkpoint that a live session writes for a restart, in virtual time.
 #include <gtest/gtest.h>
 
-#include "client/seat/seat.h"
-#include "hal/sim/sim_device.h"
-#include "netsim/system/simulated_handshake.h"
 #include "server/app/process/checkpoint_mailbox.h"
-#include "server/app/process/live_session.h"
-#include "tests/support/simulation_run.h"
+#include "tests/sim/hosted_hands.h"
 
 namespace tandem {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// A live session of scene one_axis with simulated hands, without network delay.
-struct HostedHands {
-  explicit HostedHands(server::TickQueue& records)
-      : hosted(scene, *server::make_local_slaves(scene, Time{}), 0, records) {
-    for (std::size_t i = 0; i < scene.seats.size(); ++i) {
-      auto device = *hal::sim::SimDevice::make(
-          {scene.seats[i].device, scene.seats[i].hand, scene.seats[i].environment, nullptr, now});
-      const hal::DeviceCaps caps = device->caps();
-      const auto joined = *netsim::simulate_join(hosted.session(), now, i, caps, RandomKey{7}.derive(i), 0);
-      hands.push_back(
-          {std::move(device), std::make_unique<client::Seat>(joined.setup, caps, joined.channel_params), {}});
-    }
-  }
-  /// Runs one tick of hands, clients and server.
-  void step(const server::MachineStatus& machine = {}) {
-    const auto address = [](std::size_t i) {
-      server::PeerAddress e;
-      e.bytes[0] = static_cast<std::byte>(i + 1);
-      e.size = 1;
-      return e;
-    };
-    for (std::size_t i = 0; i < hands.size(); ++i) {
-      hands[i].device->advance(hands[i].command, 1ms);
-      hands[i].command = hands[i].seat->on_servo(now, hands[i].device->state());
-      while (const auto size = hands[i].seat->poll_transmit(now, buffer))
-        hosted.session().on_datagram(now, address(i), std::span{buffer}.first(*size));
-    }
-    hosted.tick(now, now, 0, machine);
-    while (const auto out = hosted.session().poll_transmit(now, buffer))
-      hands[std::to_integer<std::size_t>(out->to.bytes[0]) - 1].seat->on_datagram(now,
-                                                                                  std::span{buffer}.first(out->size));
-    now += 1ms;
-  }
-  [[nodiscard]] bool begun() { return hosted.session().start_condition().begun(); }
-
-  struct Hand {
-    std::unique_ptr<hal::sim::SimDevice> device;
-    std::unique_ptr<client::Seat> seat;
-    hal::Command command;
-  };
-  SceneSpec scene = test::shipped("one_axis");
-  Time now = Time{} + 1ms;
-  server::LiveSession hosted;
-  std::vector<Hand> hands;
-  std::array<std::byte, transport::kDatagramMax> buffer;
-};
+using test::HostedHands;
 
 TEST(LiveSessionCheckpoint, ContainsASessionFromItsFirstTickOn) {
   server::TickQueue records{64};

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <asio.hpp>
+#include <chrono>
 #include <cstring>
 #include <thread>
 
@@ -58,30 +59,44 @@ class RelayedConnection : public std::enable_shared_from_this<RelayedConnection>
   Bytes up_{}, down_{};
 };
 
+constexpr std::chrono::milliseconds kPause{100};
+
 }  // namespace
 
 struct TcpRelay::Work {
-  Work(io::TcpListener listener, const io::SocketAddress& server)
-      : acceptor(context, listener.local.family() == AF_INET6 ? tcp::v6() : tcp::v4(), listener.fd.release()),
+  Work(io::TcpListener listener, const io::SocketAddress& server, std::size_t connections_max)
+      : most(connections_max),
+        acceptor(context, listener.local.family() == AF_INET6 ? tcp::v6() : tcp::v4(), listener.fd.release()),
         to(endpoint_of(server)) {}
 
   void accept() {
+    if (count >= most) return accept_later();
     acceptor.async_accept([this](std::error_code error, tcp::socket client) {
       if (error == asio::error::operation_aborted) return;
-      if (!error && count < kConnectionsMax) std::make_shared<RelayedConnection>(std::move(client), count)->start(to);
+      if (error) return accept_later();
+      std::make_shared<RelayedConnection>(std::move(client), count)->start(to);
       accept();
     });
   }
+  /// Waits, because without a free place or file descriptor the next attempt would fail at once, too.
+  void accept_later() {
+    pause.expires_after(kPause);
+    pause.async_wait([this](std::error_code error) {
+      if (!error) accept();
+    });
+  }
 
+  std::size_t most;
   std::size_t count = 0;  // outlives the connections that it counts
   asio::io_context context{1};
+  asio::steady_timer pause{context};
   tcp::acceptor acceptor;
   tcp::endpoint to;
   std::thread thread;
 };
 
-TcpRelay::TcpRelay(io::TcpListener listener, const io::SocketAddress& to)
-    : work_(std::make_unique<Work>(std::move(listener), to)) {
+TcpRelay::TcpRelay(io::TcpListener listener, const io::SocketAddress& to, std::size_t connections_max)
+    : work_(std::make_unique<Work>(std::move(listener), to, connections_max)) {
   work_->accept();
   work_->thread = std::thread([work = work_.get()] { work->context.run(); });
 }

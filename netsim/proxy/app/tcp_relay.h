@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "common/io/socket_address.h"
@@ -12,10 +13,11 @@ namespace tandem::netsim {
 /// network.
 class TcpRelay {
  public:
-  static constexpr std::size_t kConnectionsMax = 512;  ///< further connections wait in the system's queue
+  static constexpr std::size_t kConnectionsMax = 512;
 
   /// Relays on its own thread until destruction.
-  TcpRelay(io::TcpListener listener, const io::SocketAddress& to);
+  /// @param connections_max  further connections wait in the system's queue, as all do without a free descriptor
+  TcpRelay(io::TcpListener listener, const io::SocketAddress& to, std::size_t connections_max = kConnectionsMax);
   ~TcpRelay();
 
  private:

@@ -61,6 +61,7 @@ void SessionRegistry::remove(const rpc::Id& id, std::function<void()> gone) {
   SessionEntry* const found = find(id);
   if (found == nullptr) return gone();
   found->closing = true;
+  rejected_.add(found->session().status());
   requests_.when_idle(found->session(), [this, found, gone = std::move(gone)] {
     entries_.remove_if([&](const SessionEntry& e) { return &e == found; });
     gone();
@@ -89,6 +90,13 @@ void SessionRegistry::move(const rpc::Id& id, Shard& to, const io::SteeringProgr
     done(served);
   };
   requests_.move(*found->registration.shard, std::move(request));
+}
+
+RejectedDatagrams SessionRegistry::rejected() const {
+  RejectedDatagrams all = rejected_;
+  for (const SessionEntry& entry : entries_)
+    if (!entry.closing) all.add(entry.session().status());
+  return all;
 }
 
 void SessionRegistry::post(const SessionEntry& entry, ShardRequest request) {

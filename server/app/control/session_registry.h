@@ -11,6 +11,7 @@
 #include "server/app/control/drain_schedule.h"
 #include "server/app/control/session_entry.h"
 #include "server/app/control/shard_requests.h"
+#include "server/app/monitor/rejected_datagrams.h"
 
 namespace tandem::server {
 
@@ -36,6 +37,8 @@ class SessionRegistry {
             std::function<void(bool)> done);
   /// Number of moves so far.
   [[nodiscard]] std::uint64_t moves() const noexcept { return moves_; }
+  /// Rejected datagrams of all sessions, also of those that were removed.
+  [[nodiscard]] RejectedDatagrams rejected() const;
   /// Posts a request to the shard of a session, as `ShardRequests::post`.
   void post(const SessionEntry& entry, ShardRequest request);
 
@@ -68,6 +71,7 @@ class SessionRegistry {
   std::list<SessionEntry> entries_;  ///< with ascending numbers
   std::uint32_t numbers_ = 0;        ///< given so far
   std::uint64_t moves_ = 0;
+  RejectedDatagrams rejected_;  ///< of removed sessions
 };
 
 /// Phase of a session for clients.

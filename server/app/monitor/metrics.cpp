@@ -74,7 +74,7 @@ void describe_seat(Families& page, const Labels& who, const SeatStatus& seat) {
   page.gauge("tandem_loop_age_seconds", "Age of the newest echo of the seat", who, seat.loop_age_s);
   page.gauge("tandem_rtt_seconds", "Round trip of the network, without the waits for ticks", with("quantile", "0.5"),
              1e-3 * seat.link.rtt_p50_ms);
-  page.gauge("tandem_rtt_seconds", "", with("quantile", "0.99"), 1e-3 * seat.link.rtt_p99_ms);
+  page.gauge("tandem_rtt_seconds", "", with("quantile", "0.99"), 1e-3 * seat.recent_rtt_p99_ms);
   page.count("tandem_udp_accepted_total", "Datagrams that were applied", who, static_cast<double>(seat.accepted));
   page.count("tandem_udp_late_total", "Authentic datagrams older than one that was applied", who,
              static_cast<double>(seat.late));
@@ -119,20 +119,17 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
                     const ServiceStatus* service) {
   Families page;
   if (service != nullptr) describe_service(page, *service);
-  std::array<std::uint64_t, static_cast<std::size_t>(transport::DropReason::kCount)> refused{};
+  const RejectedDatagrams rejected = registry.rejected();
   std::array<std::size_t, rpc::kSessionPhases> sessions{};
-  std::uint64_t stray = 0;
+  std::uint64_t stray = rejected.unmatched;
   for (const SessionEntry& entry : registry.entries()) {
     if (entry.closing) continue;
     const SessionStatus status = entry.session().status();
     ++sessions[static_cast<std::size_t>(phase_of(status.state, status.may_act))];
-    stray += status.unmatched_datagrams;
     const auto& seats = entry.scene().seats;
     const std::string& name = entry.registration.name;
-    for (std::size_t i = 0; i < seats.size(); ++i) {
+    for (std::size_t i = 0; i < seats.size(); ++i)
       describe_seat(page, {{"session", name}, {"seat", seats[i].name}}, status.seats[i]);
-      for (std::size_t r = 0; r < refused.size(); ++r) refused[r] += status.seats[i].refused[r];
-    }
     page.gauge("tandem_session_time_seconds", "Session time", {{"session", name}}, status.time);
     page.count("tandem_audit_events_lost_total",
                "Events of the session lost because its queue was full: they are not in the audit log",
@@ -174,14 +171,17 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
                static_cast<double>(shard->load().state().level));
     page.gauge("tandem_overloaded", "1: the ticks of the thread are late, and all hands of its sessions are released",
                who, shard->load().state().overloaded ? 1 : 0);
+    page.count("tandem_overloads_total", "Times at which the ticks of the thread became so late", who,
+               static_cast<double>(shard->load().overloads()));
     stray += shard->unmatched_datagrams();
   }
-  for (std::size_t r = 0; r < refused.size(); ++r)
-    page.count("tandem_udp_drop_total", "Rejected datagrams of the current connections, by reason",
-               {{"reason", to_text(static_cast<transport::DropReason>(r))}}, static_cast<double>(refused[r]));
+  for (std::size_t r = 0; r < rejected.by_reason.size(); ++r)
+    page.count("tandem_udp_drop_total", "Rejected datagrams, by reason",
+               {{"reason", to_text(static_cast<transport::DropReason>(r))}},
+               static_cast<double>(rejected.by_reason[r]));
   page.count("tandem_udp_drop_total", "", {{"reason", "stray"}}, static_cast<double>(stray));
-  page.count("tandem_aead_fail_total", "Datagrams of the current connections whose tag was wrong", {},
-             static_cast<double>(refused[static_cast<std::size_t>(transport::DropReason::kTag)]));
+  page.count("tandem_aead_fail_total", "Datagrams whose tag was wrong", {},
+             static_cast<double>(rejected.by_reason[static_cast<std::size_t>(transport::DropReason::kTag)]));
   for (std::size_t i = 0; i < kControlEvents; ++i)
     page.count("tandem_joins_total", "Events of the control connections, by result",
                {{"result", std::string(to_text(static_cast<ControlEvent>(i)))}},

@@ -29,10 +29,13 @@ struct SeatStatus {
   double alpha = 0;
   double margin_j = 0;  ///< smallest energy margin of the seat's ledger so far [J]
   std::uint32_t gate_trips = 0;
-  std::uint32_t late_ticks = 0;                    ///< of the client's machine
-  double loop_age_s = 0;                           ///< age of the newest echo [s]; 0: none yet
-  std::uint64_t accepted = 0, late = 0, lost = 0;  ///< datagrams of this connection
-  std::array<std::uint64_t, static_cast<std::size_t>(transport::DropReason::kCount)> refused{};  ///< by reason
+  std::uint32_t late_ticks = 0;          ///< of the client's machine
+  double loop_age_s = 0;                 ///< age of the newest echo [s]; 0: none yet
+  std::uint64_t accepted = 0, late = 0;  ///< datagrams of this connection
+  std::uint64_t lost = 0;                ///< likewise; its maximum, because a late datagram lowers the number
+  /// Rejected datagrams by reason, of all connections of the seat.
+  std::array<std::uint64_t, static_cast<std::size_t>(transport::DropReason::kCount)> refused{};
+  double recent_rtt_p99_ms = 0;  ///< of the last 1000 round trips
   LinkReport link;
 };
 

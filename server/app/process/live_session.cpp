@@ -114,13 +114,19 @@ void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {
   if (const transport::SecureChannel* link = port.link()) {  // the last values of a seat that was left remain
     seat.link.rtt_p50_ms = ms(link->timing().rtt_p50());
     seat.link.rtt_p99_ms = ms(Duration{link->timing().rtts().quantile(0.99)});
+    seat.recent_rtt_p99_ms = ms(link->timing().rtt_p99());
     seat.link.up = direction(*link, now);
     const Duration age = link->timing().loop_age(now);
     seat.loop_age_s = age < kNeverEchoed ? seconds(age) : 0;
-    seat.accepted = link->stats().accepted;
-    seat.late = link->stats().late;
-    seat.lost = link->stats().lost();
-    seat.refused = link->stats().dropped;
+    // Prometheus takes a counter that falls for one that began again at zero, as those of a new connection do.
+    const transport::SecureChannelStats& stats = link->stats();
+    seat.lost = stats.accepted < seat.accepted ? stats.lost() : std::max(seat.lost, stats.lost());
+    seat.accepted = stats.accepted;
+    seat.late = stats.late;
+    for (std::size_t r = 0; r < stats.dropped.size(); ++r) {
+      const std::uint64_t before = std::exchange(rejected_before_[i][r], stats.dropped[r]);
+      seat.refused[r] += stats.dropped[r] - (before <= stats.dropped[r] ? before : 0);
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -128,6 +129,7 @@ class LiveSession {
   std::uint64_t late_ticks_ = 0, missed_ticks_ = 0;
   std::atomic<double> cost_{0};
   SessionStatus status_;
+  std::array<decltype(SeatStatus::refused), kSeatsMax> rejected_before_{};  ///< of each seat's connection
   io::Published<SessionStatus> published_;
   CheckpointPublisher checkpoints_;
 };

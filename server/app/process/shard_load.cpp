@@ -25,7 +25,9 @@ std::uint32_t ShardLoad::begin_tick(Time now, Duration late, bool serving) noexc
     machine_.late_ticks += machine_.late ? 1 : 0;
     machine_.missed_ticks += missed;
   }
+  const bool was_overloaded = machine_.load_state.overloaded;
   machine_.load_state = shedder_.step(now, machine_.realtime ? late : late / kLateUnpromised, used_, worked_);
+  if (serving && machine_.load_state.overloaded && !was_overloaded) overloads_.fetch_add(1, std::memory_order_relaxed);
   shed_level_.store(machine_.load_state.level, std::memory_order_relaxed);
   overloaded_.store(machine_.load_state.overloaded, std::memory_order_relaxed);
   return missed;

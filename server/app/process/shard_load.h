@@ -47,6 +47,8 @@ class ShardLoad {
   [[nodiscard]] const TickHistogram& lengths() const noexcept { return lengths_; }
   /// Ticks so far that began more than 1 ms late.
   [[nodiscard]] std::uint64_t late_ticks() const noexcept { return late_ticks_.load(std::memory_order_relaxed); }
+  /// Times at which ticks of a serving shard became so late that all hands were released.
+  [[nodiscard]] std::uint64_t overloads() const noexcept { return overloads_.load(std::memory_order_relaxed); }
   /// Time at which the last tick began.
   [[nodiscard]] Time last_tick() const noexcept { return Time{Duration{last_tick_.load(std::memory_order_relaxed)}}; }
 
@@ -61,7 +63,7 @@ class ShardLoad {
   Time core_since_{};
   Duration core_used_{};
   TickHistogram lateness_, lengths_;
-  std::atomic<std::uint64_t> late_ticks_{0};
+  std::atomic<std::uint64_t> late_ticks_{0}, overloads_{0};
   std::atomic<std::int64_t> last_tick_{0};
   std::atomic<double> tick_share_{0}, cpu_share_{0};
   std::atomic<ShedLevel> shed_level_{ShedLevel::kNone};

@@ -2,11 +2,28 @@
 #include "netsim/proxy/app/tcp_relay.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <asio.hpp>
+#include <atomic>
+#include <cerrno>
 #include <string>
 #include <thread>
 #include <vector>
+
+namespace {
+std::atomic<int> without_descriptor{0};  ///< attempts to accept that failed because no file descriptor was free
+}
+
+/// In place of the C library's, so that the attempts of the relay are counted.
+extern "C" int accept(int fd, sockaddr* from, socklen_t* size) {
+  const auto made = static_cast<int>(::syscall(SYS_accept, fd, from, size));
+  if (made < 0 && errno == EMFILE) ++without_descriptor;
+  return made;
+}
 
 namespace tandem::netsim {
 namespace {
@@ -59,6 +76,51 @@ TEST(TcpRelay, ClosesIfTheTargetDoesNotListen) {
   tcp::socket client{context};
   client.connect(relay_at);
   EXPECT_EQ(read_all(client), "");
+}
+
+/// @return whether the socket becomes readable, or its peer closes it
+bool readable(auto& socket, std::chrono::milliseconds within) {
+  pollfd at{socket.native_handle(), POLLIN, 0};
+  return ::poll(&at, 1, static_cast<int>(within.count())) == 1;
+}
+
+TEST(TcpRelay, LetsFurtherConnectionsWaitUntilOneEnds) {
+  asio::io_context context;
+  tcp::acceptor server{context, {asio::ip::address_v4::loopback(), 0}};
+  io::TcpListener listening = listener();
+  const tcp::endpoint relay_at = at(listening.local);
+  const TcpRelay relay{std::move(listening),
+                       *io::parse_address("127.0.0.1:" + std::to_string(server.local_endpoint().port()), 1), 2};
+  std::vector<tcp::socket> clients, peers;
+  for (int i = 0; i < 3; ++i) {
+    clients.emplace_back(context).connect(relay_at);
+    if (i < 2) peers.push_back(server.accept());
+  }
+  EXPECT_FALSE(readable(clients.back(), std::chrono::milliseconds(300))) << "the relay has closed the third one";
+  clients.front().close();
+  peers.front().close();
+  EXPECT_TRUE(readable(server, std::chrono::seconds(10)));
+}
+
+TEST(TcpRelay, WaitsForAFileDescriptorWithoutLoadingAProcessor) {
+  asio::io_context context;
+  tcp::acceptor server{context, {asio::ip::address_v4::loopback(), 0}};
+  io::TcpListener listening = listener();
+  const tcp::endpoint relay_at = at(listening.local);
+  const TcpRelay relay{std::move(listening),
+                       *io::parse_address("127.0.0.1:" + std::to_string(server.local_endpoint().port()), 1)};
+  tcp::socket client{context, tcp::v4()};
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{3, before.rlim_max};  // those in use stay open
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  client.connect(relay_at);
+  const bool came = readable(server, std::chrono::milliseconds(500));
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_FALSE(came);
+  EXPECT_GE(without_descriptor.load(), 1);
+  EXPECT_LE(without_descriptor.load(), 20);
+  EXPECT_TRUE(readable(server, std::chrono::seconds(10)));
 }
 
 TEST(TcpRelay, EndsWithConnectionsStillOpen) {

@@ -71,6 +71,22 @@ TEST(ShardLoad, ToleratesFourTimesTheLatenessWithoutRealTimePriority) {
   EXPECT_TRUE(refused.load.machine().load_state.overloaded) << "the sessions know it";
 }
 
+TEST(ShardLoad, CountsAnOverloadOnceWhileItServesASession) {
+  Thread thread;
+  const auto overload = [&](bool serving) {
+    for (int i = 0; i < 5; ++i) thread.tick(10us, 30ms, serving);
+    EXPECT_TRUE(thread.load.state().overloaded);
+    for (int i = 0; i < 10'000 && thread.load.state().overloaded; ++i) thread.tick(10us, 0ns, serving);
+    EXPECT_FALSE(thread.load.state().overloaded);
+  };
+  overload(true);
+  EXPECT_EQ(thread.load.overloads(), 1U);
+  overload(false);
+  EXPECT_EQ(thread.load.overloads(), 1U) << "no hand was released";
+  overload(true);
+  EXPECT_EQ(thread.load.overloads(), 2U);
+}
+
 TEST(ShardLoad, TakesNoHeap) {
   Thread thread;
   const tandem::test::AllocGuard guard;
