@@ -147,12 +147,13 @@ void MemberSessions::set_listed(const std::string& session, std::string text) {
     directory_.writer.set(session, directory_.keys.listed(session), std::move(text), open->revision());
 }
 
-void MemberSessions::hand_over(const std::string& session, Entry& entry, std::string why) {
+void MemberSessions::hand_over(const std::string& session, Entry& entry, std::string why, bool waits) {
   entry.session.set_phase(Phase::kMoving);
   events_.push_back({.kind = ServiceEvent::Kind::kHandOver,
                      .session = session,
                      .revision = entry.session.revision(),
-                     .text = std::move(why)});
+                     .text = std::move(why),
+                     .waits = waits});
 }
 
 void MemberSessions::on_owned(const std::string& session, directory::Revision revision) {

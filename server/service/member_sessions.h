@@ -16,7 +16,8 @@ struct ServiceEvent {
   enum class Kind : std::uint8_t {
     kOpen,        ///< serve the session; answer with `on_opened` or `on_open_failed`
     kGiveUp,      ///< end it here, its state stays; answer with `on_given_up`
-    kHandOver,    ///< the same, because it moves, `text` says why; answer with `on_handed_over` when it is over
+    kHandOver,    ///< the same, because it moves, `text` says why; answer with `on_handed_over` when it is over, or
+                  ///< with `on_kept`
     kRefused,     ///< a creation is refused: `text` says why
     kUnreadable,  ///< the session cannot be opened: its spec in the directory is damaged, or of another release
   };
@@ -28,6 +29,7 @@ struct ServiceEvent {
   std::int64_t revision = 0;  ///< kOpen: of the ownership, with the session's epoch_base: its epoch
   std::uint64_t order = 0;    ///< kOpen, kRefused: number of the creation; 0: none
   std::string text{};
+  bool waits = false;  ///< kHandOver: it moves because it waits for people: keep it if they have come
 };
 
 /// All sessions that this server claims, serves or ends, and the orders about them to the server.
@@ -86,8 +88,9 @@ class MemberSessions {
   void set_listed(const std::string& session, std::string text);
 
   /// Has the run of an open session handed over. kHandOver follows.
-  /// @param why  for operators
-  void hand_over(const std::string& session, Entry& entry, std::string why);
+  /// @param why    for operators
+  /// @param waits  the reason holds only while it waits for people
+  void hand_over(const std::string& session, Entry& entry, std::string why, bool waits);
 
   /// Notices of the ownership.
   void on_owned(const std::string& session, directory::Revision revision);

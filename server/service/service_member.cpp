@@ -63,6 +63,9 @@ void ServiceMember::step(Time now) {
   if (marks_lost_ != mark_.losses()) on_directory_lost(now);
   beginnings_.step(now, record_.drains);
   moves_.step(now, record_);
+  // Also while this server drains: its clients would find no other one for them.
+  for (const std::string& session : moves_.poll_given_back(now))
+    if (loss_.all_may_begin(now)) sessions_.want(session);
   begin_requests(now);
   take_notices(now);
 }
@@ -130,6 +133,7 @@ void ServiceMember::take_notices(Time now) {
         if (auto run = sessions_.on_lost(session)) beginnings_.keep(session, std::move(*run));
         break;
       case Notice::Kind::kReleased:
+        moves_.on_released(now, session);
         sessions_.on_released(session);
         break;
       case Notice::Kind::kLeased:

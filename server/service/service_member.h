@@ -62,8 +62,10 @@ class ServiceMember {
   void replace(const std::string& session, const ServiceSession& spec);
   /// The end of a run is not in the directory yet.
   [[nodiscard]] bool ends(const std::string& session) const;
-  /// It has no session, nor the state of one that a lost directory does not have.
-  [[nodiscard]] bool empty() const noexcept { return sessions_.empty() && !beginnings_.keeps(); }
+  /// It has no session, nor the state of one that a lost directory does not have, and none may come back.
+  [[nodiscard]] bool empty() const noexcept {
+    return sessions_.empty() && !beginnings_.keeps() && !moves_.may_come_back();
+  }
   /// Finds a session by id, code or name; without any, the only one. Asks for it if no server owns it.
   [[nodiscard]] SessionPlace locate(const rpc::SessionChoice& choice);
   /// Ends the lease and with it all ownerships, so that other servers begin at once. No session may have effort.

@@ -1,7 +1,11 @@
 #include "server/service/session_moves.h"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 #include <utility>
+
+#include "proto/rpc/rpc_limits.h"
 
 namespace tandem::server {
 
@@ -9,7 +13,7 @@ namespace {
 
 /// Steps after which all that was published before the hand-over is known here.
 constexpr int kStepsUntilMove = 2;
-constexpr Duration kBalanceInterval = std::chrono::milliseconds(250);
+constexpr Duration kLookInterval = std::chrono::milliseconds(250);
 constexpr Duration kStandbyCheck = std::chrono::seconds(1);
 constexpr Duration kStandbyPause = std::chrono::seconds(2);  // between two attempts to name a standby
 /// For the last snapshot of a session that moves. A directory without space stores none, and keeps the leases.
@@ -31,7 +35,11 @@ std::string words(directory::PlannedMove::Why why) {
 
 void SessionMoves::step(Time now, const directory::ServerRecord& own) {
   follow_orders();
-  balance(now, own);
+  if (now >= next_look_) {
+    next_look_ = now + kLookInterval;
+    candidates_ = candidates(own);
+    balance(now, own);
+  }
   for (auto& [session, entry] : sessions_.entries()) {
     if (entry.session.is_open()) choose_standby(now, session, entry, own);
     if (entry.session.phase() == MemberSession::Phase::kMoving) advance(now, session, entry);
@@ -70,8 +78,7 @@ void SessionMoves::set_loads(const std::vector<SessionLoad>& loads) {
 /// One move at a time. A server that drains moves its sessions even if it does not balance.
 void SessionMoves::balance(Time now, const directory::ServerRecord& own) {
   auto& entries = sessions_.entries();
-  if (now < next_balance_ || entries.empty() || !(balances_ || own.drains)) return;
-  next_balance_ = now + kBalanceInterval;
+  if (entries.empty() || !(balances_ || own.drains)) return;
   if (!directory_.ready() || !directory_.writer.problem().empty()) return;
   std::vector<directory::PlacedSession> placed;
   for (const auto& [session, entry] : entries) {
@@ -82,16 +89,33 @@ void SessionMoves::balance(Time now, const directory::ServerRecord& own) {
     const bool pinned = seen != directory_.catalogue.entries().end() && seen->second.home == directory_.server();
     placed.push_back({session, load->cost, load->expected, load->waiting, pinned, entry.opened});
   }
-  const auto move = planner_.step(now, candidates(own), directory_.server(), placed);
-  if (move) begin(move->session, entries.find(move->session)->second, move->server, words(move->why));
+  std::vector<directory::Candidate> targets = candidates_;
+  for (directory::Candidate& target : targets) target.closed = target.closed || !targets_.takes(now, target.server);
+  const auto move = planner_.step(now, targets, directory_.server(), placed);
+  if (move)
+    begin(move->session, entries.find(move->session)->second, move->server, words(move->why),
+          move->why == directory::PlannedMove::Why::kSpread);
 }
 
-void SessionMoves::begin(const std::string& session, Entry& entry, const std::string& server, const std::string& why) {
+void SessionMoves::begin(const std::string& session, Entry& entry, const std::string& server, const std::string& why,
+                         bool waits) {
   entry.move.target = server;
   entry.move.steps_until_move = -1;
   entry.move.handed_over.reset();
-  ++begun_;
-  sessions_.hand_over(session, entry, "MOVES to server " + server + ", " + why);
+  sessions_.hand_over(session, entry, "MOVES to server " + server + ", " + why, waits);
+}
+
+void SessionMoves::on_kept(const std::string& session) {
+  const auto found = sessions_.entries().find(session);
+  if (found == sessions_.entries().end() || found->second.session.phase() != MemberSession::Phase::kMoving) return;
+  found->second.session.set_phase(MemberSession::Phase::kOpen);
+  orders_seen_ = 0;  // one for it may have come meanwhile
+}
+
+void SessionMoves::on_released(Time now, const std::string& session) {
+  const auto found = sessions_.entries().find(session);
+  if (found != sessions_.entries().end() && found->second.session.phase() == MemberSession::Phase::kMoving)
+    targets_.on_sent(now, session, found->second.move.target);
 }
 
 void SessionMoves::on_handed_over(Time now, const std::string& session) {
@@ -99,6 +123,7 @@ void SessionMoves::on_handed_over(Time now, const std::string& session) {
   if (found == sessions_.entries().end() || found->second.session.phase() != MemberSession::Phase::kMoving) return;
   found->second.move.steps_until_move = kStepsUntilMove;
   found->second.move.handed_over = now;
+  ++begun_;
 }
 
 void SessionMoves::advance(Time now, const std::string& session, Entry& entry) {
@@ -134,17 +159,22 @@ void SessionMoves::choose_standby(Time now, const std::string& session, Entry& e
   if (now < entry.move.next_standby) return;
   entry.move.next_standby = now + kStandbyCheck;
   const auto* const seen = directory_.ownership.view().session(session);
-  if (seen == nullptr || !seen->owner || seen->standby) return;
+  if (seen == nullptr || !seen->owner) return;
   const double cost = own.used / static_cast<double>(std::max<std::size_t>(sessions_.open(), 1));
-  if (const auto chosen = placement_.place_standby(candidates(own), cost, directory_.server()))
+  const std::string present = seen->standby ? seen->standby->name : "";
+  if (const auto chosen = placement_.place_standby(candidates_, cost, directory_.server(), present))
     static_cast<void>(directory_.ownership.set_standby(session, *chosen));
 }
 
 std::vector<directory::Candidate> SessionMoves::candidates(const directory::ServerRecord& own) const {
+  std::map<std::string_view, std::size_t> owned;
+  for (const auto& [session, seen] : directory_.ownership.view().sessions())
+    if (seen.owner) ++owned[seen.owner->name];
   std::vector<directory::Candidate> candidates;
   for (const auto& [name, published] : directory_.members()) {
     const directory::ServerRecord& record = name == directory_.server() ? own : published;
-    candidates.push_back({name, record.zone, record.capacity, record.used, record.drains, record.expected});
+    candidates.push_back({name, record.zone, record.capacity, record.used, record.drains, record.expected,
+                          owned[name] >= rpc::kSessionsMax});
   }
   return candidates;
 }

@@ -72,6 +72,8 @@ class SeatReservation {
   [[nodiscard]] std::string person_at(Time t) const {
     return t >= since_ ? person_ : t >= previous_since_ ? previous_person_ : std::string{};
   }
+  /// Whether the owner was admitted at or after this time.
+  [[nodiscard]] bool admitted_since(Time t) const noexcept { return owner_ && since_ >= t; }
   /// Whether this connection owns the seat.
   [[nodiscard]] bool owned_by(std::uint32_t cid) const noexcept { return cid_ == cid && owner_; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -67,6 +68,15 @@ struct SessionEntry {
   [[nodiscard]] const SceneSpec& scene() const noexcept { return registration.session->scene(); }
   /// Neither removed nor over.
   [[nodiscard]] bool open() const noexcept { return !closing && !registration.session->over(); }
+  /// A seat is taken or being taken, or a console is joined.
+  [[nodiscard]] bool in_use(Time now) const {
+    constexpr Duration kStatusAge = std::chrono::seconds(1);  // more than that of the session's status
+    const SessionStatus status = session().status();
+    return !consoles.empty() || std::ranges::any_of(status.seats, &SeatStatus::taken) ||
+           std::ranges::any_of(seats, [&](const SeatReservation& seat) {
+             return seat.joining() || seat.admitted_since(now - kStatusAge);
+           });
+  }
   /// Stores the names of the persons at the seats.
   void keep_persons() const {
     if (!registration.on_persons) return;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <thread>
 #include <utility>
 
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/log.h"
+#include "common/io/processors.h"
 #include "server/app/control/audit_writer.h"
 #include "server/app/control/join_replies.h"
 #include "server/app/control/new_welcome.h"
@@ -100,7 +100,7 @@ std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry
   for (const Shard* shard : registry_.requests().shards()) all += load_of(shard);
   const Shard* const own = entry.registration.shard;
   std::string why = rejection_reason({load_of(own), own->load().state().level == ShedLevel::kNewJoins}, all,
-                                     std::thread::hardware_concurrency(), limits_);
+                                     io::available_processors(), limits_);
   if (why.empty()) return std::nullopt;
   return ErrorReply{ErrorCode::kFull, std::move(why), 5};
 }

@@ -138,6 +138,10 @@ void ServiceHost::execute(ServiceEvent event, Time now) {
       thread_->with([&](ServiceMember& member, Time) { member.sessions().on_given_up(event.session); });
       return;
     case ServiceEvent::Kind::kHandOver:
+      if (event.waits && in_use(event.session)) {
+        listed_.erase(event.session);  // the member took no list meanwhile
+        return thread_->with([&](ServiceMember& member, Time) { member.moves().on_kept(event.session); });
+      }
       // A session that ends just now does not go on elsewhere: `on_over` ends it in the directory.
       if (!parts_.sessions.hand_over(event.session, event.text + "; its clients join there")) return;
       handing_over_.insert(event.session);
@@ -155,6 +159,17 @@ void ServiceHost::execute(ServiceEvent event, Time now) {
       reply(event.order, rpc::ErrorReply{rpc::ErrorCode::kNotAllowed, event.text, 0});
       return;
   }
+}
+
+bool ServiceHost::in_use(const std::string& session) {
+  bool used = false;
+  parts_.control.change([&](const SessionRegistry& registry, const auto& done) {
+    used = std::ranges::any_of(registry.entries(), [&](const SessionEntry& entry) {
+      return entry.open() && entry.registration.name == session && entry.in_use(io::monotonic_now());
+    });
+    done();
+  });
+  return used;
 }
 
 std::expected<std::shared_ptr<const SessionOptions>, std::string> ServiceHost::options_of(
@@ -300,7 +315,8 @@ void ServiceHost::publish_load() {
     loads.push_back({std::move(use.name), use.measured, use.expected, waiting});
   }
   record_.expected = kExpectedStep * std::round(expected / kExpectedStep);
-  record_.capacity = parts_.options.control.load_limits.busy * io::available_processors();
+  record_.capacity = published_capacity(parts_.options.control.load_limits.busy, io::available_processors(),
+                                        parts_.shards.rates().size());
   record_.drains = parts_.control.registry().drain().due().has_value();
   thread_->quietly([&](ServiceMember& member, Time) {
     member.describe(record_);

@@ -75,6 +75,8 @@ class ServiceHost {
   void open_failed(const ServiceEvent& event, const std::string& why);
   void reply(std::uint64_t order, rpc::Body body);
   void forget_moved();
+  /// A person holds or takes a seat of the session, or a console is joined, as of now.
+  [[nodiscard]] bool in_use(const std::string& session);
   void on_over(const std::string& session, const ServiceSession& spec, bool given_up);
   [[nodiscard]] std::optional<rpc::ErrorReply> creation_problem(const rpc::CreateSession& wanted) const;
   [[nodiscard]] std::expected<std::shared_ptr<const SessionOptions>, std::string> options_of(

@@ -6,8 +6,6 @@ namespace tandem::directory {
 
 namespace {
 
-bool takes_sessions(const Candidate& server) { return !server.drains && server.capacity > 0; }
-
 /// Candidates with the expected in the place of the measured processor time.
 std::vector<Candidate> when_all_seats_are_taken(std::span<const Candidate> servers) {
   std::vector<Candidate> out(servers.begin(), servers.end());

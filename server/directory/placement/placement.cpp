@@ -7,7 +7,7 @@ namespace tandem::directory {
 namespace {
 
 bool has_room(const Candidate& candidate, double cost) {
-  return !candidate.drains && candidate.capacity > 0 && candidate.used + cost <= candidate.capacity;
+  return takes_sessions(candidate) && candidate.used + cost <= candidate.capacity;
 }
 
 double use_with(const Candidate& candidate, double cost) { return (candidate.used + cost) / candidate.capacity; }
@@ -40,7 +40,7 @@ std::optional<std::string> Placement::place(std::span<const Candidate> candidate
 }
 
 std::optional<std::string> Placement::place_standby(std::span<const Candidate> candidates, double cost,
-                                                    std::string_view owner) {
+                                                    std::string_view owner, std::string_view present) {
   const auto own = std::ranges::find(candidates, owner, &Candidate::server);
   const std::string_view zone = own == candidates.end() ? std::string_view{} : own->zone;
   std::vector<std::size_t> fitting, elsewhere;
@@ -48,6 +48,11 @@ std::optional<std::string> Placement::place_standby(std::span<const Candidate> c
     if (candidates[n].server == owner || !has_room(candidates[n], cost)) continue;
     fitting.push_back(n);
     if (zone.empty() || candidates[n].zone != zone) elsewhere.push_back(n);
+  }
+  if (!present.empty()) {
+    const auto standby = std::ranges::find(candidates, present, &Candidate::server);
+    const bool far = standby == candidates.end() || zone.empty() || standby->zone != zone || elsewhere.empty();
+    if (far && (standby == candidates.end() || !standby->drains)) return std::nullopt;
   }
   const auto chosen = less_used_of_two(candidates, elsewhere.empty() ? fitting : elsewhere, cost);
   if (!chosen) return std::nullopt;

@@ -129,12 +129,15 @@ TEST(MovePlanner, OrdersOfOperatorsHold) {
   EXPECT_EQ(settled(servers).step(kNow, servers, "a", sessions)->session, "y");
 }
 
-TEST(MovePlanner, UsesNoServerWithoutCapacityAndNoRecordThatIsMissing) {
+TEST(MovePlanner, UsesNoServerWithoutCapacityNorAClosedOneAndNoRecordThatIsMissing) {
   std::vector<Candidate> servers{server("a", 0.9, 0.9), server("b", 0, 0)};
   servers[1].capacity = 0;
   const std::vector<PlacedSession> sessions{running("x", 0.2), waiting("y", 0.2)};
   EXPECT_FALSE(settled(servers).step(kNow, servers, "a", sessions));
   servers[1].capacity = 1;
+  servers[1].closed = true;
+  EXPECT_FALSE(settled(servers).step(kNow, servers, "a", sessions));
+  servers[1].closed = false;
   servers[0].capacity = 0;
   EXPECT_FALSE(settled(servers).step(kNow, servers, "a", sessions));
   EXPECT_FALSE(settled(servers).step(kNow, servers, "unknown", sessions));

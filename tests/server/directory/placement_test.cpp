@@ -64,6 +64,23 @@ TEST(Placement, AStandbyIsInAnotherZoneIfOneHasRoom) {
   EXPECT_FALSE(placement.place_standby(std::vector<Candidate>{{"a", "x", 1, 0}}, 0.1, "a"));
 }
 
+TEST(Placement, AStandbyStaysUnlessItDrainsOrAnotherZoneHasRoom) {
+  Placement placement(RandomKey{1});
+  std::vector<Candidate> candidates{{"a", "x", 1, 0}, {"b", "x", 1, 0}, {"c", "y", 1, 0.95}, {"d", "z", 1, 0}};
+  EXPECT_FALSE(placement.place_standby(candidates, 0.1, "a", "c")) << "its load of the moment does not count";
+  EXPECT_EQ(placement.place_standby(candidates, 0.1, "a", "b"), "d");
+  EXPECT_FALSE(placement.place_standby(candidates, 0.1, "a", "of a later release"));
+  candidates[3].closed = true;
+  EXPECT_FALSE(placement.place_standby(candidates, 0.1, "a", "b"));
+  candidates[1].drains = true;
+  EXPECT_FALSE(placement.place_standby(candidates, 0.1, "a", "b")) << "none has room";
+  candidates[1].drains = false;
+  candidates[3].drains = true;
+  EXPECT_EQ(placement.place_standby(candidates, 0.1, "a", "d"), "b");
+  for (Candidate& candidate : candidates) candidate.zone.clear();
+  EXPECT_FALSE(placement.place_standby(candidates, 0.1, "a", "b"));
+}
+
 TEST(Placement, MeanUseCountsNoCapacityOfAServerThatDrains) {
   EXPECT_DOUBLE_EQ(mean_use(std::vector<Candidate>{{"a", "", 1, 0.2, true}, {"b", "", 1, 0.8}}), 1.0);
   EXPECT_EQ(mean_use({}), 0);

@@ -1,6 +1,7 @@
 // Sessions of a service move to less used servers by themselves.
 #include <set>
 
+#include "proto/rpc/rpc_limits.h"
 #include "tests/server/service/service_fixture.h"
 
 namespace tandem::server::test {
@@ -146,6 +147,79 @@ TEST_F(ServiceBalance, NothingMovesWithoutBalanceButADrainMovesAll) {
   for (const ServiceEvent& event : servers_[0]->events)
     if (event.kind == ServiceEvent::Kind::kHandOver) last = event.session + " " + event.text;
   EXPECT_EQ(last, "s2 MOVES to server b, because this server drains") << "people move last";
+}
+
+/// The loads that a server plans by are up to a second old.
+TEST_F(ServiceBalance, SessionToWhichAPersonHasJustComeStays) {
+  Server& a = start("a", sessions(2));
+  start("b");
+  a.waits = false;
+  pass_with_loads(20s);
+  const auto asked = std::ranges::count(a.events, ServiceEvent::Kind::kHandOver, &ServiceEvent::kind);
+  EXPECT_GE(asked, 1);
+  EXPECT_LE(asked, 2) << "each session rests then";
+  EXPECT_EQ(counts(), (std::vector<std::size_t>{2, 0}));
+  EXPECT_EQ(a.member.status(now_).moves, 0U);
+  a.member.sessions().set_snapshot("s1", "newer");
+  pass(1s);
+  EXPECT_EQ(value("snapshots/s1"), "newer");
+  order_move("s1", "b");
+  pass(2s);
+  EXPECT_EQ(counts(), (std::vector<std::size_t>{1, 1})) << "orders still count";
+}
+
+TEST_F(ServiceBalance, OrderThatComesDuringAHandOverThatIsNotCarriedOutIsFollowed) {
+  Server& a = start("a", sessions(2));
+  start("b");
+  a.waits = false;
+  on_ask = [&](const std::string& session) {
+    order_move(session, "b");
+    for (int n = 0; n < 3; ++n) a.member.step(now_);
+  };
+  pass_with_loads(10s);
+  EXPECT_EQ(value("catalogue/s1/home") + value("catalogue/s2/home"), "b");
+}
+
+/// A session that its target does not open must not take all others with it.
+TEST_F(ServiceBalance, ServerThatOpensNoSessionGetsOneWhichComesBack) {
+  Server& a = start("a", sessions(3));
+  Server& b = start("b");
+  b.opens = false;
+  draining.insert(&a);
+  pass_with_loads(60s);
+  EXPECT_EQ(std::ranges::count(b.events, ServiceEvent::Kind::kOpen, &ServiceEvent::kind), 1);
+  EXPECT_EQ(counts(), (std::vector<std::size_t>{3, 0}));
+  EXPECT_FALSE(a.member.empty());
+  b.opens = true;
+  pass_with_loads(5min);
+  EXPECT_EQ(counts(), (std::vector<std::size_t>{0, 3})) << "it gets another one minutes later";
+}
+
+TEST_F(ServiceBalance, ServerThatDrainsWaitsUntilItsLastSessionIsKept) {
+  Server& a = start("a", sessions(1));
+  Server& b = start("b");
+  b.opens = false;
+  draining.insert(&a);
+  for (int n = 0; n < 20; ++n) {
+    pass_with_loads(1s);
+    ASSERT_FALSE(a.member.empty()) << n;
+  }
+  EXPECT_EQ(counts(), (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(std::ranges::count(b.events, ServiceEvent::Kind::kOpen, &ServiceEvent::kind), 1);
+}
+
+TEST_F(ServiceBalance, ServerWithTheMostSessionsGetsNoFurtherOne) {
+  Server& a = start("a", sessions(2));
+  start("b");
+  const auto owner = [](std::size_t n) { return "/tandem/v1/live/sessions/f" + std::to_string(n) + "/owner"; };
+  for (std::size_t n = 0; n < rpc::kSessionsMax; ++n)
+    static_cast<void>(store_.execute(0, directory::Transaction{{}, {directory::Put{owner(n), "b", 0}}, {}}));
+  draining.insert(&a);
+  pass_with_loads(10s);
+  EXPECT_EQ(counts(), (std::vector<std::size_t>{2, 0}));
+  static_cast<void>(store_.execute(0, directory::Transaction{{}, {directory::Erase{owner(0)}}, {}}));
+  pass_with_loads(10s);
+  EXPECT_EQ(counts(), (std::vector<std::size_t>{1, 1}));
 }
 
 TEST_F(ServiceBalance, NothingMovesWithoutTheDirectory) {

@@ -88,6 +88,7 @@ class ServiceTest : public testing::Test {
     std::map<std::string, ServiceEvent> open;  ///< sessions that it serves
     std::vector<ServiceEvent> events;
     bool opens = true, runs = true;
+    bool waits = true;  ///< no person has come since it has reported that its sessions wait
   };
   Server& start(const std::string& name, std::map<std::string, ServiceSession> configured = {},
                 const std::string& zone = {}, bool balance = true) {
@@ -108,6 +109,11 @@ class ServiceTest : public testing::Test {
         server.open.erase(event->session);
         server.member.sessions().on_given_up(event->session);
       } else if (event->kind == ServiceEvent::Kind::kHandOver) {
+        if (event->waits && !server.waits) {
+          if (on_ask) on_ask(event->session);
+          server.member.moves().on_kept(event->session);
+          continue;
+        }
         server.open.erase(event->session);
         if (on_hand_over) on_hand_over(server);
         server.member.sessions().set_snapshot(event->session, "state at the hand-over");
@@ -158,6 +164,7 @@ class ServiceTest : public testing::Test {
   static rpc::SessionChoice named(const std::string& name) { return {name}; }
 
   std::function<void(Server&)> on_hand_over;
+  std::function<void(const std::string&)> on_ask;  ///< a session is to be handed over, and a person has come
   directory::ModelStore store_;
   RegistryAgreement agreed_;  ///< of servers that start
   std::vector<std::unique_ptr<Server>> servers_;

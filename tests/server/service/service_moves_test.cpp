@@ -221,6 +221,34 @@ TEST_F(ServiceMoves, GoOnWhenAnotherServerIsRefusedAsStandby) {
   EXPECT_EQ(std::ranges::count(a.events, ServiceEvent::Kind::kOpen, &ServiceEvent::kind), 1);
 }
 
+/// A zone that was gone for a moment must not stay without standbys.
+TEST_F(ServiceMoves, StandbyIsInTheOtherZoneAgainWhenThatIsBack) {
+  start("a", {{"lab", session_spec(1)}}, "east");
+  start("b", {}, "east");
+  Server& c = start("c", {}, "west");
+  pass(2s);
+  ASSERT_EQ(value("live/sessions/lab/standby"), "c");
+  c.runs = false;
+  pass(8s);
+  ASSERT_EQ(value("live/sessions/lab/standby"), "b");
+  c.runs = true;
+  pass(5s);
+  EXPECT_EQ(value("live/sessions/lab/standby"), "c");
+}
+
+TEST_F(ServiceMoves, StandbyThatDrainsIsReplaced) {
+  start("a", {{"lab", session_spec(1)}}, "east");
+  Server& b = start("b", {}, "west");
+  pass(2s);
+  ASSERT_EQ(value("live/sessions/lab/standby"), "b");
+  b.member.describe({.address = "b:7000", .key = "k", .version = "1", .zone = "west", .capacity = 4, .drains = true});
+  pass(3s);
+  EXPECT_EQ(value("live/sessions/lab/standby"), "b") << "there is no other one";
+  start("c", {}, "east");
+  pass(3s);
+  EXPECT_EQ(value("live/sessions/lab/standby"), "c");
+}
+
 /// Of a later release, or damaged: another server of the service may read it.
 TEST_F(ServiceMoves, SpecThatCannotBeReadStaysInTheDirectory) {
   const std::map<std::string, ServiceSession> configured{{"lab", session_spec(1)}};

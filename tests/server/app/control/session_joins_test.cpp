@@ -2,6 +2,7 @@
 #include "server/app/control/session_joins.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <array>
@@ -40,6 +41,36 @@ TEST(SessionJoins, RejectTheClientThatWouldPassTheLimitTogetherWithTheNewestOnes
     EXPECT_EQ(error_of(*reply).code, ErrorCode::kFull);
     EXPECT_NE(error_of(*reply).text.find("rejects new joins"), std::string::npos) << error_of(*reply).text;
   }
+}
+
+/// As under CPUAffinity of a systemd unit. The second session's own thread is idle.
+TEST(SessionJoins, CountOnlyTheProcessorsThatTheServerMayUse) {
+  Shard other{std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0))), 1000};
+  Joining j;
+  LiveSession exam(j.scene, *make_local_slaves(j.scene, Time{}), 1, j.records());
+  j.registry.requests().watch(other);
+  j.registry.add({"exam", id_of(2), "ABCDE12346", 3, &exam, &other});
+  j.serve();
+  cpu_set_t before, one;
+  CPU_ZERO(&one);
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  for (std::size_t cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &before)) CPU_SET(cpu, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  SessionJoins joins{j.registry, j.commands, j.keys, LoadLimits{0.75 * expected_seat_cost(j.scene.tick_hz)}};
+  std::array<std::optional<JoinReply>, 2> replies;
+  const auto ask = [&](const char* code, std::optional<JoinReply>& reply) {
+    JoinRequest request = Joining::request("trainee", rpc::CodeCredential{code});
+    request.hello.session = std::string(code);
+    joins.admit(request, [&reply](JoinReply decided) { reply = std::move(decided); });
+  };
+  ask(kCode, replies[0]);
+  j.wait_until([&] { return replies[0].has_value(); });
+  ask("ABCDE12346", replies[1]);
+  EXPECT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
+  ASSERT_TRUE(replies[1]);
+  EXPECT_NE(error_of(*replies[1]).text.find("keep the 1 processors busy"), std::string::npos)
+      << error_of(*replies[1]).text;
 }
 
 TEST(SessionJoins, RejectTicketsOfBeforeTheEnrolmentOfTheWorkstationAndUseThemUpNot) {

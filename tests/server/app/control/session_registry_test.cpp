@@ -1,15 +1,51 @@
 // The registry of sessions without clients: choice of a session, lists, removal, drain.
 #include "server/app/control/session_registry.h"
 
+#include <poll.h>
+
+#include <optional>
+#include <utility>
+
 #include "common/auth/enrolment.h"
 #include "common/io/clock.h"
-#include "tests/server/app/control/registry_fixture.h"
+#include "tests/server/app/control/joining.h"
 
 namespace tandem::server {
 namespace {
 
 using namespace test;
 using rpc::ErrorCode;
+
+/// The session publishes its seats some ticks later only.
+TEST(SessionEntry, IsInUseFromTheRequestForASeatOn) {
+  Joining j;
+  EXPECT_FALSE(j.lesson.in_use(io::monotonic_now()));
+  const JoinRequest request = Joining::request("trainee", rpc::CodeCredential{kCode});
+  std::optional<JoinReply> reply;
+  j.joins.admit(request, [&](JoinReply decided) { reply = std::move(decided); });
+  EXPECT_TRUE(j.lesson.in_use(io::monotonic_now()));
+  j.serve();
+  j.wait_until([&] { return reply.has_value(); });
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(*reply));
+  const Time joined = io::monotonic_now();
+  j.joins.on_joined(request, std::get<rpc::Welcome>(*reply), {});
+  j.wait_until([&] { return !j.lesson.seats[1].joining(); });
+  EXPECT_TRUE(j.lesson.in_use(joined));
+  const auto published = [&] { return j.lesson.session().status().seats[1].taken; };
+  for (int i = 0; i < 1000 && !published(); ++i) poll(nullptr, 0, 10);
+  EXPECT_TRUE(j.lesson.in_use(joined + 1h));
+}
+
+TEST(SessionEntry, IsInUseWhileAConsoleIsJoined) {
+  Joining j;
+  const JoinReply reply = j.join([&] {
+    JoinRequest request = Joining::request("");
+    request.hello.credential = j.operators_ticket({std::byte{1}});
+    return request;
+  }());
+  ASSERT_TRUE(std::holds_alternative<rpc::Welcome>(reply));
+  EXPECT_TRUE(j.lesson.in_use(io::monotonic_now()));
+}
 
 TEST(SessionRegistry, ChoosesTheOnlySessionOrTheOneNamedByIdOrCode) {
   RegistryFixture f;
