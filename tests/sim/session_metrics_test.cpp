@@ -71,7 +71,7 @@ TEST(SessionMetrics, LossDoesNotFallWhenADatagramComesLate) {
   EXPECT_EQ(life.read(lost), 0) << "another connection";
 }
 
-TEST(SessionMetrics, RejectedDatagramsStayCountedWhenASeatIsTakenAnew) {
+TEST(SessionMetrics, RejectedDatagramsStayCountedWhenASeatIsTakenAgain) {
   MonitoredHands life;
   life.damage(7);
   EXPECT_EQ(life.read(kTag), 7);
