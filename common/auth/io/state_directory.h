@@ -35,7 +35,7 @@ class StateDirectory {
   /// @return the file's bytes, nullopt if there is no such file, or the error
   [[nodiscard]] std::expected<std::optional<SecretBuffer>, std::string> read(const std::string& name) const;
   /// Whether a replacement waits for the disk. Without it a power cut may leave an empty file: only for a file that
-  /// each start writes anew.
+  /// each start writes again.
   enum class Sync { kYes, kNo };
   /// @return the error, empty if the data are on disk (kYes) or with the system (kNo)
   [[nodiscard]] std::string replace(const std::string& name, std::span<const std::byte> bytes,

@@ -164,9 +164,7 @@ TEST(AuditLog, CountsLinesBeyondThoseThatMayWait) {
     EXPECT_GE(log->lost(), 500u) << "some lines are on their way to the disk";
     EXPECT_LE(log->lost(), 1000u);
   }
-  while (log->write(*state, kNow, "last", "", ""), folder.read("audit.log").find("last") == std::string::npos)
-    std::this_thread::yield();
-  const auto lost = log->lost();
+  const std::uint64_t lost = log->lost();
   log.reset();
   const std::string all = folder.read("audit.log");
   EXPECT_EQ(count(all, "\"event\":\"event\"") + lost, kAll);
