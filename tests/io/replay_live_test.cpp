@@ -53,7 +53,7 @@ TEST(LiveRecording, IsReplayedLiveForOtherHands) {
   EXPECT_EQ(again.wait(), 0) << again.err() << again.out();
   EXPECT_EQ(follower.wait(), 0) << follower.err();
   const Lesson replayed = read(folder, "b.mcap");
-  ASSERT_GT(replayed.rows(), 5000u);
+  ASSERT_GT(replayed.rows(), 300u);
   EXPECT_TRUE(folder.json("b.json")["violations"].empty()) << folder.json("b.json")["violations"];
   std::map<std::uint32_t, std::size_t> rows;
   for (std::size_t k = 0; k < lesson.rows(); ++k) rows[lesson.seats[0].sample_tick[k]] = k;
