@@ -35,11 +35,11 @@ void ProxyClock::update_wall_clock() noexcept {
   wall_at_start_ = lead + started_.load(std::memory_order_relaxed);
 }
 
-Time ProxyClock::arrival(Duration stamp, Duration now) const noexcept {
-  if (stamp == Duration{}) return Time{now};
+Time ProxyClock::arrival(Duration stamp, Duration read_at) const noexcept {
+  if (stamp == Duration{}) return Time{read_at};
   // Datagrams that arrived between opening the socket and the first round count as arrived at the start.
-  const Duration oldest = std::max(now - kAgeMax, Duration::zero());
-  return Time{std::clamp(stamp - wall_at_start_, oldest, now + Duration{1'000'000})};
+  const Duration oldest = std::max(read_at - kAgeMax, Duration::zero());
+  return Time{std::clamp(stamp - wall_at_start_, oldest, read_at)};
 }
 
 }  // namespace tandem::netsim

@@ -21,9 +21,10 @@ class ProxyClock {
 
   /// Reads the wall clock, which may have been set. Call it before converting stamps.
   void update_wall_clock() noexcept;
-  /// Returns the time of arrival of a datagram that is read at `now`.
-  /// @param stamp  kernel stamp of the datagram, CLOCK_REALTIME; zero: none
-  [[nodiscard]] Time arrival(Duration stamp, Duration now) const noexcept;
+  /// Returns the time of arrival of a datagram.
+  /// @param stamp    kernel stamp of the datagram, CLOCK_REALTIME; zero: none
+  /// @param read_at  a time after the datagram was read; no datagram arrives later
+  [[nodiscard]] Time arrival(Duration stamp, Duration read_at) const noexcept;
 
  private:
   std::atomic<Duration> started_{};  ///< CLOCK_MONOTONIC

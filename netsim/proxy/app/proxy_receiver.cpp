@@ -16,6 +16,7 @@ static_assert(io::ReceiveBatch::kSlotBytes == kSlotBytes, "the buffer holds ever
 /// Returns the number of datagrams in the batch.
 std::size_t ProxyReceiver::receive(int fd) noexcept {
   const int received = in_.receive(fd);
+  read_at_ = clock_.now();
   if (received < 0) ++(errno == ECONNREFUSED ? errors_.refused : errors_.other);  // the port may open again
   return received > 0 ? static_cast<std::size_t>(received) : 0;
 }
@@ -35,7 +36,7 @@ std::size_t ProxyReceiver::read(ProxySource source, Duration now) noexcept {
       ++errors_.too_long;
       continue;
     }
-    core_.ingress(clock_.arrival(in_.details(i, Duration{}).stamp, now), source.place,
+    core_.ingress(clock_.arrival(in_.details(i, Duration{}).stamp, read_at_), source.place,
                   up ? Direction::kUp : Direction::kDown, in_.bytes(i),
                   former ? client.former_number : client.address_number);
   }
@@ -60,7 +61,7 @@ std::size_t ProxyReceiver::read_unknown_senders(Duration now) noexcept {
     if (arrivals_.full()) break;
   }
   arrivals_.flush([&](std::uint32_t place, Duration stamp, std::span<const std::byte> bytes) {
-    core_.ingress(clock_.arrival(stamp, now), place, Direction::kUp, bytes);
+    core_.ingress(clock_.arrival(stamp, read_at_), place, Direction::kUp, bytes);
   });
   clients_.listen_to_pending();
   return count;
@@ -78,7 +79,7 @@ std::size_t ProxyReceiver::receive_unknown_senders(int fd, Duration now) noexcep
     const auto place = registry_.identify(in_.from(i), details.local, now);
     if (!place) continue;
     if (arrivals_.full()) {
-      core_.ingress(clock_.arrival(details.stamp, now), *place, Direction::kUp, in_.bytes(i));
+      core_.ingress(clock_.arrival(details.stamp, read_at_), *place, Direction::kUp, in_.bytes(i));
     } else {
       arrivals_.add(*place, details.stamp, in_.bytes(i));
     }
