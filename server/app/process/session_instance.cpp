@@ -248,6 +248,8 @@ SessionInstance::Verdict SessionInstance::finish() {
   report.passed = live_session_->violations().passed();
   report.trace_hash = recorder_.trace_hash();
   report.cpu_s = cpu_seconds();
+  if (!options_->json.empty() || !options_->trace.empty() || !options_->reports.empty())
+    report.shed_rows = live_session_->skipped_records();
   for (std::size_t i = 0; i < report.seats.size(); ++i)
     report.seats[i].gate_trips = last.seats[i].gate_trips, report.seats[i].taken = last.seats[i].ever_taken;
 
