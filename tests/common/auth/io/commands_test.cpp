@@ -68,6 +68,10 @@ TEST(AuthCommands, SetUpAServerTwoWorkstationsAndATicket) {
                     "--state", state})
                 .code,
             2);
+  const Ran none = server({"revoke", "touch-07", "--state", state});
+  EXPECT_NE(none.err.find("`tandem-server enroll --state " + state + " touch-07 --address HOST:PORT`"),
+            std::string::npos)
+      << none.err;
   const std::string audit = door.folder.read("server/audit.log");
   for (const char* word : {"code_given_out", "enrolled", "\"ticket\"", "revoked", "touch-08"})
     EXPECT_NE(audit.find(word), std::string::npos) << word << "\n" << audit;
