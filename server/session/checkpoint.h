@@ -43,8 +43,8 @@ struct Checkpoint {
   std::array<Tool, kToolsMax> tools{};
   // The encoding has none of these: it is read by releases that do not know them (session_snapshot.h keeps three).
   std::optional<RestoreCounts> restores = RestoreCounts{};  ///< nullopt: not known
-  StopLatch::Latest latest_stop{};  ///< `at`: minus its age at the time of this checkpoint
-  bool handed_over = false;         ///< the session ended here so that another server goes on with it
+  StopLatch::Latest latest_stop{};                          ///< `at`: minus its age at the time of this checkpoint
+  bool handed_over = false;  ///< the session ended here so that another server goes on with it
   /// Stops, pauses and resumes that were carried out in this process so far. Neither encoded nor restored.
   std::uint32_t orders = 0;
 };

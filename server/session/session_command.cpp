@@ -72,8 +72,8 @@ struct Execution {
  private:
   [[nodiscard]] Requester requester() const noexcept { return {command.role, command.seat}; }
   [[nodiscard]] Result stop(StopLatch::Level wanted, std::string_view why) const noexcept {
-    const StopLatch::Words words{FixedText<rpc::kNameMax>{command.workstation}, FixedText<rpc::kNameMax>{command.person},
-                                 FixedText<rpc::kTextMax>{why}};
+    const StopLatch::Words words{FixedText<rpc::kNameMax>{command.workstation},
+                                 FixedText<rpc::kNameMax>{command.person}, FixedText<rpc::kTextMax>{why}};
     return session.stop_control().request(now, requester(), wanted, words) ? Result::kDone : Result::kForbidden;
   }
 };

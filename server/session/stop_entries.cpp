@@ -21,7 +21,7 @@ constexpr std::size_t kPlaceAt = kStopLabel.size(), kPartAt = kPlaceAt + 1, kPar
 struct Numbers {
   std::uint64_t epoch = 0;
   std::uint32_t age_ms = 0;
-  std::uint16_t why = 0;                   ///< [bytes]
+  std::uint16_t why = 0;                     ///< [bytes]
   std::uint8_t workstation = 0, person = 0;  ///< the same
   StopLatch::Level level{};
   std::uint8_t by = 0;
@@ -75,12 +75,12 @@ StopLatch::Latest stop_of(std::span<const SnapshotEntry> entries, std::uint64_t 
                          person = texts.substr(numbers.workstation, numbers.person),
                          why = texts.substr(std::size_t{numbers.workstation} + numbers.person, numbers.why);
   const auto name_or_none = [](std::string_view text) { return text.empty() || rpc::is_name(text); };
-  const bool valid = numbers.epoch == epoch && numbers.level >= StopLatch::Level::kPaused &&
-                     numbers.level <= StopLatch::Level::kStopped &&
-                     (numbers.by < seats || numbers.by == AuditEvent::kControlPlane ||
-                      numbers.by == StopLatch::kNoSeat) &&
-                     static_cast<std::uint8_t>(numbers.role) < kAccessRoles && name_or_none(workstation) &&
-                     name_or_none(person) && rpc::is_text(why);
+  const bool valid =
+      numbers.epoch == epoch && numbers.level >= StopLatch::Level::kPaused &&
+      numbers.level <= StopLatch::Level::kStopped &&
+      (numbers.by < seats || numbers.by == AuditEvent::kControlPlane || numbers.by == StopLatch::kNoSeat) &&
+      static_cast<std::uint8_t>(numbers.role) < kAccessRoles && name_or_none(workstation) && name_or_none(person) &&
+      rpc::is_text(why);
   if (!valid) return {};
   return {numbers.level,
           numbers.by,
