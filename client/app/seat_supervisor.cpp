@@ -161,12 +161,14 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
   if (server_restarts(status) && resume_state_.service) server_.hasten(hastened_backoff());
   // The force gate already released the force after the silence limit.
   if (reconnector_ || !server_.reconnect_due(now)) return std::nullopt;
-  if (server_.on_reconnect(initial_backoff()))
+  if (server_.on_reconnect(initial_backoff())) {
+    run_notice_.on_break();
     o_.line.note(
         format("%s; your hand is free. Reconnecting, for up to %.0f s (--reconnect-timeout); q or Ctrl-C ends it",
                server_restarts(status) ? "the server ended or gave the session away; your seat is kept"
                                        : "the server fell silent",
                o_.options.reconnect_timeout_s));
+  }
   reconnector_ = std::make_unique<Reconnector>(o_.join_options, resume_state_, o_.seat, o_.runner, socket_);
   return std::nullopt;
 }
@@ -259,11 +261,13 @@ void SeatSupervisor::show(ClientStatus status) {
   const bool reported =
       status_poller_ && !status_poller_->ended() &&
       (session_before_ == wire::SessionState::kStopped || session_before_ == wire::SessionState::kPaused);
-  if (status.session != session_before_ && status.session == wire::SessionState::kRunning && !reported)
+  if (status.session != session_before_ && run_notice_.update(status.session, reported))
     o_.line.note("the session runs");
-  if (status.session != session_before_ && status.session == wire::SessionState::kOverloaded)
+  if (status.session != session_before_ && status.session == wire::SessionState::kOverloaded) {
     o_.line.note(
         "OVERLOADED: the server is too busy to keep time; the hand is released, and engaged again automatically");
+    run_notice_.on_break();
+  }
   session_before_ = status.session;
   const Time now = io::monotonic_now();
   if (const std::string transfer = transfer_notices_.message(seconds(now), status, o_.seat.setup(), last_status_);

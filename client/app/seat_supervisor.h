@@ -9,6 +9,7 @@
 #include "client/app/hardware_device.h"
 #include "client/app/keyboard_controls.h"
 #include "client/app/reconnector.h"
+#include "client/app/run_notice.h"
 #include "client/app/run_seat.h"
 #include "client/app/seat_runner.h"
 #include "client/app/server_watch.h"
@@ -83,6 +84,7 @@ class SeatSupervisor {
   Time begin_, shown_at_;
   ServerWatch server_;
   std::optional<Time> leaving_since_;
+  RunNotice run_notice_;
   wire::SessionState session_before_ = wire::SessionState::kWaiting;
   AuthorityTransferNotices transfer_notices_;
   bool motors_hot_ = false;

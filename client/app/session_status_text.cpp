@@ -27,7 +27,7 @@ std::string name_or_null(const std::string& name) { return name.empty() ? "null"
 std::string maker_of(const rpc::StatusStop& stop) {
   const std::string& who = stop.seat.empty() ? stop.workstation : stop.seat;
   if (stop.kind == rpc::StopKind::kFault) return "the session itself";
-  std::string text = "an unknown client";
+  std::string text = "an unknown author";
   if (!who.empty())
     text = (stop.person.empty() ? "" : stop.person + " at ") + sanitize(who) + " (" + std::string(to_text(stop.role)) +
            (stop.seat.empty() ? " at a console)" : ")");

@@ -32,9 +32,9 @@ std::string to_text(EnrollError fault) {
   switch (fault) {
     case EnrollError::kUnknownCode:
       return "this code is not valid: it was used already, replaced by a newer one, or is wrong; ask for a new one "
-             "with `tandem-server enroll NAME`";
+             "with `tandem-server enroll NAME --address HOST:PORT`";
     case EnrollError::kExpired:
-      return "this code has expired; ask for a new one with `tandem-server enroll NAME`";
+      return "this code has expired; ask for a new one with `tandem-server enroll NAME --address HOST:PORT`";
     case EnrollError::kKeyTaken:
       return "this workstation is enrolled under another name already; `tandem-server revoke` that name first";
     case EnrollError::kBookFull:

@@ -81,6 +81,7 @@ struct RunReport {
   double sparse_s =
       0;  ///< session time whose samples are more than ReportBuilder::kSpeedSpan apart; 0: a tenth at most
   double sparse_gap_s = 0;            ///< mean interval between these samples [s]
+  std::uint64_t shed_rows = 0;        ///< ticks of a wanted file without a row, because the server shed load
   bool moved = false;                 ///< a hand moved by more than ReportBuilder::kMoved while its seat was engaged
   std::vector<Violation> violations;  ///< violated invariants
   bool passed = true;                 ///< no violation but expected ones

@@ -137,8 +137,11 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   if (r.sparse_s > 0)
     out += format(
         "  sampled every %.0f ms for %.1f of %.1f s: peaks between the samples are not in the table, and speed is the "
-        "mean between two of them; `--json`, `--trace` or `reports` sample every tick\n",
-        1e3 * r.sparse_gap_s, r.sparse_s, r.duration_s);
+        "mean between two of them; %s\n",
+        1e3 * r.sparse_gap_s, r.sparse_s, r.duration_s,
+        r.shed_rows > 0
+            ? "the server was too busy and left rows out (load shedding): give it fewer sessions or programs"
+            : "`--json`, `--trace` or `reports` sample every tick");
   for (const auto& v : r.violations)
     out += format("  %s invariant %s%s%s first at %.3f s, %llu times%s\n",
                   v.expected ? "broken, never promised:" : "BROKEN:", v.invariant.c_str(), v.seat.empty() ? "" : " at ",

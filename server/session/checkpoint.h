@@ -41,8 +41,9 @@ struct Checkpoint {
   std::uint8_t seats_n = 0, masters_n = 0, tools_n = 0, dof = 0;
   std::array<Seat, kSeatsMax> seats{};
   std::array<Tool, kToolsMax> tools{};
-  // The encoding has none of these: it is read by releases that do not know them (session_snapshot.h keeps two).
+  // The encoding has none of these: it is read by releases that do not know them (session_snapshot.h keeps three).
   std::optional<RestoreCounts> restores = RestoreCounts{};  ///< nullopt: not known
+  StopLatch::Latest latest_stop{};                          ///< `at`: minus its age at the time of this checkpoint
   bool handed_over = false;  ///< the session ended here so that another server goes on with it
   /// Stops, pauses and resumes that were carried out in this process so far. Neither encoded nor restored.
   std::uint32_t orders = 0;

@@ -43,13 +43,13 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       scene_hash_(scene_hash(scene)) {}
 
 Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves,
-                 const AxisArray& scale, const Checkpoint& from)
+                 const AxisArray& scale, const Checkpoint& from, Time saved_at)
     : Session(scene, std::move(slaves), scale) {
   epoch_ = from.epoch + 1;
   clock_.restore(from.session_tick);
   authority_.restore(from);
   start_.restore(from);
-  stop_.restore(from);
+  stop_.restore(from, saved_at);
   for (std::size_t i = 0; i < seats_.size(); ++i) seats_[i].set_resume(from.seats[i].resume, from.seats[i].force_scale);
   // A tool with its own slave starts at the slave's position, so that the spring between them starts without force.
   for (std::size_t j = 0; j < control_.tools().size(); ++j)
@@ -108,7 +108,7 @@ Checkpoint Session::checkpoint() const noexcept {
   c.dof = static_cast<std::uint8_t>(scene_->dof);
   authority_.save(c);
   start_.save(c);
-  stop_.save(c);
+  stop_.save(c, clock_.last_tick());
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     c.seats[i].resume = seats_[i].resume();
     c.seats[i].force_scale = seats_[i].force_scale();

@@ -47,10 +47,11 @@ class Session {
   /// Restores the session that a failed server left behind, with the next epoch. All clients have to join again. No
   /// seat is engaged until all required seats are ready: taken instructors' seats and taken seats with authority. An
   /// instructor can resume earlier, without the missing seats (StopControl::resume).
-  /// @param slaves  at the joint positions of `from` (Checkpoint::Tool::slave)
+  /// @param slaves    at the joint positions of `from` (Checkpoint::Tool::slave)
+  /// @param saved_at  time of the checkpoint, by the clock of this server
   /// @pre incompatibility(from, scene) is empty
   Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale,
-          const Checkpoint& from);
+          const Checkpoint& from, Time saved_at = {});
   Session(const Session&) = delete;  // its parts refer to each other
   Session& operator=(const Session&) = delete;
 

@@ -1,6 +1,7 @@
 #include "server/session/session_command.h"
 
 #include <algorithm>
+#include <string_view>
 #include <variant>
 
 #include "server/policy/roles.h"
@@ -33,8 +34,10 @@ struct Execution {
   Effect& effect;
 
   Result operator()(const rpc::StatusRequest&) const noexcept { return Result::kDone; }
-  Result operator()(const rpc::StopSession&) const noexcept { return stop(StopLatch::Level::kStopped); }
-  Result operator()(const rpc::PauseSession&) const noexcept { return stop(StopLatch::Level::kPaused); }
+  Result operator()(const rpc::StopSession& halt) const noexcept { return stop(StopLatch::Level::kStopped, halt.why); }
+  Result operator()(const rpc::PauseSession& pause) const noexcept {
+    return stop(StopLatch::Level::kPaused, pause.why);
+  }
   Result operator()(const rpc::ResumeSession& resume) const noexcept {
     if (!session.stop_control().latch().latched() && !session.start_condition().recovering())
       return Result::kNothingToDo;
@@ -68,8 +71,10 @@ struct Execution {
 
  private:
   [[nodiscard]] Requester requester() const noexcept { return {command.role, command.seat}; }
-  [[nodiscard]] Result stop(StopLatch::Level wanted) const noexcept {
-    return session.stop_control().request(now, requester(), wanted) ? Result::kDone : Result::kForbidden;
+  [[nodiscard]] Result stop(StopLatch::Level wanted, std::string_view why) const noexcept {
+    const StopLatch::Words words{FixedText<rpc::kNameMax>{command.workstation},
+                                 FixedText<rpc::kNameMax>{command.person}, FixedText<rpc::kTextMax>{why}};
+    return session.stop_control().request(now, requester(), wanted, words) ? Result::kDone : Result::kForbidden;
   }
 };
 

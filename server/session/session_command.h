@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <type_traits>
 
 #include "common/control/authority.h"
@@ -29,6 +30,7 @@ struct SessionCommand {
   std::uint8_t seat = AuditEvent::kNoSeat;  ///< seat of the client, AuditEvent::kNoSeat for a console
   std::uint32_t cid = 0;                    ///< of the client's datagrams: they must still own the seat
   std::uint32_t order = 0;                  ///< number for the events that follow from it; changes nothing else
+  std::string workstation{}, person{};      ///< of the client, for the words of a stop; person empty: not named
 };
 
 /// Result of a command, and the state of the session afterwards.

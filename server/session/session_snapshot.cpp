@@ -4,10 +4,12 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <iterator>
 
 #include "common/base/raw_bytes.h"
 #include "common/transport/digest.h"
 #include "proto/rpc/rpc_texts.h"
+#include "server/session/stop_entries.h"
 
 namespace tandem::server {
 namespace {
@@ -17,7 +19,7 @@ constexpr std::size_t kDigest = sizeof(Checkpoint::Hash);
 constexpr std::size_t kTextMaximum = 255, kPersonMaximum = 32;
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
-using Key = std::array<std::byte, 32>;
+using Key = SnapshotEntry;
 
 // Releases of before RestoreCounts read and write the list of removed workstations as it is. Therefore later additions
 // are entries of it that no fingerprint of a key can be: a label, flags, the epoch that wrote it, and numbers at the
@@ -63,6 +65,7 @@ std::vector<Key> additions(const SessionSnapshot& kept) {
     all.push_back(make_entry(kCountsLabel, checkpoint.handed_over ? kHandedOver : std::byte{0}, checkpoint.epoch,
                              Counts{restores->restarts, restores->moves, restores->numbers}));
   if (kept.life_left_s) all.push_back(make_entry(kLifeLabel, std::byte{0}, checkpoint.epoch, *kept.life_left_s));
+  std::ranges::copy(stop_entries(checkpoint.latest_stop, checkpoint.epoch), std::back_inserter(all));
   const std::size_t room = kRemovedWorkstationsMax - kept.removed_workstations.size();
   if (all.size() > room) all.resize(room);
   return all;
@@ -72,6 +75,7 @@ std::vector<Key> additions(const SessionSnapshot& kept) {
 void take_additions(SessionSnapshot& kept) {
   Checkpoint& checkpoint = kept.checkpoint;
   checkpoint.restores.reset();
+  checkpoint.latest_stop = stop_of(kept.removed_workstations, checkpoint.epoch, checkpoint.seats_n);
   for (const Key& entry : kept.removed_workstations) {
     const auto counts = numbers_of<Counts>(entry, kCountsLabel, checkpoint.epoch);
     if (counts && (*counts)[2] <= checkpoint.stops) {
@@ -81,8 +85,9 @@ void take_additions(SessionSnapshot& kept) {
     const auto left = numbers_of<std::int64_t>(entry, kLifeLabel, checkpoint.epoch);
     if (left && *left >= 0 && *left <= rpc::kLifeMaxS) kept.life_left_s = left;
   }
-  std::erase_if(kept.removed_workstations,
-                [](const Key& entry) { return has_label(entry, kCountsLabel) || has_label(entry, kLifeLabel); });
+  std::erase_if(kept.removed_workstations, [](const Key& entry) {
+    return has_label(entry, kCountsLabel) || has_label(entry, kLifeLabel) || has_label(entry, kStopLabel);
+  });
 }
 
 const char* cause(CheckpointError error) noexcept {
@@ -100,6 +105,15 @@ const char* cause(CheckpointError error) noexcept {
 }
 
 }  // namespace
+
+void set_checkpoint(SessionSnapshot& kept, const Checkpoint& newest) {
+  const bool same_stop = kept.checkpoint.stops == newest.stops;
+  const auto named = kept.checkpoint.latest_stop.words.person;
+  kept.checkpoint = newest;
+  StopLatch::Latest& stop = kept.checkpoint.latest_stop;
+  if (stop.restored || !stop.words.workstation.empty() || stop.by >= kept.persons.size()) return;
+  stop.words.person = same_stop ? named : FixedText<rpc::kNameMax>{kept.persons[stop.by]};
+}
 
 std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept) {
   if (kept.name.empty() || kept.name.size() > kTextMaximum || kept.code.size() > kTextMaximum ||

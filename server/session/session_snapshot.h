@@ -44,10 +44,14 @@ inline constexpr std::size_t kRemovedWorkstationsMax = 128;
 inline constexpr std::size_t kSnapshotMax =
     kCheckpointMax + 1024 + 32 * kRemovedWorkstationsMax + 33 * kSeatsMax;  ///< [bytes]
 
+/// Takes a newer checkpoint. The session does not know the person who stops it from a seat: that is the one who has the
+/// seat in the first checkpoint with the stop.
+void set_checkpoint(SessionSnapshot& kept, const Checkpoint& newest);
+
 /// Writes magic, wall time, id, name, code, number of removed workstations (one byte), their fingerprints, number of
-/// persons (one byte), their names, checkpoint, then the SHA-256 of all that. Counts of restores and the rest of the
-/// session's time are two more entries of the removed workstations, if there is room: older releases keep them, and
-/// read the rest as ever.
+/// persons (one byte), their names, checkpoint, then the SHA-256 of all that. Counts of restores, the rest of the
+/// session's time and the newest stop are more entries of the removed workstations, if there is room: older releases
+/// keep them, and read the rest as ever.
 /// @return empty if the name is missing, or if a text or the list is too long
 [[nodiscard]] std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept);
 /// Parses any bytes. @return a snapshot with all numbers in range, or the reason for the rejection, as text for the

@@ -4,7 +4,10 @@
 
 namespace tandem::server {
 
-void StopControl::restore(const Checkpoint& from) noexcept {
+void StopControl::restore(const Checkpoint& from, Time saved_at) noexcept {
+  before_ = from.latest_stop;
+  before_.at = saved_at + (before_.at - Time{});
+  before_.restored = true;
   restores_ = from.restores;
   if (restores_) {
     ++(from.handed_over ? restores_->moves : restores_->restarts);
@@ -12,21 +15,26 @@ void StopControl::restore(const Checkpoint& from) noexcept {
   }
   if (start_->recovering()) {
     // A new number, which an instructor can name to resume without the missing seats.
-    latch_.restore(StopLatch::Level::kNone, from.stops + 1);
+    latch_.restore(StopLatch::Level::kNone, from.stops + 1, before_);
   } else {
-    latch_.restore(from.stop, from.stops);
+    latch_.restore(from.stop, from.stops, before_);
   }
 }
 
-void StopControl::save(Checkpoint& to) const noexcept {
+void StopControl::save(Checkpoint& to, Time now) const noexcept {
   to.stops = latch_.stops();
   to.restores = restores_;
   to.orders = orders_;
   to.stop = start_->recovering() ? std::max(start_->stop_before(), latch_.level()) : latch_.level();
+  const bool raised_later = start_->recovering() && start_->stop_before() > latch_.level();
+  to.latest_stop = raised_later ? before_ : latch_.latest();
+  to.latest_stop.at = Time{} - std::max(Duration{0}, now - to.latest_stop.at);
 }
 
-std::optional<StopLatch::Level> StopControl::request(Time now, const Requester& by, StopLatch::Level wanted) noexcept {
-  const auto level = latch_.request(now, by.role, by.seat < seats_ ? by.seat : AuditEvent::kControlPlane, wanted);
+std::optional<StopLatch::Level> StopControl::request(Time now, const Requester& by, StopLatch::Level wanted,
+                                                     const StopLatch::Words& words) noexcept {
+  const auto level =
+      latch_.request(now, by.role, by.seat < seats_ ? by.seat : AuditEvent::kControlPlane, wanted, words);
   if (!level) return level;
   ++orders_;
   audit_->emit(now, *level == StopLatch::Level::kStopped ? AuditEvent::What::kStop : AuditEvent::What::kPause,
@@ -52,7 +60,7 @@ void StopControl::resume_after_restart(Time now, std::uint8_t seat, std::uint32_
   audit_->emit(now, AuditEvent::What::kAllBack, seat, number);
   start_->begin(now);
   if (start_->stop_before() == StopLatch::Level::kNone) return;
-  latch_.raise(start_->stop_before(), {});
+  latch_.raise(start_->stop_before(), before_);
   if (restores_) ++restores_->numbers;
 }
 

@@ -28,16 +28,19 @@ class StopControl {
         latch_(scene.has_instructor()) {}
   /// Restores the stop of a checkpoint, and counts this restore. A session that waits for its seats raises the stop
   /// again when it resumes.
+  /// @param saved_at  time of the checkpoint, by the clock of this server
   /// @pre the start condition is restored
-  void restore(const Checkpoint& from) noexcept;
-  /// Writes number and level of the stop that a restart restores.
-  void save(Checkpoint& to) const noexcept TANDEM_REALTIME;
+  void restore(const Checkpoint& from, Time saved_at = {}) noexcept;
+  /// Writes number, level and author of the stop that a restart restores.
+  /// @param now  time of the checkpoint
+  void save(Checkpoint& to, Time now = {}) const noexcept TANDEM_REALTIME;
 
   /// Stops all hands. A role that may only pause pauses them.
   /// @param wanted  highest level
   /// @return the level that was requested; nothing if the role may not stop
   std::optional<StopLatch::Level> request(Time now, const Requester& by,
-                                          StopLatch::Level wanted = StopLatch::Level::kStopped) noexcept;
+                                          StopLatch::Level wanted = StopLatch::Level::kStopped,
+                                          const StopLatch::Words& words = {}) noexcept;
   /// Ends the stop, or ends the waiting after a restart.
   /// @param number  number of the stop to end, see StopLatch::stops
   /// @return kDone also if the session resumed into the stop that was on before a restart
@@ -64,6 +67,7 @@ class StopControl {
   StartCondition* start_;
   AuditTrail* audit_;
   StopLatch latch_;
+  StopLatch::Latest before_;  ///< of the checkpoint, for the stop that is raised again
   std::optional<RestoreCounts> restores_ = RestoreCounts{};
   std::uint32_t orders_ = 0;
 };

@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "common/base/axes.h"
+#include "common/base/fixed_text.h"
 #include "common/base/time.h"
+#include "proto/rpc/rpc_limits.h"
 #include "server/policy/roles.h"
 #include "server/session/command_result.h"
 
@@ -25,12 +27,20 @@ class StopLatch {
   /// @param led  the scene has an instructor's seat
   explicit StopLatch(bool led = true) noexcept : has_instructor_(led) {}
 
+  /// Names and reason of a stop, which only control connections give.
+  struct Words {
+    FixedText<rpc::kNameMax> workstation;
+    FixedText<rpc::kNameMax> person;  ///< name in the ticket; empty: not named
+    FixedText<rpc::kTextMax> why;
+  };
   /// The newest stop.
   struct Latest {
-    Level level = Level::kNone;  ///< kNone: no stop since this server began
+    Level level = Level::kNone;  ///< kNone: none so far, or the snapshot of this session does not name its author
     std::uint8_t by = kNoSeat;   ///< a seat, or AuditEvent::kControlPlane; kNoSeat: the session itself
     AccessRole role = AccessRole::kObserver;
     Time at{};
+    Words words{};
+    bool restored = false;  ///< an earlier server process of this session took it
   };
 
   /// The stop that was ended last.
@@ -52,14 +62,15 @@ class StopLatch {
   /// @param by      seat of the participant, or AuditEvent::kControlPlane
   /// @param wanted  highest level
   /// @return the level that was requested; nothing if the role may not stop
-  std::optional<Level> request(Time now, AccessRole who, std::uint8_t by, Level wanted = Level::kStopped) noexcept {
+  std::optional<Level> request(Time now, AccessRole who, std::uint8_t by, Level wanted = Level::kStopped,
+                               const Words& words = {}) noexcept {
     const Grant grant = allowed(who, Right::kStopSession);
     if (grant == Grant::kNo) return std::nullopt;
     const Level level = grant == Grant::kYes ? wanted : Level::kPaused;
     const bool his_own = grant == Grant::kPart && by < kSeatsMax;
     const std::uint32_t held = latched() ? holders_ : 0;
     const bool bound = latched() && needs_stop_right_;
-    raise(level, {level, by, who, now});
+    raise(level, {level, by, who, now, words});
     holders_ = his_own ? held | 1U << by : held;
     needs_stop_right_ = bound || !his_own;
     return level;
@@ -124,9 +135,10 @@ class StopLatch {
   }
 
   /// Restores the latch from a checkpoint. Numbers only grow.
-  void restore(Level level, std::uint32_t stops) noexcept {
+  void restore(Level level, std::uint32_t stops, const Latest& latest) noexcept {
     level_ = level;
     stops_ = stops;
+    latest_ = latest;
     holders_ = 0;
     needs_stop_right_ = false;  // the holders are unknown: any seat that may end pauses may end this one
   }

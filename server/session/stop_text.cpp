@@ -16,7 +16,9 @@ std::string may_end_text(const StopLatch& latch, const SceneSpec& scene, std::ui
     names += (names.empty() ? "" : " and ") + scene.seats[i].name;
     ++count;
   }
-  if (count == 0) return "any seat that may pause (key r), as the seat that paused has left, or " + operators;
+  if (count == 0)
+    return std::string("any seat that may pause (key r)") +
+           (latch.holders(~0U) != 0 ? ", as the seat that paused has left," : "") + " or " + operators;
   return names + (count == 1 ? " (key r), which paused, or " : " (key r each), which paused, or ") + operators;
 }
 
@@ -29,9 +31,16 @@ std::optional<tandem::rpc::StatusStop> latest_stop(const StopLatch& latch, const
   stop.number = latch.stops();
   stop.kind = (known ? newest.level : latch.level()) == StopLatch::Level::kPaused ? tandem::rpc::StopKind::kPause
                                                                                   : tandem::rpc::StopKind::kStop;
-  if (newest.by < scene.seats.size()) stop.seat = scene.seats[newest.by].name;
+  const StopLatch::Words& words = newest.words;
+  stop.person = words.person.view();
+  stop.why = words.why.view();
+  if (newest.by < scene.seats.size()) {
+    stop.seat = scene.seats[newest.by].name;
+  } else {
+    stop.workstation = words.workstation.view();
+  }
   if (known && newest.by == StopLatch::kNoSeat) stop.kind = tandem::rpc::StopKind::kFault;
-  if (!known) stop.why = "it was on before the server was restarted";
+  if (!known) stop.why = "it is older than this run of the session, and its author was not stored";
   stop.role = newest.role;
   stop.ago_s = std::max(0.0, ago_s);
   stop.ends = may_end_text(latch, scene, there);

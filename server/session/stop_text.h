@@ -15,10 +15,10 @@ namespace tandem::server {
 /// @param there  connected seats, bit i for seat i
 [[nodiscard]] std::string may_end_text(const StopLatch& latch, const SceneSpec& scene, std::uint32_t there);
 
-/// The newest stop, with seat and role as far as the session knows them; the control plane adds the names of consoles.
+/// The newest stop, as far as the session knows its author; the control plane adds the person at a seat.
 /// @param ago_s  age of the stop [s]
 /// @param there  connected seats, bit i for seat i
-/// @return nothing if there was no stop since this server began and none is latched
+/// @return nothing if the session knows no stop and none is latched
 [[nodiscard]] std::optional<tandem::rpc::StatusStop> latest_stop(const StopLatch& latch, const SceneSpec& scene,
                                                                  double ago_s, std::uint32_t there);
 

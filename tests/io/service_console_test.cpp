@@ -135,7 +135,7 @@ TEST_F(ServiceConsole, ComesBackByItsTicketWhenItsServerDiesAndNoOtherConsoleDoe
   const std::string followed = "this console has followed session lab to its new server\n";
   ASSERT_TRUE(console.process().wait_for("`resume 1` ends it\n" + followed))
       << console.process().out() << console.process().err() << a_again.err();
-  EXPECT_TRUE(console.process().wait_for("it was on before the server was restarted")) << "it takes orders again";
+  EXPECT_TRUE(console.process().wait_for("STOPPED by desk (operator at a console): danger")) << "it takes orders again";
   console.type("status");
   EXPECT_TRUE(console.process().wait_for("; 1 stop, 2 restarts and 0 moves so far")) << console.process().out();
   console.type("quit");

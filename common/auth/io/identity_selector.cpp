@@ -43,7 +43,8 @@ std::expected<const Identity*, std::string> IdentitySelector::find(const Present
     return std::unexpected(address_ +
                            " shows another key than when this workstation was enrolled there. Either another machine "
                            "answers, or the server has new keys: ask its admin; if it has new keys, `tandem-server "
-                           "enroll NAME` there and `tandem-client enroll STRING` here");
+                           "enroll NAME --address " +
+                           address_ + "` there and `tandem-client enroll STRING` here");
   const bool here = address_.starts_with("127.") || address_.starts_with("[::1]") || address_.starts_with("localhost:");
   if (here)
     return std::unexpected(
@@ -54,7 +55,8 @@ std::expected<const Identity*, std::string> IdentitySelector::find(const Present
         "`tandem-server enroll NAME` with the server's --state and `tandem-client enroll STRING` here");
   return std::unexpected("this workstation does not know the server at " + address_ +
                          ". If it is enrolled there, name the folder of this workstation's keys with --state; "
-                         "otherwise run `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
+                         "otherwise run `tandem-server enroll NAME --address " +
+                         address_ + "` there and `tandem-client enroll STRING` here");
 }
 
 std::optional<std::expected<const Identity*, std::string>> IdentitySelector::find_member(

@@ -87,7 +87,7 @@ inline void record_command(const char* command, auth::ServerKeystore& state, std
          (book.empty()
               ? "none is enrolled in " + folder +
                     ": if the server has another folder, name that with --state; otherwise run `tandem-server enroll" +
-                    auth::server_state_option(folder) + " " + name + "`"
+                    auth::server_state_option(folder) + " " + name + " --address HOST:PORT`"
               : suggest_name(name, book));
 }
 

@@ -17,8 +17,9 @@ using rpc::ErrorCode;
 using rpc::Kind;
 
 constexpr std::string_view kUnknown =
-    "this workstation is not enrolled here, or was revoked; ask its administrator for `tandem-server enroll NAME` and "
-    "run the command that it prints. If it is enrolled with another folder of keys, name that with --state";
+    "this workstation is not enrolled here, or was revoked; ask its administrator for `tandem-server enroll NAME "
+    "--address HOST:PORT` and run the command that it prints. If it is enrolled with another folder of keys, name that "
+    "with --state";
 
 /// Longest wait of a request for a session that a server is about to serve, and time between two looks. A client may
 /// wait only 0.5 s for its answer. The same for a workstation that another server has just enrolled: its enrolment

@@ -39,7 +39,8 @@ std::optional<ErrorReply> SessionCommands::holder_problem(const rpc::CreateSessi
     if (auth::find_workstation(*workstations, holder.workstation) == nullptr)
       return ErrorReply{ErrorCode::kNotEnrolled,
                         whose + ": no workstation " + holder.workstation +
-                            " is enrolled here; enrol it with `tandem-server enroll " + holder.workstation + "`",
+                            " is enrolled here; enrol it with `tandem-server enroll " + holder.workstation +
+                            " --address HOST:PORT`",
                         0};
     if (holder.seat.empty() && (holder.role == AccessRole::kOperator || !may_join_console(holder.role)))
       return ErrorReply{ErrorCode::kNotAllowed,

@@ -88,7 +88,12 @@ void SessionCommands::execute(const rpc::Welcome& joined, const WorkstationRow& 
   if (const auto* const remove = std::get_if<rpc::RemoveParticipant>(&command))
     if (const auto seat = entry->session().seat_catalogue().seat_named(remove->seat)) entry->seats[*seat].void_join();
   ShardRequest request{.what = ShardRequest::What::kCommand};
-  request.command = {std::move(command), joined.role, seat_of(joined), joined.server_cid};
+  request.command = {.body = std::move(command),
+                     .role = joined.role,
+                     .seat = seat_of(joined),
+                     .cid = joined.server_cid,
+                     .workstation = workstation.name,
+                     .person = joined.person};
   if (entry->registration.recording && !std::holds_alternative<rpc::StatusRequest>(request.command.body))
     request.command.order =
         entry->registration.recording->add_order(joined.person.empty() ? workstation.name : joined.person);
@@ -120,8 +125,6 @@ rpc::Body SessionCommands::conclude(SessionEntry& entry, const rpc::Welcome& joi
   const CommandOutcome& outcome = executed.outcome;
   const std::string why = why_in(command);
   const bool done = outcome.result == Result::kDone;
-  if (done && (std::holds_alternative<rpc::StopSession>(command) || std::holds_alternative<rpc::PauseSession>(command)))
-    entry.notices.set_stop(outcome.stops, workstation, joined.person, why);
   if (const auto* resume = std::get_if<rpc::ResumeSession>(&command); done && resume != nullptr)
     entry.notices.set_resume(resume->stop, who);
   if (entry.registration.stored) entry.notices.set_storage_problem(entry.registration.stored->problem());
@@ -226,11 +229,12 @@ rpc::Status SessionCommands::status_of(const SessionEntry& entry, const rpc::Wel
     status.stop->yours = (!joined.seat.empty() || !watches_only(joined.role)) &&
                          outcome.stop_latch.may_be_ended_by(joined.role, seat_of(joined), outcome.connected_seats);
   // The session knows the seat of a stop by key or datagram; the person is the one who had it then.
-  if (const std::uint8_t by = outcome.stop_latch.latest().by; status.stop && by < entry.seats.size())
-    status.stop->person = entry.seats[by].person_at(io::monotonic_now() - from_seconds(outcome.stop_age));
+  const StopLatch::Latest& latest = outcome.stop_latch.latest();
+  if (status.stop && latest.by < entry.seats.size() && !latest.restored && latest.words.workstation.empty())
+    status.stop->person = entry.seats[latest.by].person_at(io::monotonic_now() - from_seconds(outcome.stop_age));
   if (allowed(joined.role, Right::kScore) == Grant::kYes) status.notes = entry.notes.newest();
   if (entry.registration.stored) status.not_stored = truncate_utf8(entry.registration.stored->problem(), rpc::kTextMax);
-  entry.notices.complete(status);
+  status.events = entry.notices.events();
   return status;
 }
 

@@ -12,13 +12,6 @@ void StatusNotices::add(std::string_view text) {
   events_.push_back({++count_, truncate_utf8(text, rpc::kTextMax)});
 }
 
-void StatusNotices::set_stop(std::uint32_t number, std::string workstation, std::string person, std::string why) {
-  stop_ = number;
-  stop_workstation_ = std::move(workstation);
-  stop_person_ = std::move(person);
-  stop_why_ = std::move(why);
-}
-
 void StatusNotices::set_resume(std::uint32_t number, std::string who) {
   resumed_ = number;
   resumer_ = std::move(who);
@@ -41,15 +34,6 @@ void StatusNotices::set_storage_problem(const std::string& why) {
   add(why.empty() ? "the state of the session is stored again: a stop survives a kill of the server"
                   : "the state of the session is NOT STORED: " + why +
                         ". Until that succeeds, a kill of the server undoes a stop");
-}
-
-void StatusNotices::complete(rpc::Status& status) const {
-  status.events = events_;
-  if (!status.stop || status.stop->number != stop_) return;
-  const bool fault = status.stop->kind == rpc::StopKind::kFault;
-  if (status.stop->seat.empty() && !fault) status.stop->workstation = stop_workstation_;
-  if (!fault) status.stop->person = stop_person_;
-  status.stop->why = stop_why_;
 }
 
 }  // namespace tandem::server

@@ -12,15 +12,20 @@ namespace tandem::server {
 
 namespace {
 
-/// Text of a stop: the seat that stopped, if it was a seat, and who may end it. The session registry reports stops by
-/// consoles, with name and reason.
+/// Text of a stop: its author, and who may end it. The session registry reports stops by consoles of this server, with
+/// name and reason.
 std::string stop_text(const char* what, const SessionStatus& status, const SceneSpec& scene) {
-  const std::uint8_t by = status.stop.latest().by;
+  const StopLatch::Latest& latest = status.stop.latest();
   const std::string who = may_end_text(status.stop, scene, connected_seats_mask(status));
-  const std::string head =
-      by == AuditEvent::kControlPlane
-          ? std::string()
-          : what + (by < scene.seats.size() ? " by " + scene.seats[by].name : std::string()) + ": ";
+  std::string head = what;
+  if (latest.by < scene.seats.size()) {
+    head += " by " + scene.seats[latest.by].name;
+  } else if (latest.by == AuditEvent::kControlPlane && latest.restored) {
+    head += " by " + std::string(latest.words.workstation.view());
+    if (!latest.words.why.empty()) head += ": " + std::string(latest.words.why.view());
+  }
+  head += ": ";
+  if (latest.by == AuditEvent::kControlPlane && !latest.restored) head.clear();
   return head + "all hands are released" + (who.empty() ? "" : "; it can be ended by: " + who);
 }
 

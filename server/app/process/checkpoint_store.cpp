@@ -198,7 +198,7 @@ void CheckpointStore::write(Entry& entry, const Checkpoint& checkpoint) {
     stored.set_stored(checkpoint.orders);
     return report(entry, {});
   }
-  entry.snapshot.checkpoint = checkpoint;
+  set_checkpoint(entry.snapshot, checkpoint);
   entry.snapshot.written_s = now;
   const std::string file = file_of(entry.snapshot.name);
   const std::string problem = folder_.replace(file, std::span<const std::byte>(encode_snapshot(entry.snapshot)));

@@ -31,11 +31,11 @@ DirectionReport direction(const transport::SecureChannel& receiver, Time now) {
 }  // namespace
 
 LiveSession::LiveSession(const SceneSpec& scene, LocalSlaves slaves, std::uint8_t slot, TickQueue& records,
-                         const Checkpoint* from)
+                         const Checkpoint* from, Time saved_at)
     : scene_(&scene),
       slot_(slot),
       session_(from == nullptr ? Session(scene, std::move(slaves.devices), slaves.scale)
-                               : Session(scene, std::move(slaves.devices), slaves.scale, *from)),
+                               : Session(scene, std::move(slaves.devices), slaves.scale, *from, saved_at)),
       records_(&records),
       seldom_interval_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / wire::kTelemetryHz))) {
   draw_path_tokens();

@@ -30,9 +30,10 @@ class LiveSession {
   /// @param scene    must outlive this
   /// @param records  receives a record per running tick; if it is full, records are dropped and counted
   /// @param from     checkpoint to restore; null: a new session
+  /// @param saved_at time of that checkpoint, by the clock of this server
   /// @pre incompatibility(*from, scene) is empty, and `slaves` have the joint positions of `from`
   LiveSession(const SceneSpec& scene, LocalSlaves slaves, std::uint8_t slot, TickQueue& records,
-              const Checkpoint* from = nullptr);
+              const Checkpoint* from = nullptr, Time saved_at = {});
   /// Sets the mailbox for checkpoints, before a shard serves the session.
   /// @param epoch  as the clients know it
   void persist_to(std::shared_ptr<CheckpointMailbox> mailbox, std::uint64_t epoch) {

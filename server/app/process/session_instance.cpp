@@ -58,6 +58,13 @@ std::string report_json(const RunReport& report, EndReason end, std::uint64_t ep
   return json.dump(2) + "\n";
 }
 
+/// Time at which a snapshot was written, by the monotonic clock; now for none.
+Time saved_at(const SessionSnapshot* kept) {
+  const std::int64_t age_s =
+      kept == nullptr ? 0 : std::clamp<std::int64_t>(auth::wall_seconds() - kept->written_s, 0, kResumeLifeS);
+  return io::monotonic_now() - std::chrono::seconds(age_s);
+}
+
 /// File name such as `contact-20261121T190000Z-0f3a9c11.json`: sorted by time, and unique.
 std::string report_name(const std::string& session, const auth::Id16& id) {
   const std::time_t now = auth::wall_seconds();
@@ -89,7 +96,8 @@ SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves,
              plan.scene.tools.size()),
       recorder_(plan.scene, queue_, trace_),
       live_session_(std::make_unique<LiveSession>(plan.scene, std::move(slaves), opening.slot, queue_,
-                                                  opening.kept != nullptr ? &opening.kept->checkpoint : nullptr)),
+                                                  opening.kept != nullptr ? &opening.kept->checkpoint : nullptr,
+                                                  saved_at(opening.kept))),
       desk_(std::make_shared<RecordingDesk>(plan.scene.seats.size(), plan.record.pseudonyms)) {
   live_session_->set_recorded(!plan.json.empty() || !plan.trace.empty() || !plan.reports.empty());
 }
@@ -106,8 +114,7 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
   run->epoch_ = kept != nullptr ? std::max(kept->checkpoint.epoch + 1, opening.epoch) : opening.epoch;
   if (kept != nullptr) {
     run->snapshot_ = *kept;
-    const std::int64_t age_s = std::clamp<std::int64_t>(auth::wall_seconds() - kept->written_s, 0, kResumeLifeS);
-    run->resume_until_ = now + kResumeLife - std::chrono::seconds(age_s);
+    run->resume_until_ = saved_at(kept) + kResumeLife;
   }
   // A restored session keeps its code, because participants have noted it.
   if (opening.with_code)
@@ -241,6 +248,8 @@ SessionInstance::Verdict SessionInstance::finish() {
   report.passed = live_session_->violations().passed();
   report.trace_hash = recorder_.trace_hash();
   report.cpu_s = cpu_seconds();
+  if (!options_->json.empty() || !options_->trace.empty() || !options_->reports.empty())
+    report.shed_rows = live_session_->skipped_records();
   for (std::size_t i = 0; i < report.seats.size(); ++i)
     report.seats[i].gate_trips = last.seats[i].gate_trips, report.seats[i].taken = last.seats[i].ever_taken;
 

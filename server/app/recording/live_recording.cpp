@@ -191,7 +191,9 @@ void LiveRecording::report() {
   for (const std::string& path : files_->take_removed())
     say(false, "recording_file", path + " was removed: the session never ran, and nothing was noted");
   for (std::string& problem : files_->take_problems()) say(true, "recording_trouble", std::move(problem));
-  const std::string& trouble = files_->trouble();
+  std::string trouble = files_->trouble();
+  if (trouble.empty() && session_->status().machine.load_state.level >= ShedLevel::kTelemetry)
+    trouble = "the server is too busy and records one row in ten (load shedding); give it fewer sessions or programs";
   if (trouble != trouble_) {
     if (trouble.empty()) {
       std::string text =

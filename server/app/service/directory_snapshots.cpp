@@ -84,7 +84,7 @@ void DirectorySnapshots::take_snapshot(Entry& entry, News& news, Time now) {
     news.order = checkpoint.orders != entry.snapshot.checkpoint.orders;
     if (bytes == entry.taken && !entry.changed && !leaves && !news.order) return;
     entry.taken = std::move(bytes);
-    entry.snapshot.checkpoint = checkpoint;
+    set_checkpoint(entry.snapshot, checkpoint);
   }
   entry.changed = false;
   entry.snapshot.written_s = auth::wall_seconds();

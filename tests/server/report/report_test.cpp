@@ -87,6 +87,12 @@ TEST(Report, GivesTheSpeedOfSparseSamplesAndSaysThatTheyAreSparse) {
   EXPECT_NEAR(r.sparse_s, 30, 0.05);
   const std::string words = report_summary(r, sparse.spec);
   EXPECT_NE(words.find("sampled every 17 ms for 30.0 of 30.0 s: "), std::string::npos) << words;
+  EXPECT_NE(words.find("`--json`, `--trace` or `reports` sample every tick"), std::string::npos) << words;
+  RunReport shed = r;
+  shed.shed_rows = 28000;
+  const std::string why = report_summary(shed, sparse.spec);
+  EXPECT_NE(why.find("the server was too busy and left rows out (load shedding)"), std::string::npos) << why;
+  EXPECT_EQ(why.find("--json"), std::string::npos) << "it was given";
   EXPECT_EQ(report_summary(all, whole.spec).find("sampled every"), std::string::npos);
 }
 

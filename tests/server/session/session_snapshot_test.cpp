@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/rng.h"
+#include "server/session/stop_entries.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem::server {
@@ -118,6 +119,44 @@ TEST(SessionSnapshot, KeepsTheRestOfTheSessionsTimeOfItsOwnEpochOnly) {
     ASSERT_TRUE(refused) << refused.error();
     EXPECT_EQ(refused->life_left_s, std::nullopt) << wrong;
   }
+}
+
+TEST(SessionSnapshot, KeepsAStopThroughReleasesThatDoNotKnowIt) {
+  SessionSnapshot kept = sample(test::shipped("contact"));
+  kept.checkpoint.restores = RestoreCounts{};
+  StopLatch::Latest& stop = kept.checkpoint.latest_stop;
+  stop.level = StopLatch::Level::kStopped;
+  stop.by = 1;
+  stop.words.why = FixedText<rpc::kTextMax>{std::string(rpc::kTextMax, 'y')};
+  const auto bytes = encode_snapshot(kept);
+  EXPECT_LE(bytes.size(), kSnapshotMax);
+  const auto back = decode_snapshot(bytes);
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(back->checkpoint.latest_stop.by, 1);
+  EXPECT_EQ(back->checkpoint.latest_stop.words.why.view(), stop.words.why.view());
+  EXPECT_EQ(back->removed_workstations, kept.removed_workstations);
+  EXPECT_EQ(back->checkpoint.restores, kept.checkpoint.restores);
+
+  // An older release has the entries as removed workstations, restores the session, and writes them again.
+  SessionSnapshot older = kept;
+  older.checkpoint.restores.reset();
+  for (const SnapshotEntry& entry : stop_entries(stop, kept.checkpoint.epoch))
+    older.removed_workstations.push_back(entry);
+  stop = {};
+  older.checkpoint.latest_stop = {};
+  ++older.checkpoint.epoch;
+  const auto restored = decode_snapshot(encode_snapshot(older));
+  ASSERT_TRUE(restored) << restored.error();
+  EXPECT_EQ(restored->checkpoint.latest_stop.level, StopLatch::Level::kNone) << "the older release may have another";
+  EXPECT_EQ(restored->removed_workstations, kept.removed_workstations);
+
+  older = kept;
+  older.removed_workstations.resize(kRemovedWorkstationsMax - 5);
+  older.checkpoint.latest_stop = back->checkpoint.latest_stop;
+  const auto full = decode_snapshot(encode_snapshot(older));
+  ASSERT_TRUE(full) << full.error();
+  EXPECT_EQ(full->checkpoint.latest_stop.level, StopLatch::Level::kNone) << "there is no room for all of it";
+  EXPECT_EQ(full->removed_workstations.size(), kRemovedWorkstationsMax - 5);
 }
 
 // A program that can write to the directory of a service can compute the digests too.

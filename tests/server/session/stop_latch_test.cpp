@@ -64,10 +64,10 @@ TEST(StopLatch, LetsATraineeEndNoOperatorsStopNorAPauseWithAnInstructor) {
 
 TEST(StopLatch, LetsEveryPausingRoleEndAPauseFromBeforeARestart) {
   StopLatch lane{false};
-  lane.restore(Level::kPaused, 4);
+  lane.restore(Level::kPaused, 4, {});
   EXPECT_EQ(lane.resume(AccessRole::kObserver, 2, 4, kAll), Result::kForbidden);
   EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 4, kAll), Result::kDone);
-  lane.restore(Level::kStopped, 5);
+  lane.restore(Level::kStopped, 5, {});
   EXPECT_EQ(lane.resume(AccessRole::kTrainee, 0, 5, kAll), Result::kForbidden);
 }
 
@@ -101,6 +101,19 @@ TEST(StopText, NamesTheRolesThatMayEndAStopAndTheCommand) {
   static_cast<void>(led.request(Time{}, AccessRole::kTrainee, 1));
   EXPECT_EQ(may_end_text(led, test::shipped("free_motion"), kAll),
             "an instructor (key r) or an operator (`tandem-client control resume`)");
+}
+
+/// As of a snapshot of a release that does not keep the author.
+TEST(StopText, ClaimsNothingOfAStopWithoutAnAuthor) {
+  const SceneSpec scene = test::shipped("eight_seats");
+  StopLatch latch{false};
+  latch.restore(Level::kPaused, 3, {});
+  const auto stop = latest_stop(latch, scene, 0, kAll);
+  ASSERT_TRUE(stop);
+  EXPECT_EQ(stop->kind, tandem::rpc::StopKind::kPause);
+  EXPECT_EQ(stop->seat + stop->workstation + stop->person, "");
+  EXPECT_EQ(stop->why, "it is older than this run of the session, and its author was not stored");
+  EXPECT_EQ(stop->ends, "any seat that may pause (key r) or an operator (`tandem-client control resume`)");
 }
 
 TEST(AuditText, NamesTheToolAndEverySeatOfAnAuthorityChange) {

@@ -90,6 +90,9 @@ TEST(AuthCommands, KnowTheRunningServersAddressSessionsAndSeats) {
   const Ran given = server({"enroll", "a", "--state", state});
   ASSERT_EQ(given.code, 0) << given.err;
   EXPECT_EQ(auth::EnrolmentString::from_text(line(given.out))->address, "lab:7000");
+  const Ran none = server({"revoke", "w", "--state", state});
+  EXPECT_NE(none.err.find("`tandem-server enroll --state " + state + " w --address HOST:PORT`"), std::string::npos)
+      << none.err;
   (void)door.enrolled("w", auth::wall_seconds());
   for (const std::string session : {"contact", "ABCDE12345", "abcde-12345"}) {
     const Ran made =

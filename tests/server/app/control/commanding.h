@@ -29,10 +29,8 @@ struct Commanding : RegistryFixture {
   }
   /// Texts of the notices for all participants.
   [[nodiscard]] std::vector<std::string> notices() const {
-    rpc::Status status;
-    lesson.notices.complete(status);
     std::vector<std::string> texts;
-    for (const rpc::StatusEvent& event : status.events) texts.push_back(event.text);
+    for (const rpc::StatusEvent& event : lesson.notices.events()) texts.push_back(event.text);
     return texts;
   }
 

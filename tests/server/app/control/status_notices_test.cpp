@@ -12,20 +12,11 @@ namespace {
 
 SceneSpec lesson() { return *parse_scene(find_shipped_scene("free_motion")->text, "free_motion.textproto"); }
 
-rpc::Status completed(const StatusNotices& notices, std::uint32_t stop = 0, const std::string& seat = {},
-                      rpc::StopKind kind = rpc::StopKind::kStop) {
-  rpc::Status status;
-  if (stop > 0)
-    status.stop = rpc::StatusStop{.number = stop, .kind = kind, .seat = seat, .workstation = {}, .why = {}, .ends = {}};
-  notices.complete(status);
-  return status;
-}
-
 TEST(StatusNotices, KeepTheNewestEventsNumberedAndCut) {
   StatusNotices notices;
   for (std::size_t i = 1; i <= rpc::kStatusEventsMax + 1; ++i) notices.add(std::to_string(i));
   notices.add(std::string(rpc::kTextMax + 1, 'x'));
-  const auto events = completed(notices).events;
+  const auto& events = notices.events();
   ASSERT_EQ(events.size(), rpc::kStatusEventsMax);
   EXPECT_EQ(events.front().text, "3");
   EXPECT_EQ(events.front().number, 3U);
@@ -33,27 +24,12 @@ TEST(StatusNotices, KeepTheNewestEventsNumberedAndCut) {
   EXPECT_EQ(events.back().number, rpc::kStatusEventsMax + 2);
 }
 
-TEST(StatusNotices, NameTheConsoleAndTheReasonOfTheNewestStopOnly) {
-  StatusNotices notices;
-  notices.set_stop(2, "office", "ann", "fire drill");
-  EXPECT_EQ(completed(notices, 2).stop->workstation, "office");
-  EXPECT_EQ(completed(notices, 2).stop->why, "fire drill");
-  EXPECT_EQ(completed(notices, 2).stop->person, "ann");
-  EXPECT_EQ(completed(notices, 3).stop->person, "");
-  EXPECT_EQ(completed(notices, 2, "", rpc::StopKind::kFault).stop->person, "");
-  EXPECT_EQ(completed(notices, 3).stop->why, "") << "a newer stop, by a seat's key";
-  EXPECT_EQ(completed(notices, 3).stop->workstation, "");
-  EXPECT_EQ(completed(notices, 2, "trainee").stop->workstation, "") << "a seat has no workstation beside its name";
-  EXPECT_EQ(completed(notices, 2, "trainee").stop->why, "fire drill");
-  EXPECT_EQ(completed(notices, 2, "", rpc::StopKind::kFault).stop->workstation, "") << "the session itself";
-}
-
 TEST(StatusNotices, ReportEachResumeOnceWithItsOrigin) {
   const SceneSpec scene = lesson();
   StatusNotices notices;
   StopLatch latch;
   notices.update(latch, scene);
-  EXPECT_TRUE(completed(notices).events.empty());
+  EXPECT_TRUE(notices.events().empty());
   const auto stop_and_resume = [&](std::uint8_t by, std::uint32_t number) {
     static_cast<void>(latch.request(Time{}, AccessRole::kInstructor, by));
     ASSERT_EQ(latch.resume(AccessRole::kInstructor, by, number, ~0U), CommandResult::kDone);
@@ -66,7 +42,7 @@ TEST(StatusNotices, ReportEachResumeOnceWithItsOrigin) {
   stop_and_resume(AuditEvent::kControlPlane, 3);
   notices.set_resume(3, "office (operator)");
   notices.update(latch, scene);
-  const auto events = completed(notices).events;
+  const auto& events = notices.events();
   ASSERT_EQ(events.size(), 3U);
   EXPECT_EQ(events[0].text,
             "stop 1 is over: RESUMED by ann at " + scene.seats[0].name + " (instructor); force returns over 0.5 s");

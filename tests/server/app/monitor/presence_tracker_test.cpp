@@ -43,6 +43,19 @@ std::string texts(const PresenceTracker::Events& news) {
   return all;
 }
 
+/// No control connection of this server reports its author.
+TEST(PresenceTracker, NamesTheConsoleOfAStopThatAnEarlierServerTook) {
+  Running lesson;
+  StopLatch::Latest stop{StopLatch::Level::kStopped, AuditEvent::kControlPlane, AccessRole::kOperator};
+  stop.words.workstation = FixedText<rpc::kNameMax>{"office"};
+  stop.words.why = FixedText<rpc::kTextMax>{"fire drill"};
+  stop.restored = true;
+  lesson.status.stop.restore(StopLatch::Level::kStopped, 2, stop);
+  lesson.status.state = wire::SessionState::kStopped;
+  const std::string text = texts(lesson.attendance.update(lesson.now, lesson.status, lesson.scene));
+  EXPECT_EQ(text.find("STOPPED by office: fire drill: all hands are released; it can be ended by: "), 0U) << text;
+}
+
 /// The last ten seconds of a session without an end are announced when they begin: once, and again after a participant
 /// came back.
 TEST(PresenceTracker, AnnouncesTheEndOfASessionThatAllParticipantsLeft) {
