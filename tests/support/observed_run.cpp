@@ -1,6 +1,6 @@
-// observed_run FILE COMMAND [ARGUMENT]...: runs a command, and meanwhile wakes up a thousand times per second. Writes to
-// FILE whether the computer let it: "kept", or "paused" with figures. ./test runs tests of real time with it, so that a
-// pause of the computer is not taken for a fault of Tandem, nor a fault for a pause.
+// observed_run FILE COMMAND [ARGUMENT]...: runs a command, and meanwhile wakes up a thousand times per second. Writes
+// to FILE whether the computer let it: "kept", or "paused" with figures. ./test runs tests of real time with it, so
+// that a pause of the computer is not taken for a fault of Tandem, nor a fault for a pause.
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -32,7 +32,9 @@ struct Wakeups {
     if (late_by > kLate) ++late;
     longest = std::max(longest, late_by);
   }
-  [[nodiscard]] double late_share() const { return static_cast<double>(late) / static_cast<double>(std::max(count, 1L)); }
+  [[nodiscard]] double late_share() const {
+    return static_cast<double>(late) / static_cast<double>(std::max(count, 1L));
+  }
   [[nodiscard]] bool paused() const { return longest >= kPause || late_share() > kLateShare; }
 
   long count = 0, late = 0;

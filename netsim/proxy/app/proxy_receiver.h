@@ -34,7 +34,8 @@ class ProxyReceiver {
   const ProxyClock& clock_;
   ProxyErrors& errors_;
   io::ReceiveBatch in_;
-  Duration read_at_{};  ///< time after the newest batch was read: datagrams may arrive while the thread pauses before it
+  Duration
+      read_at_{};  ///< time after the newest batch was read: datagrams may arrive while the thread pauses before it
   ArrivalBuffer arrivals_;
 };
 
