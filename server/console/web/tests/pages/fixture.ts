@@ -2,9 +2,6 @@ import { test as base, type Page } from '@playwright/test';
 
 import { startMock, type MockGateway } from '../mock/gateway.mjs';
 
-/** Whether repetitions run too: sizes and colours that differ little. `./test --full` sets TANDEM_COUNTS. */
-export const kFull = ['full', 'nightly'].includes(process.env.TANDEM_COUNTS ?? 'reduced');
-
 export type Options = Parameters<typeof startMock>[0];
 
 interface Fixtures {

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 
-import { expect, kFull, test, view } from './fixture';
+import { expect, test, view } from './fixture';
 import { fastLessonScript, type FastLesson } from './fast_lesson';
 
 const kHours = 12;
@@ -8,8 +8,8 @@ const kRate = 60;
 const kWhole = process.env.TANDEM_WEB_WHOLE === 'yes';
 /** Minutes of each virtual hour of which states are handed to the page: all with `check --whole`. */
 const kMinutes = kWhole ? 60 : 1;
-/** States of each such minute: at 60 Hz all, otherwise those of its first 20 s, or 5 s in a reduced run. */
-const kStates = kRate * (kWhole ? 60 : kFull ? 20 : 5);
+/** States of each such minute: at 60 Hz all, otherwise those of its first 20 s. */
+const kStates = kRate * (kWhole ? 60 : 20);
 
 declare global {
   interface Window {
