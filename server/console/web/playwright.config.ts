@@ -23,9 +23,9 @@ export default defineConfig({
   workers: 2,
   projects: [
     { name: 'together', testIgnore: [alone, ...long] },
-    { name: 'alone', testMatch: alone, testIgnore: long, workers: 1, dependencies: ['together'] },
+    { name: 'alone', testMatch: alone, testIgnore: long, workers: 1, retries: 0, dependencies: ['together'] },
   ],
-  // A pause of the computer is not a fault of the page. `check` names the tests that needed this.
+  // A pause of the computer is not a fault of the page. `check` prints how many tests needed this.
   retries: 1,
   timeout: 60_000,
   expect: { timeout: 10_000 },
