@@ -161,6 +161,17 @@ std::string with_nearest(CLI::App& app, std::string message) {
   return nearest == nullptr ? message : message + "; did you mean " + *nearest + "?";
 }
 
+/// Returns the words that call the command which the newest words named, as `tandem-server move`.
+std::string command_called(const CLI::App& app) {
+  std::string called = app.get_name();
+  std::vector<CLI::App*> named = app.get_subcommands();
+  while (!named.empty()) {
+    called += " " + named.front()->get_name();
+    named = named.front()->get_subcommands();
+  }
+  return called;
+}
+
 /// Collects all usage errors; CLI11 stops at the first one. The words that an error names are removed and the rest is
 /// parsed again, as long as words can be removed.
 std::vector<std::string> all_mistakes(CLI::App& app, const CLI::ParseError& first, std::vector<std::string> words) {
@@ -293,13 +304,13 @@ int Program::run(const std::vector<std::string>& words) {
     // Help and version are no errors; every usage error is 2, regardless of CLI11's code.
     if (error.get_exit_code() == 0) return finish(app, app.exit(error));
     // Found before the words are parsed again, because that changes the named command.
-    const std::string meant = with_nearest(app, error.what());
+    const std::string meant = with_nearest(app, error.what()), called = command_called(app);
     std::vector<std::string> all = all_mistakes(app, error, words);
     all.front() = meant;
     for (const std::string& mistake : all)
-      print(stderr, (&mistake == &all.front() ? mistake : with_nearest(app, mistake)) + "\n");
+      print(stderr, called + ": " + (&mistake == &all.front() ? mistake : with_nearest(app, mistake)) + "\n");
     if (all.size() > 1) std::fprintf(stderr, "%zu mistakes; nothing was started\n", all.size());
-    std::fputs("Run with --help for more information.\n", stderr);
+    print(stderr, called + " --help lists what it takes\n");
     return 2;
   }
   try {

@@ -155,7 +155,10 @@ int score_command(const ScoreArguments& a) {
   if (files[0].is_open()) files[0].write(scores_json(result));
   if (files[1].is_open()) files[1].write(scores_csv(result));
   if (files[2].is_open()) files[2].write(score::score_page(last, result, TANDEM_VERSION));
-  return exit_status(kName, {files[0].close(), files[1].close(), files[2].close()}, true);
+  const int status = exit_status(kName, {files[0].close(), files[1].close(), files[2].close()}, true);
+  if (status == 0 && !a.html.empty() && !a.quiet && !on_stdout)
+    io::print(stdout, "report for the learner: " + a.html + "\n");
+  return status;
 }
 
 }  // namespace

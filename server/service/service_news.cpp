@@ -76,7 +76,9 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
              format(", and serves its sessions again when the leases of before are over, in %g s, from their last "
                     "state. Sessions that an operator created at a server which does not run are gone, and a ticket "
                     "that was used may be accepted once more. If etcd has its data elsewhere, check its --data-dir; "
-                    "if there is a backup, end all servers and restore it",
+                    "if there is a backup, end all servers and restore it; if you have just restored one, nothing is "
+                    "to be "
+                    "done",
                     seconds(times_.ttl))});
   if (!status.recovers && std::exchange(recovers_, status.recovers))
     lines.push_back({false, "service_recovered",

@@ -43,6 +43,7 @@ TEST(ScoreCommand, WritesTablesJsonCsvAndAReport) {
   ASSERT_EQ(code_of(process), 0) << process.err();
   EXPECT_NE(process.out().find("Path length [mm]"), std::string::npos);
   EXPECT_NE(process.out().find("held:trainer"), std::string::npos);
+  EXPECT_TRUE(process.out().ends_with("report for the learner: " + folder.file("a.html") + "\n"));
   const auto json = nlohmann::json::parse(folder.read("a.json"));
   ASSERT_EQ(json["lessons"].size(), 1u);
   EXPECT_EQ(json["lessons"][0]["seats"].size(), 2u);

@@ -42,7 +42,7 @@ std::expected<JoinedLink, client::JoinError> join_link(client::JoinOptions optio
     if (feed) {
       joined.console = feed->console();
       joined.feed.emplace(std::move(*feed));
-    } else if (feed.error().interrupted) {
+    } else if (feed.error().interrupted || feed.error().absent) {
       return std::unexpected(feed.error());
     } else {
       joined.warning = feed.error().reason + std::string(kStatusOnly);

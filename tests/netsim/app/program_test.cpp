@@ -128,9 +128,9 @@ TEST(Program, ReportsWrongArgumentsWithValueAndRange) {
     std::string says;
   };
   const std::vector<Case> cases{
-      {{}, "subcommand"},
+      {{}, "tandem-netsim: A subcommand is required"},
       {{"prox"}, "did you mean proxy?"},
-      {{"proxy"}, "--to is required"},
+      {{"proxy"}, "tandem-netsim proxy: --to is required"},
       {{"proxy", "--to", "127.0.0.1"}, "needs HOST:PORT"},
       {{"proxy", "--to", "127.0.0.1:0"}, "[1, 65535]"},
       {{"proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:9"}, "the proxy itself"},
