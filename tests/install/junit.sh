@@ -34,3 +34,20 @@ read_junit() {  # file
     /<\/testcase>/ && skipped { print "skipped " name (why == "" ? "" : ": " why) }
   ' "$1"
 }
+
+# Reads the log that ctest writes while it runs, which is all that an interrupted ctest leaves. Prints "passed", "failed"
+# or "skipped" for each test that has ended. The log calls skipped tests, and those without a program, passed.
+read_log() {  # file
+  awk '
+    $0 == "Command: \"\"" { missing = 1 }
+    # A script that exits with SKIP_RETURN_CODE says why in its last line.
+    $0 == "<end of output>" && last ~ /^\[ NOT RUN +\] / { skipped = 1 }
+    /^Test (Passed\.|Failed\.|Pass Reason:|Fail Reason:)$/ && last ~ /^-+$/ && before ~ /^Test time = / {
+      failed = missing || /Fail/
+      if (/Reason/) { getline; if (/^Skip regular expression/) skipped = 1 }
+      print (failed ? "failed" : skipped ? "skipped" : "passed")
+      missing = skipped = 0
+    }
+    { before = last; last = $0 }
+  ' "$1"
+}
