@@ -22,14 +22,16 @@ std::string named(const DrainTarget& target) {
 }
 
 std::string drain_text(const DrainTarget& target, std::uint32_t grace_s) {
-  const std::string released =
-      grace_s == 0 ? std::string("all hands are released") : format("all hands are released in %u s", grace_s);
-  return named(target) + " is draining: new joins are rejected; " +
-         (!target.others.empty()
-              ? "its sessions move to other servers of the service, and it ends when it has none; of "
-                "those that find no room "
-              : "") +
-         released + ", then it ends";
+  const bool moves = !target.others.empty();
+  std::string text = named(target) + " is draining: new joins are rejected; ";
+  if (moves && grace_s > 0)
+    text +=
+        "its sessions move to other servers of the service, and it ends when it has none; of those that find no "
+        "room ";
+  text += grace_s == 0 ? "all hands are released" : format("all hands are released in %u s", grace_s);
+  text += ", then it ends";
+  if (moves && grace_s == 0) text += "; other servers of the service take its sessions over";
+  return text;
 }
 
 std::string drain_problem(const JoinOptions& asked, const DrainTarget& target, const std::string& session) {

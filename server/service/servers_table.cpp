@@ -101,6 +101,8 @@ std::string servers_table(const directory::DirectoryView& view, const ServiceCat
                     std::to_string(owned), std::to_string(stands_by), lease,
                     is_hex(record->voucher) ? voucher_end(record->voucher) : "?"});
   }
+  const bool alone = view.servers().size() == 1;
+  bool without = false;
   std::string text = rows.size() > 1 ? lines_of(rows) : "no server is registered in this service\n";
   for (const auto& [name, entry] : catalogue.entries()) {
     const auto* const seen = view.session(name);
@@ -108,9 +110,12 @@ std::string servers_table(const directory::DirectoryView& view, const ServiceCat
       text += "session " + name +
               (view.servers().empty() ? " has no server; it begins again when one starts\n"
                                       : " has no server; one takes it over when a client asks for it\n");
-    else if (entry.spec && !seen->standby && view.servers().size() > 1)
+    else if (entry.spec && !seen->standby && alone)
+      without = true;
+    else if (entry.spec && !seen->standby)
       text += "session " + name + " has no standby now: its server names one within some seconds\n";
   }
+  if (without) text += "no session has a standby, because no other server is registered\n";
   return text;
 }
 

@@ -13,7 +13,8 @@ std::string directory_remedy(const std::string& endpoints, const std::string& tl
          " endpoint health`), and directory { endpoint } in the configuration. " +
          (!tls_options.empty() ? "With TLS, etcd must accept directory { certificate } by its --trusted-ca-file, and "
                                  "directory { authority } must have signed the certificate of etcd for this address: "
-                                 "`openssl verify -CAfile AUTHORITY CERTIFICATE` checks each"
+                                 "`openssl verify -CAfile AUTHORITY CERTIFICATE` checks each. The address must be a "
+                                 "subjectAltName of that certificate, or directory { name_in_certificate } name one"
                                : "An etcd that demands TLS needs directory { authority, certificate, private_key }");
 }
 

@@ -38,7 +38,8 @@ std::string move_problem(const ServiceQuery& service, const MoveArguments& argum
                          bool anywhere) {
   if (session.empty())
     return "the service has no session \"" + arguments.session +
-           "\", neither by name, code nor id; its sessions: " + names_of(service.catalogue().entries());
+           "\", neither by name, code nor id; its sessions: " + names_of(service.catalogue().entries()) +
+           (service.catalogue().entries().empty() ? ", in " + service.place() : "");
   if (!anywhere && service.view().server(arguments.to) == nullptr)
     return "no server \"" + arguments.to +
            "\" is registered in the service; its servers: " + names_of(service.view().servers());

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "common/io/command_line.h"
+#include "common/io/print.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/commands/service_query.h"
 #include "server/app/commands/state_option.h"
@@ -21,6 +22,7 @@ int servers_command(const ServersArguments& arguments) {
   }
   const LeaseRests rests = (*query)->lease_rests();
   std::fputs(servers_table((*query)->view(), (*query)->catalogue(), rests).c_str(), stdout);
+  if ((*query)->view().servers().empty()) io::print(stdout, "this was read from " + (*query)->place() + "\n");
   return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
 }
 

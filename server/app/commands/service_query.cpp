@@ -21,6 +21,14 @@ constexpr auto kQueryPause = std::chrono::milliseconds(5);
 
 }  // namespace
 
+ServiceQuery::ServiceQuery(const ServiceOptions& options, const std::string& config)
+    : place_("etcd at " + joined_endpoints(options.etcd) + ", prefix \"" + options.prefix + "\" (" + config +
+             "); if servers run, compare directory { endpoint, prefix } with theirs"),
+      directory_(options.etcd),
+      keys_(options.prefix),
+      view_(directory::DirectoryKeys(options.prefix)),
+      catalogue_(keys_) {}
+
 std::expected<std::unique_ptr<ServiceQuery>, ServiceQuery::Failure> ServiceQuery::open(const std::string& config) {
   const auto text = read_text_file(config);
   if (!text) return std::unexpected(Failure{io::kExitUsage, to_text(text.error())});
@@ -37,7 +45,7 @@ std::expected<std::unique_ptr<ServiceQuery>, ServiceQuery::Failure> ServiceQuery
            "is missing: a server of this configuration is alone; `tandem-server sessions` shows its sessions"});
   }
   if (!errors.empty() || !options) return std::unexpected(Failure{io::kExitUsage, to_text(errors)});
-  std::unique_ptr<ServiceQuery> query(new ServiceQuery(*options));
+  std::unique_ptr<ServiceQuery> query(new ServiceQuery(*options, config));
   if (query->wait(kReadingMax, [&] { return query->view_.readings() > 0 && query->catalogue_.readings() > 0; }))
     return query;
   return std::unexpected(

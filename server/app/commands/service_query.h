@@ -26,6 +26,8 @@ class ServiceQuery {
   [[nodiscard]] const directory::DirectoryView& view() const noexcept { return view_; }
   [[nodiscard]] const ServiceCatalogue& catalogue() const noexcept { return catalogue_; }
   [[nodiscard]] const ServiceKeys& keys() const noexcept { return keys_; }
+  /// Where the directory was read, for a person who finds less in it than expected.
+  [[nodiscard]] const std::string& place() const noexcept { return place_; }
   /// Asks for the rest of the leases of all servers, for at most 2 s. Those without an answer are missing.
   [[nodiscard]] LeaseRests lease_rests();
   /// Begins a transaction.
@@ -41,15 +43,12 @@ class ServiceQuery {
   }
 
  private:
-  explicit ServiceQuery(const ServiceOptions& options)
-      : directory_(options.etcd),
-        keys_(options.prefix),
-        view_(directory::DirectoryKeys(options.prefix)),
-        catalogue_(keys_) {}
+  ServiceQuery(const ServiceOptions& options, const std::string& config);
   static Time now() noexcept;
   static void pause();
   void step();
 
+  std::string place_;
   directory::EtcdDirectory directory_;
   ServiceKeys keys_;
   directory::DirectoryView view_;

@@ -71,13 +71,17 @@ int stop_command(const StopArguments& arguments) {
   if (const std::string problem = state->serving().request_shutdown(grace_s); !problem.empty())
     return print_error("stop", problem);
   record_command("stop", *state, auth::wall_seconds(), "stop_requested", "", format("in %u s", grace_s));
-  io::print_formatted(stdout,
-                      "server at %s: new joins are rejected; %sall hands are released in %u s, then the server ends\n",
-                      (*serving)->address.c_str(),
-                      state->membership() == nullptr ? ""
-                                                     : "its sessions move to other servers of the service, and it ends "
-                                                       "when it has none; of those that find no room ",
-                      grace_s);
+  const bool member = state->membership() != nullptr;
+  io::print_formatted(
+      stdout, "server at %s: new joins are rejected; %sall hands are released in %u s, then the server ends%s\n",
+      (*serving)->address.c_str(),
+      member && grace_s > 0 ? "its sessions move to other servers of the service, and it ends when it "
+                              "has none; of those that find no room "
+                            : "",
+      grace_s,
+      member && grace_s == 0 ? "; other servers of the service take its sessions over (with --grace 60 "
+                               "they move first)"
+                             : "");
   std::fflush(stdout);
   return arguments.no_wait ? 0 : wait_for_drain(*state, grace_s);
 }

@@ -23,6 +23,9 @@ TEST(DrainTarget, ConfirmationNamesTheServerAndWhereItsSessionsGo) {
             "server a at 127.0.0.1:7001 is draining: new joins are rejected; its sessions move to other servers of the "
             "service, and it ends when it has none; of those that find no room all hands are released in 20 s, then it "
             "ends");
+  EXPECT_EQ(drain_text(kOwner, 0),
+            "server a at 127.0.0.1:7001 is draining: new joins are rejected; all hands are released, then it ends; "
+            "other servers of the service take its sessions over");
   EXPECT_EQ(drain_text(kLast, 0),
             "server a at 127.0.0.1:7001 is draining: new joins are rejected; all hands are released, then it ends");
 }
