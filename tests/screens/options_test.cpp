@@ -62,7 +62,7 @@ TEST(NumberOption, WorksAsAnOptionOfAProgram) {
   EXPECT_EQ(delay, 20);
   testing::internal::CaptureStderr();
   EXPECT_EQ(program.run({"--delay", "20s"}), 2);
-  EXPECT_TRUE(testing::internal::GetCapturedStderr().starts_with("--delay: \"20s\" has the unit s"));
+  EXPECT_TRUE(testing::internal::GetCapturedStderr().starts_with("test: --delay: \"20s\" has the unit s"));
 }
 
 TEST(NumberOption, AcceptsWholeNumbersOnlyInTheirRange) {
