@@ -79,7 +79,7 @@ int stop_command(const StopArguments& arguments) {
                               "has none; of those that find no room "
                             : "",
       grace_s,
-      member && grace_s == 0 ? "; other servers of the service take its sessions over (with --grace 60 "
+      member && grace_s == 0 ? "; if other servers of the service run, they take its sessions over (with --grace 60 "
                                "they move first)"
                              : "");
   std::fflush(stdout);
