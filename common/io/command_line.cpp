@@ -161,7 +161,7 @@ std::string with_nearest(CLI::App& app, std::string message) {
   return nearest == nullptr ? message : message + "; did you mean " + *nearest + "?";
 }
 
-/// Returns the words that call the command which the newest words named, as `tandem-server move`.
+/// Returns the program and the command that the user named, as in `tandem-server move`.
 std::string command_called(const CLI::App& app) {
   std::string called = app.get_name();
   std::vector<CLI::App*> named = app.get_subcommands();

@@ -9,6 +9,7 @@
 #include "common/base/format.h"
 #include "common/base/suggestions.h"
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/usage_errors.h"
@@ -156,7 +157,7 @@ int score_command(const ScoreArguments& a) {
   if (files[1].is_open()) files[1].write(scores_csv(result));
   if (files[2].is_open()) files[2].write(score::score_page(last, result, TANDEM_VERSION));
   const int status = exit_status(kName, {files[0].close(), files[1].close(), files[2].close()}, true);
-  if (status == 0 && !a.html.empty() && !a.quiet && !on_stdout)
+  if (status == io::kExitDone && !a.html.empty() && !a.quiet && !on_stdout)
     io::print(stdout, "report for the learner: " + a.html + "\n");
   return status;
 }

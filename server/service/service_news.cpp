@@ -13,8 +13,8 @@ std::string directory_remedy(const std::string& endpoints, const std::string& tl
          " endpoint health`), and directory { endpoint } in the configuration. " +
          (!tls_options.empty() ? "With TLS, etcd must accept directory { certificate } by its --trusted-ca-file, and "
                                  "directory { authority } must have signed the certificate of etcd for this address: "
-                                 "`openssl verify -CAfile AUTHORITY CERTIFICATE` checks each. The address must be a "
-                                 "subjectAltName of that certificate, or directory { name_in_certificate } name one"
+                                 "`openssl verify -CAfile AUTHORITY CERTIFICATE` checks each. etcd's certificate "
+                                 "needs the address as subjectAltName, or directory { name_in_certificate }"
                                : "An etcd that demands TLS needs directory { authority, certificate, private_key }");
 }
 
@@ -77,9 +77,7 @@ std::vector<ServiceNews::Line> ServiceNews::update(Time now, const ServiceStatus
              format(", and serves its sessions again when the leases of before are over, in %g s, from their last "
                     "state. Sessions that an operator created at a server which does not run are gone, and a ticket "
                     "that was used may be accepted once more. If etcd has its data elsewhere, check its --data-dir; "
-                    "if there is a backup, end all servers and restore it; if you have just restored one, nothing is "
-                    "to be "
-                    "done",
+                    "if there is a backup, end all servers and restore it; if you have just restored one, do nothing",
                     seconds(times_.ttl))});
   if (!status.recovers && std::exchange(recovers_, status.recovers))
     lines.push_back({false, "service_recovered",
